@@ -216,10 +216,12 @@ pub mod structure;
 pub mod sweep;
 
 pub use coupled::simulation::Simulation;
+#[allow(deprecated, reason = "the path stays for one release")]
+#[doc(inline)]
+pub use error::set_memory_limit;
 #[doc(inline)]
 pub use error::{
-    Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit,
-    set_memory_limit, unobserved,
+    Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit, unobserved,
 };
 #[doc(inline)]
 pub use linalg::Complex;

@@ -10,13 +10,13 @@ use basemat::structure::{RigidBlock, RigidBody};
 
 use basemat_problems::profiles::{gmb, p1, p3};
 use basemat_problems::sampled_block::{
-    History, PulsedBlock, SAMPLE, distance, sample, under_pulse,
+    PulsedBlock, SAMPLING_INTERVAL, SampledHistory, distance, sample, under_pulse,
 };
-use basemat_problems::series::{print_errors, whole};
+use basemat_problems::series::{nearest_integer, print_errors};
 
-const NAMES: [&str; 3] = ["u_base", "theta", "V"];
+const QUANTITY_NAMES: [&str; 3] = ["u_base", "theta", "V"];
 
-fn history(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> History {
+fn history(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> SampledHistory {
     let (history, run) = scene.history(mesh, time_step).unwrap();
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     println!(
@@ -28,28 +28,27 @@ fn history(scene: PulsedBlock, mesh: (Grading, usize), time_step: f64) -> Histor
 }
 
 /// Distances of each run from the next.
-fn successive(runs: &[History]) -> Vec<[f64; 3]> {
+fn successive_distances(runs: &[SampledHistory]) -> Vec<[f64; 3]> {
     runs.windows(2).map(|pair| distance(&pair[0], &pair[1])).collect()
 }
 
-/// Prints errors, each at half the step or element of the one before, and gives the mean order of
-/// the last `halvings`.
+/// Mean order of the last `halvings` of printed errors, each at half the step or element of the one before.
 fn orders(scene: &str, errors: &[[f64; 3]], halvings: u8) -> [f64; 3] {
     for error in errors {
-        print_errors(scene, &NAMES, error);
+        print_errors(scene, &QUANTITY_NAMES, error);
     }
     let last = errors.len() - 1;
     let first = last - usize::from(halvings);
     let orders =
         std::array::from_fn(|k| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings));
-    print_errors(&format!("{scene}: order"), &NAMES, &orders);
+    print_errors(&format!("{scene}: order"), &QUANTITY_NAMES, &orders);
     orders
 }
 
 #[track_caller]
-fn check(scene: &str, orders: [f64; 3], wanted: std::ops::Range<f64>) {
-    for (name, order) in NAMES.iter().zip(orders) {
-        assert!(wanted.contains(&order), "{scene}: order {order:.2} of {name}");
+fn assert_orders(scene: &str, orders: [f64; 3], expected: std::ops::Range<f64>) {
+    for (name, order) in QUANTITY_NAMES.iter().zip(orders) {
+        assert!(expected.contains(&order), "{scene}: order {order:.2} of {name}");
     }
 }
 
@@ -57,54 +56,59 @@ fn check(scene: &str, orders: [f64; 3], wanted: std::ops::Range<f64>) {
 /// SCENE: bonded block, Ricker pulse, steps 0.2, 0.1, 0.05, 0.025.
 /// REFERENCE: each run against the next finer one.
 #[test]
-fn time_step_bonded() {
+fn a_bonded_block_converges_with_the_square_of_the_time_step() {
     let runs = [0.2, 0.1, 0.05, 0.025]
-        .map(|step| history(PulsedBlock::BONDED, (Grading::Cosine, 8), step));
-    check("time step", orders("time step", &successive(&runs), 1), 1.8..2.2);
+        .map(|step| history(PulsedBlock::BONDED_BLOCK, (Grading::Cosine, 8), step));
+    let errors = successive_distances(&runs);
+    assert_orders("time step", orders("time step", &errors, 1), 1.8..2.2);
 }
 
-/// GOAL: second order in the time step where the outline cuts cells, whose springs have no history of their own.
+/// GOAL: second order in the time step where the outline cuts cells, whose springs have no history.
 /// SCENE: bonded cylinder on six cells across, Ricker pulse, steps 0.2, 0.1, 0.05, 0.025.
 /// REFERENCE: each run against the next finer one.
 #[test]
-fn time_step_on_a_disc() {
-    let runs = [0.2, 0.1, 0.05, 0.025].map(|step| {
-        let cylinder = RigidBody::cylinder(1.0, 2.0, 1.0).unwrap();
-        let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
-        let ground = ElasticGround::under(soil, &cylinder, 6).unwrap();
-        let mut simulation = under_pulse(cylinder, ground, step);
-        let (steps, every) = (whole(20.0 / step), whole(SAMPLE / step));
-        let (mut history, mut shear) = ([const { Vec::new() }; 3], 0.0);
-        let run = simulation.run(steps, |state| {
-            shear += state.base_shear / every as f64;
-            if state.step % every == 0 {
-                let displacement = state.absolute_displacement();
-                let values = [displacement[0], displacement[4], std::mem::take(&mut shear)];
-                history.iter_mut().zip(values).for_each(|(own, value)| own.push(value));
-            }
-        });
-        assert!(run.unwrap().energy_error < 1e-9);
-        history
+fn a_bonded_cylinder_converges_with_the_square_of_the_time_step() {
+    let runs = [0.2, 0.1, 0.05, 0.025].map(cylinder_history);
+    assert_orders("disc", orders("disc", &successive_distances(&runs), 1), 1.8..2.2);
+}
+
+/// Base displacement, rotation and mean base shear of the cylinder.
+fn cylinder_history(time_step: f64) -> SampledHistory {
+    let cylinder = RigidBody::cylinder(1.0, 2.0, 1.0).unwrap();
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let ground = ElasticGround::under(soil, &cylinder, 6).unwrap();
+    let mut simulation = under_pulse(cylinder, ground, time_step);
+    let interval = nearest_integer(SAMPLING_INTERVAL / time_step);
+    let mut history = [const { Vec::new() }; 3];
+    let mut mean_shear = 0.0;
+    let run = simulation.run(nearest_integer(20.0 / time_step), |state| {
+        mean_shear += state.base_shear / interval as f64;
+        if state.step % interval == 0 {
+            let displacement = state.absolute_displacement();
+            let values = [displacement[0], displacement[4], std::mem::take(&mut mean_shear)];
+            history.iter_mut().zip(values).for_each(|(series, value)| series.push(value));
+        }
     });
-    check("disc", orders("disc", &successive(&runs), 1), 1.8..2.2);
+    assert!(run.unwrap().energy_error < 1e-9);
+    history
 }
 
 /// GOAL: the order that contact leaves, at least one. It is not smooth: events fall on steps.
 /// SCENE: blocks under their weight that rock, slide, or do both; steps 0.1 to 0.0125.
 /// REFERENCE: a step four times finer than the finest.
 #[test]
-fn time_step_contact() {
-    let quick = PulsedBlock::SLIDING;
-    let slow = PulsedBlock::SLENDER;
+fn blocks_in_contact_converge_at_least_with_the_time_step() {
+    let slow = PulsedBlock::SLENDER_BLOCK;
     for (name, scene) in [
         ("sliding", PulsedBlock { friction: Some(0.5), ..slow }),
         ("rocking", PulsedBlock { friction: Some(f64::INFINITY), ..slow }),
-        ("rocking and sliding", quick),
+        ("rocking and sliding", PulsedBlock::SLIDING_BLOCK),
     ] {
-        let run = |step| history(scene, (Grading::Cosine, 8), step);
-        let reference = run(0.003_125);
-        let errors = [0.1, 0.05, 0.025, 0.0125].map(|step| distance(&run(step), &reference));
-        check(name, orders(name, &errors, 3), 1.0..3.0);
+        let mesh = (Grading::Cosine, 8);
+        let reference = history(scene, mesh, 0.003_125);
+        let errors = [0.1, 0.05, 0.025, 0.0125]
+            .map(|step| distance(&history(scene, mesh, step), &reference));
+        assert_orders(name, orders(name, &errors, 3), 1.0..3.0);
     }
 }
 
@@ -112,16 +116,16 @@ fn time_step_contact() {
 /// SCENE: bonded block, Ricker pulse, 4 to 32 elements, step 0.025.
 /// REFERENCE: each run against the next finer one, and the frequency-domain table.
 #[test]
-fn element_size() {
+fn elements_converge_with_their_size_and_graded_ones_with_its_square() {
     let exact = PulsedBlock::exact();
-    for (grading, wanted) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
+    for (grading, expected) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
         let runs =
-            [4, 8, 16, 32].map(|count| history(PulsedBlock::BONDED, (grading, count), 0.025));
+            [4, 8, 16, 32].map(|count| history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025));
         let scene = format!("{grading:?}, next finer");
-        check(&scene, orders(&scene, &successive(&runs), 1), wanted.clone());
+        assert_orders(&scene, orders(&scene, &successive_distances(&runs), 1), expected.clone());
         let scene = format!("{grading:?}, table");
         let errors = runs.map(|run| distance(&run, &exact));
-        check(&scene, orders(&scene, &errors, 1), wanted);
+        assert_orders(&scene, orders(&scene, &errors, 1), expected);
     }
 }
 
@@ -129,7 +133,7 @@ fn element_size() {
 /// SCENE: bonded block on a layer, elastic on rock and damped on a rigid base.
 /// REFERENCE: each run against the next finer one.
 #[test]
-fn time_step_on_layers() {
+fn layered_ground_converges_with_the_square_of_the_time_step() {
     let rigid_base = p3(gmb(5));
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", rigid_base)] {
         for stages in [Stages::Two, Stages::Three] {
@@ -139,10 +143,11 @@ fn time_step_on_layers() {
                         .unwrap();
                 let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
                 let mut simulation = under_pulse(block, ground.with_stages(stages), step);
-                sample(&mut simulation, whole(20.0 / step), whole(SAMPLE / step)).unwrap().0
+                let interval = nearest_integer(SAMPLING_INTERVAL / step);
+                sample(&mut simulation, nearest_integer(20.0 / step), interval).unwrap().0
             });
             let scene = format!("{name}, {stages:?}");
-            check(&scene, orders(&scene, &successive(&runs), 1), 1.8..2.3);
+            assert_orders(&scene, orders(&scene, &successive_distances(&runs), 1), 1.8..2.3);
         }
     }
 }

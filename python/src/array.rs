@@ -3,6 +3,7 @@
 use basemat::structure::Triplets;
 use numpy::ndarray::{Ix1, Ix2, Ix3};
 use numpy::{Complex64, Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray};
+use pyo3::exceptions::PyDeprecationWarning;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
@@ -306,16 +307,20 @@ fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     Ok(Matrix(matrix))
 }
 
-/// Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take; 4 GiB unless `set_memory_limit` was
-/// called.
+/// Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take: 8 GiB. Sizes are compared with it
+/// before anything is allocated; an error states the memory that they would take.
 #[pyfunction]
 pub(crate) fn memory_limit() -> u64 {
     basemat::memory_limit()
 }
 
-/// Sets the memory limit of this process: ``bytes``, the memory of the machine less that of its other programs.
-/// Sizes are compared with it before anything is allocated; an error states the memory that they would take.
+/// Does nothing, with a `DeprecationWarning`: the limit of one part is fixed (`memory_limit`).
 #[pyfunction]
-pub(crate) fn set_memory_limit(#[pyo3(from_py_with = whole_numbers)] bytes: u64) {
-    basemat::set_memory_limit(bytes);
+pub(crate) fn set_memory_limit(
+    py: Python<'_>,
+    #[pyo3(from_py_with = whole_numbers)] bytes: u64,
+) -> PyResult<()> {
+    let _ = bytes;
+    let category = py.get_type::<PyDeprecationWarning>();
+    PyErr::warn(py, &category, c"set_memory_limit does nothing: the limit of one part is fixed", 1)
 }

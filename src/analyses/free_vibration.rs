@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use crate::coupled::{GravityStage, Load, Midpoint, SimulationBuilder};
 use crate::error::{Error, Result};
 use crate::interface::Bonded;
-use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
+use crate::linalg::{Complex, Eigenpairs, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::Probe;
 use crate::structure::{
@@ -72,7 +72,7 @@ impl FixedBaseMode {
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
         let found = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
-        let Some((squares, modes)) = found else { return Ok(None) };
+        let Some(Eigenpairs { values: squares, vectors: modes }) = found else { return Ok(None) };
         let mut momentum = vec![0.0; n];
         mass.multiply_add(1.0, &along, &mut momentum);
         let structural = squares.iter().zip(modes.chunks_exact(n)).filter(|(square, mode)| {

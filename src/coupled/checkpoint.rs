@@ -128,7 +128,7 @@ impl Simulation {
             Ok((number.ok_or(unknown)?, start.has_opened))
         };
         let mut state_copy = state.clone();
-        let mut energies = self.books.clone();
+        let mut energies = self.energies.clone();
         let numbers = numbers(scene.layout().components(), &mut state_copy, energies.as_mut());
         let mut checkpoint = Checkpoint {
             format: CHECKPOINT_FORMAT,
@@ -202,7 +202,7 @@ impl Simulation {
         let scene = &self.scene;
         let structure = self.structure.as_mut();
         let mut state = self.state.clone();
-        let mut energies = self.books.clone();
+        let mut energies = self.energies.clone();
         let numbers = numbers(scene.layout().components(), &mut state, energies.as_mut());
         if numbers.len() != checkpoint.state.len() {
             return Err(CheckpointError::Corrupt { quantity: "state" }.into());
@@ -233,7 +233,7 @@ impl Simulation {
             energies.as_ref().map_or(EnergyBalance::LEFT_OUT, |energies| energies.energy_balance);
         state.update_resultants(scene);
         self.state = state;
-        self.books = energies;
+        self.energies = energies;
         let mut saved = checkpoint.set_loads.chunks_exact(2).filter(|_| is_kept);
         for load in &mut self.scene.loads {
             let set = saved.next().filter(|saved| saved[0] != 0.0);

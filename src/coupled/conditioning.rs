@@ -99,17 +99,27 @@ pub(crate) fn conditioning(
         start,
         &scene.laws,
     )?;
-    let (matrix, condition, limit, (quantity, ratio)) =
-        if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
-            let cause = cause_of_stiffness(scene, operators, effective_stiffness);
-            (operators::EFFECTIVE_STIFFNESS_NAME, effective_stiffness, STIFFNESS_LIMIT, cause)
-        } else if delassus.is_nan() || delassus > DELASSUS_LIMIT {
-            let cause = cause_of_delassus(scene, operators, delassus, ground);
-            ("Delassus operator", delassus, DELASSUS_LIMIT, cause)
-        } else {
-            return Ok(Conditioning { effective_stiffness, ground, delassus });
-        };
-    Err(Error::IllConditioned { matrix, condition, limit, quantity, ratio })
+    if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
+        let (quantity, ratio) = cause_of_stiffness(scene, operators, effective_stiffness);
+        return Err(Error::IllConditioned {
+            matrix: operators::EFFECTIVE_STIFFNESS_NAME,
+            condition: effective_stiffness,
+            limit: STIFFNESS_LIMIT,
+            quantity,
+            ratio,
+        });
+    }
+    if delassus.is_nan() || delassus > DELASSUS_LIMIT {
+        let (quantity, ratio) = cause_of_delassus(scene, operators, delassus, ground);
+        return Err(Error::IllConditioned {
+            matrix: "Delassus operator",
+            condition: delassus,
+            limit: DELASSUS_LIMIT,
+            quantity,
+            ratio,
+        });
+    }
+    Ok(Conditioning { effective_stiffness, ground, delassus })
 }
 
 /// Cause of a large condition of K_eff: little inertia of a translation, or very different stiffnesses.
@@ -128,8 +138,13 @@ fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (
     if ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
         return ("stiffness of the structure over its inertia in a time step", ratio);
     }
-    let positive = || stiffness.iter().copied().filter(|k| *k > 0.0);
-    let ratio = positive().fold(0.0, f64::max) / positive().fold(f64::INFINITY, f64::min);
+    let mut largest: f64 = 0.0;
+    let mut smallest = f64::INFINITY;
+    for &stiffness in stiffness.iter().filter(|stiffness| **stiffness > 0.0) {
+        largest = largest.max(stiffness);
+        smallest = smallest.min(stiffness);
+    }
+    let ratio = largest / smallest;
     ("largest over least stiffness within the structure", ratio)
 }
 

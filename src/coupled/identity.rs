@@ -171,7 +171,7 @@ impl Simulation {
         Identity {
             label: scene.label.clone(),
             dofs: model.dofs,
-            energy_balance: self.books.is_some(),
+            energy_balance: self.energies.is_some(),
             probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
             laws: state.start.state_variable_ends().to_vec(),
             steps: scheme,

@@ -73,6 +73,7 @@
 pub(crate) mod assembly;
 pub(crate) mod base;
 mod bed_compliance;
+mod builder;
 mod checkpoint;
 mod conditioning;
 mod coordinates;
@@ -96,6 +97,7 @@ mod step;
 pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepError};
 #[doc(inline)]
 pub use basemat_structures::internal::Probe;
+pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use conditioning::Conditioning;
 pub use coordinates::Coordinates;
@@ -104,7 +106,6 @@ pub use former_paths::*;
 pub use gravity_stage::GravityStage;
 pub use identity::Change;
 pub use model::load::Load;
-pub use parts::SimulationBuilder;
 pub use run::mistake::Mistake;
 pub use run::warning::Warning;
 pub use scheme::{

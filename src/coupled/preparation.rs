@@ -1,7 +1,7 @@
 //! Preparation of the ground for the steps of a run.
 
 use crate::Simulation;
-use crate::coupled::parts::ENDLESS_STEPS;
+use crate::coupled::builder::MIN_ENDLESS_STEPS;
 use crate::error::{Error, Observer, Result, unobserved};
 
 impl Simulation {
@@ -16,7 +16,7 @@ impl Simulation {
     pub fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         let made = self.state.step;
         let end = made.saturating_add(steps);
-        if end <= self.prepared || end >= ENDLESS_STEPS {
+        if end <= self.prepared || end >= MIN_ENDLESS_STEPS {
             return Ok(());
         }
         let time_step = self.scene.time_step;

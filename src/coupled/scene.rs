@@ -81,37 +81,37 @@ impl Scene {
         static_state: StaticState,
         joined: Vec<bool>,
     ) -> Self {
-        let Parts { given, coefficients, .. } = parts;
-        let time_step = given.time_step;
+        let Parts { builder, coefficients, .. } = parts;
+        let time_step = builder.time_step;
         let coefficients = *coefficients;
-        let is_static = given.is_static();
-        let loads = std::mem::take(&mut given.loads).into_iter();
+        let is_static = builder.is_static();
+        let loads = std::mem::take(&mut builder.loads).into_iter();
         let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
         let mut weight = Vec::new();
-        if given.falls() {
+        if builder.falls() {
             weight.resize(model.coordinates, 0.0);
             let up = model.influence.of(UPWARD_DIRECTION, model.coordinates);
-            model.mass.multiply_add(-given.gravity, &up, &mut weight);
+            model.mass.multiply_add(-builder.gravity, &up, &mut weight);
         }
         let elements = &parts.elements;
         let origin = parts.moment_center;
         let shapes = base.foundations().zip(base.outlines());
         let footings =
             shapes.map(|((_, range), outline)| Footing::new(elements, range, outline, origin));
-        let probe_rows = given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
+        let probe_rows = builder.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
         let context = Context {
-            probes: std::mem::take(&mut given.probes),
+            probes: std::mem::take(&mut builder.probes),
             elements: elements.clone(),
             pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
-            friction: std::mem::take(&mut given.safety_friction),
+            friction: std::mem::take(&mut builder.safety_friction),
             footings: footings.collect(),
         };
         Self {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
-            laws: std::mem::take(&mut given.laws),
-            serviceability: given.serviceability,
+            laws: std::mem::take(&mut builder.laws),
+            serviceability: builder.serviceability,
             static_state,
             loads: loads.collect(),
             weight,
@@ -120,11 +120,11 @@ impl Scene {
             start_motion: std::mem::take(&mut parts.start_motion),
             probe_rows,
             start: [
-                given.gravity_stage as usize as f64,
-                mixed(&given.displacement),
-                mixed(&given.velocity),
+                builder.gravity_stage as usize as f64,
+                mixed(&builder.displacement),
+                mixed(&builder.velocity),
             ],
-            label: std::mem::take(&mut given.label),
+            label: std::mem::take(&mut builder.label),
             context: Arc::new(context),
             model,
             base,
@@ -165,7 +165,7 @@ impl Scene {
     /// The result stays small. From all parts that the force joins, the mean translation of the first of them is
     /// subtracted, so that the distances between them stay. The static displacement is added. `translations`: of
     /// the parts' free fields.
-    pub(crate) fn seen_by_force(
+    pub(crate) fn to_force_displacement(
         &self,
         displacement: &mut [f64],
         means: &mut [f64],
@@ -184,17 +184,21 @@ impl Scene {
             _ => mean(part).map(|component| -component),
         });
         influence.translate(1.0, shifts, displacement);
-        for (seen, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {
-            *seen += at_rest;
+        for (entry, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {
+            *entry += at_rest;
         }
     }
 
     /// Displacement of a motion as the nonlinear force receives it.
-    pub(crate) fn seen_at(&self, motion: &Kinematics) -> Vec<f64> {
-        let mut seen = motion.displacement.clone();
+    pub(crate) fn force_displacement_of(&self, motion: &Kinematics) -> Vec<f64> {
+        let mut displacement = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);
-        self.seen_by_force(&mut seen, &mut vec![0.0; self.layout().len()], translations);
-        seen
+        self.to_force_displacement(
+            &mut displacement,
+            &mut vec![0.0; self.layout().len()],
+            translations,
+        );
+        displacement
     }
 
     /// Whether [`Scene::add_loads`] adds anything.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
-use crate::coupled::base::held::holds;
+use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::conditioning::Conditioning;
 use crate::coupled::run::Run;
 use crate::coupled::run::resolution::Resolution;
@@ -34,7 +34,7 @@ pub struct Simulation {
     pub(crate) solver: Solver,
     pub(crate) increment: Increment,
     /// The energy balance; `None` if it is omitted.
-    pub(crate) books: Option<EnergyAccumulator>,
+    pub(crate) energies: Option<EnergyAccumulator>,
     pub(crate) state: State,
     pub(crate) conditioning: Conditioning,
     /// Warnings of the scene before its first step, and of the steps since.
@@ -72,12 +72,12 @@ impl Simulation {
         self.solve(time).map_err(|source| Error::Step { step, time, source })?;
         // From here on no error can occur.
         let Self { scene, structure, ground, forcing, increment, state, warnings, .. } = self;
-        if let Some(friction) = increment.stand_in {
+        if let Some(friction) = increment.substituted_friction {
             Warning::count_friction(warnings, friction);
         }
-        if let Some(energies) = &mut self.books {
+        if let Some(energies) = &mut self.energies {
             let data = StepData { scene, structure: structure.as_ref(), state, forcing };
-            energies.book(data, ground.as_ref(), increment);
+            energies.accumulate(data, ground.as_ref(), increment);
             state.energy_balance = energies.energy_balance;
         }
         state.advance(scene, forcing, increment);
@@ -87,7 +87,7 @@ impl Simulation {
         scene.base.elements().spread_inside(&mut increment.spread);
         ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {
-            force.commit(&increment.seen);
+            force.commit(&increment.force_displacement);
         }
         Ok(&self.state)
     }
@@ -327,7 +327,7 @@ impl Simulation {
     /// Closes a run of this simulation: adds its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
         // A fixed base may be in tension.
-        let is_fixed = holds(self.ground.as_ref());
+        let is_fixed = is_fixed_base(self.ground.as_ref());
         run.finish(
             self.ground.as_ref(),
             self.motion.as_ref(),

@@ -211,9 +211,9 @@ impl Branches {
         weight: &impl KernelWeight,
         sum: &mut [f64; 2],
     ) {
-        let [branch_start, branch_end] = self.interval(branch);
-        let start = start.max(branch_start);
-        let end = end.min(branch_end);
+        let interval = self.interval(branch);
+        let start = start.max(interval[0]);
+        let end = end.min(interval[1]);
         if start >= end {
             return;
         }

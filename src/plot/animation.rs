@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
+use super::deformed::trench_outline;
 use super::deformed::{FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, places};
 use super::marks::{self, KEY_LEFT, PixelBox, hex};
 use super::shown::ShownStates;
 use super::svg::{Svg, changes, escaped, polygon};
 use super::text_width::{fitted, length_text, short, width};
-use super::trench;
 use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
@@ -73,7 +73,7 @@ pub fn animation(
             screen
         }
         StructureView::AlongX | StructureView::AlongY => {
-            let trench = trench::outline(time_series.elements());
+            let trench = trench_outline(time_series.elements());
             let mut surface = vec![[moved[0][0][0], 0.0]];
             if let Some([first, .., last]) = trench {
                 // Space for the marks of the walls.

@@ -7,10 +7,10 @@ use super::drawing::{Area, Drawing, Stroke, is_drawable};
 use super::key::{KeySample, PictureKey};
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
-use super::trench;
 use super::view::StructureView;
+use crate::bem::ContactElement;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
-use crate::geometry::{middle, span};
+use crate::geometry::{far_ends, middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -177,7 +177,7 @@ fn draw_elevation(
     let x_axis = ChartAxis::linear(x.clone(), horizontal);
     let y_axis = ChartAxis::linear(y.clone(), vertical);
     let mut chart = chart(area, &x_axis, &y_axis, false)?;
-    draw_soil(&mut chart, x, y.start, trench::outline(time_series.elements()))?;
+    draw_soil(&mut chart, x, y.start, trench_outline(time_series.elements()))?;
     for (k, places) in elevation.shapes.iter().enumerate() {
         draw_shape(&mut chart, shape, elevation.view, places, shape_stroke(k))?;
     }
@@ -241,4 +241,14 @@ fn ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
         let half = 0.5 * metres_per_pixel * size[k];
         middle - half..middle + half
     })
+}
+
+/// Outline of the trench (x, height), m, from its upper left corner; `None` without walls.
+pub(super) fn trench_outline(elements: &[ContactElement]) -> Option<[[f64; 2]; 4]> {
+    if !ContactElement::any_wall(elements) {
+        return None;
+    }
+    let x = far_ends(elements.iter().map(|element| element.ends()[0]));
+    let z = far_ends(elements.iter().map(ContactElement::heights));
+    Some([[x[0], z[1]], [x[0], z[0]], [x[1], z[0]], [x[1], z[1]]])
 }

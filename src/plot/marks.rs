@@ -106,7 +106,7 @@ fn mark(element: &ContactElement, width: f64) -> [[f64; 2]; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::trench::outline;
+    use super::super::deformed::trench_outline;
     use super::*;
 
     #[test]
@@ -114,8 +114,8 @@ mod tests {
         let corners = [[-3.0, 0.0], [-3.0, -5.0], [3.0, -5.0], [3.0, 0.0]];
         let elements: Vec<_> =
             corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect();
-        assert_eq!(outline(&elements), Some(corners));
-        assert_eq!(outline(&[ContactElement::new(-3.0, 3.0)]), None);
+        assert_eq!(trench_outline(&elements), Some(corners));
+        assert_eq!(trench_outline(&[ContactElement::new(-3.0, 3.0)]), None);
         // Each begins at its face and reaches outwards by the width.
         for (e, far) in [(0, [-3.5, -5.0]), (1, [3.0, -5.5]), (2, [3.5, 0.0])] {
             let mark = mark(&elements[e], 0.5);

@@ -39,7 +39,6 @@ mod drawing;
 mod key;
 mod lines;
 mod marks;
-mod page;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
@@ -49,16 +48,14 @@ mod shown;
 mod site_response;
 mod svg;
 mod text_width;
-mod trench;
 mod view;
 
 pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
-pub use page::page;
 pub use plan::contact_plan;
 pub use refinement::refinement;
 pub use shells::shell_plan;
 pub use site_response::site_response;
-pub use svg::Svg;
+pub use svg::{Svg, page};

@@ -72,7 +72,6 @@ mod floor;
 mod frames;
 #[cfg(feature = "npz")]
 mod npz;
-mod recorder;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub(crate) mod shape_cell;
 mod time_series;
@@ -90,5 +89,4 @@ pub use csv::spectrum_csv;
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
-pub use recorder::Recorder;
-pub use time_series::TimeSeries;
+pub use time_series::{Recorder, TimeSeries};

@@ -1,9 +1,9 @@
-//! Time series of a run, and its motion and contact frames, stored by an observer.
+//! Time series of a run, and its motion and contact frames: what a recorder selects and an observer stores.
 
 use std::collections::TryReserveError;
 
+use super::Quantity;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, reserve};
-use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::state::sequence::Sequence;
@@ -13,6 +13,53 @@ use crate::coupled::{Face, FaceForces};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::geometry::ContactLayout;
 use crate::structure::probe_index;
+
+/// Selects results to keep beyond a [`Run`](super::Run).
+///
+/// Default: time series of scalars and probes at every step.
+///
+/// See the [module](super) for an example.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Recorder {
+    pub(super) every: usize,
+    pub(super) contact: Option<usize>,
+    pub(super) motion: Option<usize>,
+}
+
+impl Default for Recorder {
+    fn default() -> Self {
+        Self { every: 1, contact: None, motion: None }
+    }
+}
+
+impl Recorder {
+    /// Recorder of scalars and probes at every step.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Keeps scalars and probes only at every `steps`th step; floor spectra are then impossible.
+    #[must_use]
+    pub fn every(self, steps: usize) -> Self {
+        Self { every: steps, ..self }
+    }
+
+    /// Keeps contact frames at every `steps`th step: 49 bytes per element and frame.
+    #[must_use]
+    pub fn contact(self, steps: usize) -> Self {
+        Self { contact: Some(steps), ..self }
+    }
+
+    /// Keeps motion frames of the structure at every `steps`th step.
+    ///
+    /// Displacement and velocity take 16 bytes per degree of freedom and frame.
+    #[must_use]
+    pub fn motion(self, steps: usize) -> Self {
+        Self { motion: Some(steps), ..self }
+    }
+}
 
 /// Time series and snapshots of a run.
 ///
@@ -87,8 +134,8 @@ validated! {
 /// Largest number of steps that memory is reserved for.
 const MAX_RESERVED_STEPS: usize = 1_000_000;
 
-/// Remedies at the limit of memory.
-const LIMIT_REMEDY: &str = "a recorder of fewer steps takes less, `set_memory_limit` allows more";
+/// Remedy at the limit of memory.
+const LIMIT_REMEDY: &str = "a recorder of fewer steps takes less";
 
 /// Remedies if the system has no more memory.
 const SYSTEM_MEMORY_REMEDY: &str = "the system gives no more; a recorder of fewer steps takes less";

@@ -7,8 +7,8 @@ use super::SiteWarning;
 use super::iteration::{
     ColumnAccelerations, Converged, EquivalentLinearOptions, Iteration, LayerProperties,
 };
-use super::part_progress::PartProgress;
 use super::soil_column::SoilColumn;
+use super::transform::PartProgress;
 use crate::error::{Observer, Result, Watch};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::part_progress::PartProgress;
 use super::site_motion::SiteMotion;
 use super::soil_column::SoilColumn;
+use super::transform::PartProgress;
 use super::transform::Transform;
 use super::vertical::{ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Error, Result, Watch, positive, require, require_part, same_length};

@@ -10,7 +10,6 @@ mod equivalent_linear;
 mod inclined;
 mod iteration;
 mod oblique;
-mod part_progress;
 mod sampled;
 mod site_motion;
 mod slowness;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::part_progress::PartProgress;
 use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
+use super::transform::PartProgress;
 use super::transform::{Contour, ContourPoint, Transform};
 use super::vertical::{ColumnFunctions, ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Observer, Result, Watch, not_negative};

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::below_surface::{FieldMedium, WaveField};
-use super::part_progress::PartProgress;
+use super::transform::PartProgress;
 use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};

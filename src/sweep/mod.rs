@@ -39,7 +39,6 @@ mod case_file;
 #[cfg(feature = "io")]
 mod file;
 mod run;
-mod run_table;
 #[cfg(feature = "io")]
 mod stored;
 mod table;

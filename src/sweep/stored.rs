@@ -6,8 +6,7 @@ use std::path::Path;
 
 use super::case_file::CaseFile;
 use super::file::{Ending, RowsByCase, add_rows, name, read};
-use super::run::{Sweep, SweepCase};
-use super::run_table::table_row;
+use super::run::{Sweep, SweepCase, table_row};
 use super::table::{CaseTable, Columns};
 use crate::error::{FileFault, Result, SweepError};
 

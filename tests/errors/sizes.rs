@@ -28,7 +28,7 @@ fn too_large<T>(result: Result<T>, quantity: &str, asked: f64, least: f64) {
     assert_eq!((error.quantity, error.asked), (quantity, asked));
     assert!(error.needed >= least && error.needed < 100.0 * least, "{error}");
     assert!(error.limit == memory_limit() as f64 && error.needed > error.limit, "{error}");
-    assert!(error.to_string().contains("GB of memory, but at most 4.3 GB are allowed"), "{error}");
+    assert!(error.to_string().contains("GB of memory, but at most 8.6 GB are allowed"), "{error}");
 }
 
 #[test]
@@ -70,8 +70,8 @@ fn sizes_are_refused_before_memory_is_taken() {
     let record = el_centro_1940();
     let last = (record.duration() / 1e-9 - 1e-9).ceil();
     too_large(record.resampled(1e-9), samples, last, 8.0 * last);
-    let padded = record.padded(1e6, 1.9e6);
-    let count = record.len() as f64 + 5e7 + 9.5e7;
+    let padded = record.padded(1e7, 1.9e7);
+    let count = record.len() as f64 + 5e8 + 9.5e8;
     too_large(padded, samples, count, 8.0 * count);
     assert!(matches!(record.padded(f64::MAX, 0.0), Err(Error::Memory(_))));
 

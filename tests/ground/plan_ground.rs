@@ -184,12 +184,12 @@ fn limits_are_told_beforehand() {
     ground = ground.with_history(small).unwrap();
     let outcome = ground.prepare(0.1, Some(50_000), &mut unobserved);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
-    // Matrices of three components between 2500 elements.
-    let many = || Plan::rectangle(-1.0..1.0, -1.0..1.0, 50).unwrap();
+    // Matrices of three components between 3600 elements.
+    let many = || Plan::rectangle(-1.0..1.0, -1.0..1.0, 60).unwrap();
     let outcome = ElasticGround::in_plan(half_space(), many()).map(drop);
     assert!(matches!(outcome, Err(Error::Memory(_))), "{outcome:?}");
     // Springs have none between them.
-    assert_eq!(SpringGround::in_plan(many(), [1.0; 3]).unwrap().elements().len(), 2500);
+    assert_eq!(SpringGround::in_plan(many(), [1.0; 3]).unwrap().elements().len(), 3600);
     let ground = ElasticGround::in_plan(half_space(), plan).unwrap();
     let outcome = ground.impedances(&[1.0], StripContact::Bonded, &mut unobserved);
     assert!(matches!(outcome, Err(Error::Scene { .. })), "{outcome:?}");

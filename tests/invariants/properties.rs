@@ -2,33 +2,40 @@
 //! SCENE: block and tower on the half-plane that slide, uplift or stay bonded.
 //! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
-use basemat::coupled::StepError;
-use basemat::coupled::{GravityStage, State};
+use basemat::coupled::{GravityStage, State, StepError};
 use basemat::interface::{Bonded, InPlane, Mode, PreviousContact};
 use basemat::results::Quantity;
 use basemat::{Error, Simulation};
 use proptest::prelude::*;
 
 use basemat_problems::scenes::{
-    Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,
+    SCENE_GRAVITY, SI_UNITS, TIME_STEP, UnitFrame, block, friction, scene, shake, states, tower,
 };
-use basemat_problems::wrapped::{Pulled, Wayward};
+use basemat_problems::wrapped::{LawWithNextMode, StructureWithForce};
 
-const STEPS: usize = 400;
+const STEP_COUNT: usize = 400;
 
-fn rocking(frame: Frame, strength: f64, coefficient: f64) -> Vec<State> {
+/// States of a block that rocks and slides.
+fn rocking_states(frame: UnitFrame, strength: f64, coefficient: f64) -> Vec<State> {
     let builder = scene(frame, strength).structure(block(frame)).interface(friction(coefficient));
-    states(&mut builder.build().unwrap(), STEPS)
+    states(&mut builder.build().unwrap(), STEP_COUNT)
+}
+
+/// States of a bonded tower.
+fn bonded_states(strength: f64) -> Vec<State> {
+    let builder = scene(SI_UNITS, strength).structure(tower(SI_UNITS, None)).interface(Bonded);
+    states(&mut builder.build().unwrap(), 120)
 }
 
 /// Largest difference of two lists, relative to the largest value.
-fn apart(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let (mut worst, mut scale) = (0.0_f64, f64::MIN_POSITIVE);
+fn relative_difference(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut max_difference = 0.0_f64;
+    let mut max_value = f64::MIN_POSITIVE;
     for (a, b) in pairs {
-        worst = worst.max((a - b).abs());
-        scale = scale.max(a.abs()).max(b.abs());
+        max_difference = max_difference.max((a - b).abs());
+        max_value = max_value.max(a.abs()).max(b.abs());
     }
-    worst / scale
+    max_difference / max_value
 }
 
 proptest! {
@@ -37,47 +44,58 @@ proptest! {
 
     #[test]
     fn mirrored_record_gives_mirrored_response(strength in 0.2..0.8, mu in 0.1..0.8) {
-        let plain = rocking(SI, strength, mu);
-        let mirror = rocking(Frame { mirrored: true, ..SI }, strength, mu);
+        let plain = rocking_states(SI_UNITS, strength, mu);
+        let mirrored = rocking_states(UnitFrame { mirrored: true, ..SI_UNITS }, strength, mu);
         prop_assert!(plain.iter().any(|s| s.uplifted_fraction > 0.0 || s.value(Quantity::LargestSlip) > 1e-4));
         let signs = [-1.0, 1.0, -1.0];
         for (k, sign) in signs.into_iter().enumerate() {
-            let of = |s: &State| s.absolute_displacement()[k];
-            let found = apart(plain.iter().zip(&mirror).map(|(a, b)| (of(a), sign * of(b))));
-            prop_assert!(found < 1e-10, "unknown {k}: {found:e}");
+            let pairs = plain.iter().zip(&mirrored).map(|(a, b)| {
+                (a.absolute_displacement()[k], sign * b.absolute_displacement()[k])
+            });
+            let error = relative_difference(pairs);
+            prop_assert!(error < 1e-10, "degree of freedom {k}: {error:e}");
         }
         let last = plain[0].contact.len() - 1;
-        let found = apart(plain.iter().zip(&mirror).flat_map(|(a, b)| {
+        let error = relative_difference(plain.iter().zip(&mirrored).flat_map(|(a, b)| {
             (0..=last).map(|e| (a.contact[e].pressure, b.contact[last - e].pressure))
         }));
-        prop_assert!(found < 1e-8, "pressure: {found:e}");
+        prop_assert!(error < 1e-8, "pressure: {error:e}");
     }
 
     #[test]
     fn units_do_not_matter(length in -3.0..3.0, time in -2.0..2.0, mass in -4.0..4.0, mu in 0.2..0.7) {
-        let ten = |power: f64| 10.0_f64.powf(power);
-        let frame = Frame { length: ten(length), time: ten(time), mass: ten(mass), mirrored: false };
-        let (si, other) = (rocking(SI, 0.5, mu), rocking(frame, 0.5, mu));
-        let found = apart(si.iter().zip(&other).map(|(a, b)| (a.base_rotation, b.base_rotation)));
-        prop_assert!(found < 1e-9, "rotation: {found:e}");
-        let found = apart(si.iter().zip(&other).map(|(a, b)| {
+        let frame = UnitFrame {
+            length: 10.0_f64.powf(length),
+            time: 10.0_f64.powf(time),
+            mass: 10.0_f64.powf(mass),
+            mirrored: false,
+        };
+        let in_si = rocking_states(SI_UNITS, 0.5, mu);
+        let in_frame = rocking_states(frame, 0.5, mu);
+        let pairs = in_si.iter().zip(&in_frame);
+        let error = relative_difference(pairs.clone().map(|(a, b)| (a.base_rotation, b.base_rotation)));
+        prop_assert!(error < 1e-9, "rotation: {error:e}");
+        let error = relative_difference(pairs.map(|(a, b)| {
             (a.base_shear, b.base_shear / (frame.pressure() * frame.length))
         }));
-        prop_assert!(found < 1e-8, "base shear: {found:e}");
+        prop_assert!(error < 1e-8, "base shear: {error:e}");
     }
 
     #[test]
     fn bonded_responses_superpose(a in -2.0..2.0, b in -2.0..2.0) {
-        let run = |strength: f64| {
-            let builder = scene(SI, strength).structure(tower(SI, None)).interface(Bonded);
-            states(&mut builder.build().unwrap(), 120)
-        };
-        let (one, two, both) = (run(a), run(b), run(a + b));
-        let sum = one.iter().zip(&two).zip(&both).flat_map(|((x, y), z)| {
-            x.absolute_displacement().iter().zip(y.absolute_displacement()).zip(z.absolute_displacement()).map(|((x, y), z)| (x + y, *z))
-        });
-        let found = apart(sum);
-        prop_assert!(found < 1e-11, "{found:e}");
+        let first = bonded_states(a);
+        let second = bonded_states(b);
+        let both = bonded_states(a + b);
+        let mut pairs = Vec::new();
+        for (step, both) in both.iter().enumerate() {
+            let x = first[step].absolute_displacement();
+            let y = second[step].absolute_displacement();
+            for (dof, z) in both.absolute_displacement().iter().enumerate() {
+                pairs.push((x[dof] + y[dof], *z));
+            }
+        }
+        let error = relative_difference(pairs.into_iter());
+        prop_assert!(error < 1e-11, "{error:e}");
     }
 }
 
@@ -85,8 +103,8 @@ proptest! {
 fn contact_runs() -> Vec<(f64, Vec<State>)> {
     let mut runs = Vec::new();
     for mu in [0.0, 0.2, 0.5, 1.5, f64::INFINITY] {
-        runs.push((mu, rocking(SI, 0.6, mu)));
-        let builder = scene(SI, 0.6).structure(tower(SI, None)).interface(friction(mu));
+        runs.push((mu, rocking_states(SI_UNITS, 0.6, mu)));
+        let builder = scene(SI_UNITS, 0.6).structure(tower(SI_UNITS, None)).interface(friction(mu));
         runs.push((mu, states(&mut builder.build().unwrap(), 200)));
     }
     runs
@@ -94,52 +112,58 @@ fn contact_runs() -> Vec<(f64, Vec<State>)> {
 
 #[test]
 fn contact_conditions_hold_at_every_step() {
-    let (mut lifted, mut slid) = (0, 0);
+    let mut open_count = 0;
+    let mut slip_count = 0;
     for (mu, states) in contact_runs() {
-        let pressure =
+        let max_pressure =
             states.iter().flat_map(|s| &s.contact).fold(0.0_f64, |m, c| m.max(c.pressure));
-        let length =
+        let max_displacement =
             states.iter().flat_map(State::displacement).fold(0.0_f64, |m, u| m.max(u.abs()));
-        let input = states.iter().fold(0.0_f64, |m, s| m.max(s.energy_balance.input.abs()));
+        let max_input = states.iter().fold(0.0_f64, |m, s| m.max(s.energy_balance.input.abs()));
         for pair in states.windows(2) {
-            for (e, (before, now)) in pair[0].contact.iter().zip(&pair[1].contact).enumerate() {
+            for (e, (start, end)) in pair[0].contact.iter().zip(&pair[1].contact).enumerate() {
                 let mode = pair[1].modes[e];
-                let context = format!("friction {mu}, step {}, {mode:?}: {now:?}", pair[1].step);
-                assert!(now.pressure >= -1e-11 * pressure, "tension, {context}");
-                assert!(now.gap >= -1e-12 * length, "penetration, {context}");
-                let force = 1e-11 * pressure;
-                assert!(now.gap <= 1e-12 * length || now.pressure.abs() <= force, "{context}");
+                let context = format!("friction {mu}, step {}, {mode:?}: {end:?}", pair[1].step);
+                let traction_tolerance = 1e-11 * max_pressure;
+                let gap_tolerance = 1e-12 * max_displacement;
+                let is_without_pressure = end.pressure.abs() <= traction_tolerance;
+                assert!(end.pressure >= -1e-11 * max_pressure, "tension, {context}");
+                assert!(end.gap >= -1e-12 * max_displacement, "penetration, {context}");
+                assert!(end.gap <= gap_tolerance || is_without_pressure, "{context}");
                 if mu.is_finite() {
-                    assert!(now.shear.abs() <= mu * now.pressure + force, "friction, {context}");
+                    let limit = mu * end.pressure + traction_tolerance;
+                    assert!(end.shear.abs() <= limit, "friction, {context}");
                 }
-                let advance = now.slip - before.slip;
+                let slip_increment = end.slip - start.slip;
                 // Friction works against the slip, and only slides at its limit.
-                assert!(now.shear * advance >= -1e-14 * pressure * length, "work, {context}");
-                let at_limit = (now.shear.abs() - mu * now.pressure).abs() <= force
-                    || now.pressure.abs() <= force;
-                assert!(advance.abs() <= 1e-12 * length || at_limit, "slip, {context}");
-                lifted += usize::from(mode == Mode::Open);
-                slid += usize::from(mode.is_slip());
+                let min_work = -1e-14 * max_pressure * max_displacement;
+                assert!(end.shear * slip_increment >= min_work, "work, {context}");
+                let is_at_limit = (end.shear.abs() - mu * end.pressure).abs() <= traction_tolerance;
+                let may_slide = is_at_limit || is_without_pressure;
+                assert!(slip_increment.abs() <= gap_tolerance || may_slide, "slip, {context}");
+                open_count += usize::from(mode == Mode::Open);
+                slip_count += usize::from(mode.is_slip());
             }
-            let lost = pair[1].energy_balance.contact - pair[0].energy_balance.contact;
-            assert!(lost >= -1e-14 * input, "friction {mu}: {lost:e} gained");
+            let dissipated = pair[1].energy_balance.contact - pair[0].energy_balance.contact;
+            assert!(dissipated >= -1e-14 * max_input, "friction {mu}: {dissipated:e} gained");
         }
     }
-    println!("{lifted} open and {slid} sliding element steps");
-    assert!(lifted > 1000 && slid > 1000);
+    println!("{open_count} open and {slip_count} sliding element steps");
+    assert!(open_count > 1000 && slip_count > 1000);
 }
 
 #[test]
 fn preload_is_in_equilibrium() {
-    let weight = block(SI).total_mass() * GRAVITY;
+    let weight = block(SI_UNITS).total_mass() * SCENE_GRAVITY;
     for gravity_stage in [GravityStage::Frictionless, GravityStage::Frictional] {
         for mu in [0.0, 0.4, f64::INFINITY] {
-            let simulations =
-                [scene(SI, 0.0).structure(block(SI)), scene(SI, 0.0).structure(tower(SI, None))]
-                    .map(|b| {
-                        b.interface(friction(mu)).gravity_stage(gravity_stage).build().unwrap()
-                    });
-            for simulation in simulations {
+            let builders = [
+                scene(SI_UNITS, 0.0).structure(block(SI_UNITS)),
+                scene(SI_UNITS, 0.0).structure(tower(SI_UNITS, None)),
+            ];
+            for builder in builders {
+                let builder = builder.interface(friction(mu)).gravity_stage(gravity_stage);
+                let simulation = builder.build().unwrap();
                 let state = simulation.state();
                 assert!(
                     (state.normal_force / weight - 1.0).abs() < 1e-10,
@@ -157,42 +181,45 @@ fn preload_is_in_equilibrium() {
 /// A weight beside the middle: the moment of the pressures is the weight times its arm.
 #[test]
 fn eccentric_preload_balances_moments() {
-    let along = block(SI).vertical_at(1.3);
-    let leaning = Pulled { structure: block(SI), along, force: |_| -2e5 };
-    let build = scene(SI, 0.0).structure(leaning).interface(friction(0.5)).build();
-    let state = build.unwrap().state().clone();
-    let weight = block(SI).total_mass() * GRAVITY + 2e5;
+    let along = block(SI_UNITS).vertical_at(1.3);
+    let eccentric = StructureWithForce { structure: block(SI_UNITS), along, force: |_| -2e5 };
+    let simulation = scene(SI_UNITS, 0.0).structure(eccentric).interface(friction(0.5)).build();
+    let state = simulation.unwrap().state().clone();
+    let weight = block(SI_UNITS).total_mass() * SCENE_GRAVITY + 2e5;
     assert!((state.normal_force / weight - 1.0).abs() < 1e-10);
     assert!((state.base_moment / (-2e5 * 1.3) - 1.0).abs() < 1e-9, "{}", state.base_moment);
 }
 
 #[test]
-fn standing_still_stays_still() {
-    let simulation = scene(SI, 0.0).structure(tower(SI, None)).interface(friction(0.3)).build();
+fn a_structure_at_rest_stays_at_rest() {
+    let simulation =
+        scene(SI_UNITS, 0.0).structure(tower(SI_UNITS, None)).interface(friction(0.3)).build();
     let states = states(&mut simulation.unwrap(), 50);
-    let moved = states.iter().flat_map(State::displacement).fold(0.0_f64, |m, u| m.max(u.abs()));
-    println!("moved {moved:e}");
-    assert!(moved < 1e-13, "{moved:e}");
+    let displacements = states.iter().flat_map(State::displacement);
+    let max_displacement = displacements.fold(0.0_f64, |max, u| max.max(u.abs()));
+    println!("moved {max_displacement:e}");
+    assert!(max_displacement < 1e-13, "{max_displacement:e}");
 }
 
 #[test]
 fn runs_repeat_to_the_bit() {
-    assert_eq!(rocking(SI, 0.5, 0.4), rocking(SI, 0.5, 0.4));
+    assert_eq!(rocking_states(SI_UNITS, 0.5, 0.4), rocking_states(SI_UNITS, 0.5, 0.4));
 }
 
 /// The ground stops being a number after a while: the step fails, and nothing has changed.
 #[test]
 fn failed_step_changes_nothing() {
-    let good = |steps: usize| {
-        let builder = scene(SI, 0.5).structure(block(SI)).interface(friction(0.4));
-        states(&mut builder.build().unwrap(), steps).pop().unwrap()
-    };
-    let field = shake(SI, 0.5);
-    let broken = basemat::motion::FreeFieldFn::new(move |x, t| {
+    let builder = scene(SI_UNITS, 0.5).structure(block(SI_UNITS)).interface(friction(0.4));
+    let expected = states(&mut builder.build().unwrap(), 100).pop().unwrap();
+    let field = shake(SI_UNITS, 0.5);
+    let broken_field = basemat::motion::FreeFieldFn::new(move |x, t| {
         use basemat::motion::FreeField;
         if t > 100.5 * TIME_STEP { [f64::NAN; 2] } else { field.displacement(x, t) }
     });
-    let builder = scene(SI, 0.5).motion(broken).structure(block(SI)).interface(friction(0.4));
+    let builder = scene(SI_UNITS, 0.5)
+        .motion(broken_field)
+        .structure(block(SI_UNITS))
+        .interface(friction(0.4));
     let mut simulation = builder.build().unwrap();
     for _ in 0..100 {
         simulation.step().unwrap();
@@ -202,35 +229,39 @@ fn failed_step_changes_nothing() {
         let Error::Step { step: 101, source: StepError::NotFinite { .. }, .. } = error else {
             panic!("{error}")
         };
-        assert_eq!(simulation.state(), &good(100));
+        assert_eq!(simulation.state(), &expected);
     }
 }
 
-/// A law that never agrees fails in the mode search, with the step's number, residual and modes.
-#[test]
-fn step_without_modes_changes_nothing() {
-    // Restless once it slides.
-    let next = |mode: Mode, start: &PreviousContact, next: Mode| match mode {
+/// Changes the mode again and again once an element slides.
+fn never_settled(mode: Mode, start: &PreviousContact, next: Mode) -> Mode {
+    match mode {
         _ if start.state.slip.abs() <= 1e-5 || next != mode => next,
         Mode::Stick => Mode::Open,
         _ => Mode::Stick,
-    };
-    let law = InPlane(Wayward { law: friction(0.2), next });
+    }
+}
+
+/// A law whose modes never settle fails in the mode search, with the step's number, residual and modes.
+#[test]
+fn step_without_modes_changes_nothing() {
+    let law = InPlane(LawWithNextMode { law: friction(0.2), next: never_settled });
     let mut simulation: Simulation =
-        scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
-    let mut last = simulation.state().clone();
+        scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).build().unwrap();
+    let mut last_state = simulation.state().clone();
     let error = loop {
         match simulation.step() {
-            Ok(state) => last = state.clone(),
+            Ok(state) => last_state = state.clone(),
             Err(error) => break error,
         }
-        assert!(last.step < STEPS, "the base never slid");
+        assert!(last_state.step < STEP_COUNT, "the base never slid");
     };
     let Error::Step { step, time, source: StepError::Contact { modes, iterations, .. } } = error
     else {
         panic!("{error}")
     };
-    assert_eq!((step, modes.len()), (last.step + 1, last.modes.len()));
+    assert_eq!(step, last_state.step + 1);
+    assert_eq!(modes.len(), last_state.modes.len());
     assert!(iterations > 1 && (time - step as f64 * TIME_STEP).abs() < 1e-12);
-    assert_eq!(simulation.state(), &last);
+    assert_eq!(simulation.state(), &last_state);
 }

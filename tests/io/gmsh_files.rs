@@ -1,8 +1,8 @@
 //! GOAL: files that Gmsh 4.15 wrote make the models they describe.
 //! SCENE: a block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and
 //! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
-//! REFERENCE: areas, uniform strain, and the statics of the layered block; of a wall on a base of which one half has a
-//! name of its own, the coordinates.
+//! REFERENCE: areas, uniform strain, and the statics of the layered block; of a wall on a base of which one half has
+//! another name, too, the coordinates.
 
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::GmshMesh;
@@ -10,7 +10,8 @@ use basemat::structure::{FemModel, Structure, Triplets};
 
 use basemat_problems::dense::{dot, product};
 
-const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
+/// File and nodes per element.
+const GMSH_FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
 
 fn file(name: &str) -> GmshMesh {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/gmsh");
@@ -38,7 +39,7 @@ fn stiffness(model: &FemModel) -> Triplets {
 
 #[test]
 fn elements_groups_and_lines_are_those_of_the_file() {
-    for (name, nodes) in FILES {
+    for (name, nodes) in GMSH_FILES {
         let gmsh = file(name);
         assert_eq!(gmsh.surfaces(), ["lower", "upper"]);
         assert_eq!(gmsh.lines(), ["base", "roof"]);
@@ -48,7 +49,8 @@ fn elements_groups_and_lines_are_those_of_the_file() {
         for (line, height) in [("base", 0.0), ("roof", 5.0)] {
             let line: Vec<[f64; 2]> =
                 gmsh.line(line).unwrap().into_iter().map(|node| gmsh.nodes()[node]).collect();
-            let (first, last) = (line[0], line[line.len() - 1]);
+            let first = line[0];
+            let last = line[line.len() - 1];
             assert!((first[0] + 3.0).abs() < 1e-12 && (last[0] - 3.0).abs() < 1e-12);
             assert!(line.iter().all(|node| (node[1] - height).abs() < 1e-12));
             assert!(line.windows(2).all(|pair| pair[1][0] - pair[0][0] > 0.1));
@@ -63,11 +65,16 @@ fn elements_groups_and_lines_are_those_of_the_file() {
     }
 }
 
-/// The mass follows the areas, and uniform strain has the energy of both materials; its forces hold the edge and the
-/// seam alone, whatever the shape of the elements.
+/// Young's modulus times this factor of Poisson's ratio: stress over strain without lateral strain, λ + 2μ.
+fn constrained_modulus(young: f64, nu: f64) -> f64 {
+    young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+}
+
+/// The mass follows the areas, and uniform strain has the energy of both materials. Its forces are zero except at the
+/// edge and the seam, whatever the shape of the elements.
 #[test]
 fn areas_materials_and_the_order_of_nodes_are_right() {
-    for (name, _) in FILES {
+    for (name, _) in GMSH_FILES {
         let model = model(&file(name));
         let ride = model.rigid_motion(Direction::X, [0.0; 3]);
         let mut mass = Triplets::new(model.dofs());
@@ -80,8 +87,8 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
         for (node, [x, ..]) in model.mesh().nodes().iter().enumerate() {
             strain[model.dof(node, Direction::X).unwrap()] = *x;
         }
-        let modulus = |young: f64, nu: f64| young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        let expected = modulus(2.0e9, 0.25) * 12.0 + modulus(0.5e9, 0.3) * 18.0;
+        let expected =
+            constrained_modulus(2.0e9, 0.25) * 12.0 + constrained_modulus(0.5e9, 0.3) * 18.0;
         let force = product(&stiffness(&model), &strain);
         let found = dot(&strain, &force);
         assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
@@ -90,38 +97,51 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
             if inside {
                 for direction in [Direction::X, Direction::Y] {
                     let force = force[model.dof(node, direction).unwrap()];
-                    assert!(force.abs() < 1e-6 * modulus(2.0e9, 0.25), "{name} {node}: {force}");
+                    assert!(
+                        force.abs() < 1e-6 * constrained_modulus(2.0e9, 0.25),
+                        "{name} {node}: {force}"
+                    );
                 }
             }
         }
     }
 }
 
+/// The vector with zeros at the fixed degrees of freedom.
+fn without_fixed(mut vector: Vec<f64>, fixed: &[bool]) -> Vec<f64> {
+    vector.iter_mut().zip(fixed).filter(|(_, fixed)| **fixed).for_each(|(x, _)| *x = 0.0);
+    vector
+}
+
+/// The residual over the diagonal of the matrix.
+fn jacobi_preconditioned(residual: &[f64], diagonal: &[f64]) -> Vec<f64> {
+    residual.iter().zip(diagonal).map(|(r, k)| r / k).collect()
+}
+
 /// Work of a sideways weight of 1 m/s² on the block that stands on a fixed base: f·K⁻¹f by conjugate
 /// gradients.
 fn compliance(model: &FemModel) -> f64 {
     let n = model.dofs();
-    let mut held = vec![false; n];
+    let mut fixed = vec![false; n];
     for node in model.base().nodes() {
-        node.horizontal.iter().chain(&node.vertical).for_each(|&(unknown, _)| held[unknown] = true);
+        node.horizontal
+            .iter()
+            .chain(&node.vertical)
+            .for_each(|&(unknown, _)| fixed[unknown] = true);
     }
     let mut mass = Triplets::new(n);
     model.mass(&mut mass).unwrap();
     let matrix = stiffness(model);
-    let mut scale = vec![0.0; n];
-    matrix.entries().iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, k)| scale[i] += k);
-    let free = |mut vector: Vec<f64>| {
-        vector.iter_mut().zip(&held).filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
-        vector
-    };
-    let load = free(product(&mass, &model.rigid_motion(Direction::X, [0.0; 3])));
-    let precondition =
-        |r: &[f64]| -> Vec<f64> { r.iter().zip(&scale).map(|(r, k)| r / k).collect() };
-    let (mut u, mut r) = (vec![0.0; n], load.clone());
-    let mut z = precondition(&r);
+    let mut diagonal = vec![0.0; n];
+    matrix.entries().iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, k)| diagonal[i] += k);
+    let weight = product(&mass, &model.rigid_motion(Direction::X, [0.0; 3]));
+    let load = without_fixed(weight, &fixed);
+    let mut u = vec![0.0; n];
+    let mut r = load.clone();
+    let mut z = jacobi_preconditioned(&r, &diagonal);
     let mut p = z.clone();
     for _ in 0..20 * n {
-        let image = free(product(&matrix, &p));
+        let image = without_fixed(product(&matrix, &p), &fixed);
         let before = dot(&r, &z);
         let step = before / dot(&p, &image);
         u.iter_mut().zip(&p).for_each(|(u, p)| *u += step * p);
@@ -129,9 +149,9 @@ fn compliance(model: &FemModel) -> f64 {
         if dot(&r, &r) < 1e-20 * dot(&load, &load) {
             return dot(&load, &u);
         }
-        z = precondition(&r);
-        let share = dot(&r, &z) / before;
-        p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + share * *p);
+        z = jacobi_preconditioned(&r, &diagonal);
+        let ratio = dot(&r, &z) / before;
+        p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);
     }
     panic!("no convergence");
 }
@@ -141,24 +161,26 @@ fn a_static_solution_is_that_of_the_layered_block() {
     let layers = [Layer::new(2.0, 16, lower()), Layer::new(3.0, 24, upper())];
     let block = Mesh::layered_block(-3.0..3.0, 48, &layers).unwrap();
     let fine = compliance(&FemModel::on_base(block).unwrap());
-    for ((name, _), tolerance) in FILES.into_iter().zip([5e-3, 2e-3]) {
+    for ((name, _), tolerance) in GMSH_FILES.into_iter().zip([5e-3, 2e-3]) {
         let found = compliance(&model(&file(name)));
         println!("{name}: {found:.6e}, fine block {fine:.6e}, apart by {:.1e}", found / fine - 1.0);
         assert!((found / fine - 1.0).abs() < tolerance, "{name}: {found} {fine}");
     }
 }
 
-/// The left third of the base is in a group of its own, too, which Gmsh writes before the group of the base.
+/// Coordinates x of the nodes of a named line.
+fn line_coordinates(gmsh: &GmshMesh, name: &str) -> Vec<f64> {
+    gmsh.line(name).unwrap().into_iter().map(|node| gmsh.nodes()[node][0]).collect()
+}
+
+/// The left third of the base is in a second group, too, which Gmsh writes before the group of the base.
 #[test]
 fn a_curve_belongs_to_all_of_its_groups() {
     let path = basemat_problems::data_path("gmsh/base_line_in_two_groups.msh");
     let gmsh = GmshMesh::read(&path).unwrap();
-    let places = |name: &str| -> Vec<f64> {
-        gmsh.line(name).unwrap().into_iter().map(|node| gmsh.nodes()[node][0]).collect()
-    };
     assert_eq!(gmsh.lines(), ["base", "left half"]);
     for (name, count) in [("base", 7), ("left half", 3)] {
-        let found = places(name);
+        let found = line_coordinates(&gmsh, name);
         assert_eq!(found.len(), count, "{name}");
         for (k, x) in found.into_iter().enumerate() {
             assert!((x - k as f64).abs() < 1e-9, "{name}: {x}");
@@ -167,7 +189,7 @@ fn a_curve_belongs_to_all_of_its_groups() {
     let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     assert!(gmsh.mesh(&[("wall", concrete)]).is_ok());
 
-    // The second surface in a group of its own as well: one of its groups has the material, not both.
+    // The second surface in a second group as well: one of its groups has the material, not both.
     let text = std::fs::read_to_string(&path).unwrap();
     let text =
         text.replacen("2 2 0 0 6 3 0 1 12 4 2 3 4 -7", "2 2 0 0 6 3 0 2 12 13 4 2 3 4 -7", 1);
@@ -175,8 +197,11 @@ fn a_curve_belongs_to_all_of_its_groups() {
     assert_eq!(gmsh.surfaces(), ["13", "wall"]);
     assert!(gmsh.mesh(&[("wall", concrete)]).is_ok());
     let error = gmsh.mesh(&[("wall", concrete), ("13", concrete)]).unwrap_err().to_string();
-    let (line, rest) = error.split_once(": ").unwrap();
-    assert!(line.starts_with("two, line ") && rest.contains("surfaces 'wall' and '13'"), "{error}");
+    let reason = error.split_once(": ").unwrap().1;
+    assert!(
+        error.starts_with("two, line ") && reason.contains("surfaces 'wall' and '13'"),
+        "{error}"
+    );
     let error = gmsh.mesh(&[("13", concrete)]).unwrap_err().to_string();
     assert!(error.contains("material for its surface 'wall'"), "{error}");
 }

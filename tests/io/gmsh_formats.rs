@@ -10,7 +10,7 @@ use basemat::{Error, FileError};
 use basemat_problems::dense::stiffness;
 use proptest::prelude::*;
 
-const FORMS: [&str; 4] = ["text41", "binary41", "text22", "binary22"];
+const FILE_FORMS: [&str; 4] = ["text41", "binary41", "text22", "binary22"];
 
 fn bytes(form: &str) -> Vec<u8> {
     std::fs::read(basemat_problems::data_path(&format!("gmsh/formats_{form}.msh"))).unwrap()
@@ -33,7 +33,7 @@ fn model(gmsh: &GmshSpaceMesh) -> FemModel {
 
 #[test]
 fn all_forms_are_the_same_mesh() {
-    let first = read(&bytes(FORMS[0])).unwrap();
+    let first = read(&bytes(FILE_FORMS[0])).unwrap();
     assert_eq!(first.groups(0), ["head"]);
     assert_eq!(first.groups(1), ["4"]);
     assert_eq!(first.groups(2), ["base", "front wall", "walls"]);
@@ -46,30 +46,31 @@ fn all_forms_are_the_same_mesh() {
         (2, "walls", 12),
         (3, "block", 4),
     ];
-    let wanted = stiffness(&model(&first));
-    let scale = wanted.iter().flatten().fold(0.0_f64, |most, entry| most.max(entry.abs()));
-    for form in FORMS {
+    let expected = stiffness(&model(&first));
+    let scale = expected.iter().flatten().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    for form in FILE_FORMS {
         let gmsh = read(&bytes(form)).unwrap();
         assert_eq!(gmsh.nodes().len(), first.nodes().len(), "{form}");
-        for (found, wanted) in gmsh.nodes().as_flattened().iter().zip(first.nodes().as_flattened())
+        for (found, expected) in
+            gmsh.nodes().as_flattened().iter().zip(first.nodes().as_flattened())
         {
-            assert!((found - wanted).abs() < 1e-15, "{form}: {found} {wanted}");
+            assert!((found - expected).abs() < 1e-15, "{form}: {found} {expected}");
         }
         for (dimension, group, count) in counts {
             let mut cells = gmsh.cells(dimension, group).unwrap();
             assert_eq!(cells.len(), count, "{form} {group}");
             // Version 2.2 has the kinds one after the other, version 4.1 the surfaces.
-            let mut wanted = first.cells(dimension, group).unwrap();
+            let mut expected = first.cells(dimension, group).unwrap();
             cells.sort_unstable();
-            wanted.sort_unstable();
-            assert_eq!(cells, wanted, "{form} {group}");
+            expected.sort_unstable();
+            assert_eq!(cells, expected, "{form} {group}");
             assert_eq!(gmsh.groups(dimension), first.groups(dimension), "{form}");
         }
         let head = gmsh.cells(0, "head").unwrap()[0][0];
         assert_eq!(gmsh.nodes()[head], [2.0, 1.0, 1.3]);
         let found = stiffness(&model(&gmsh));
-        for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
-            assert!((found - wanted).abs() < 1e-12 * scale, "{form}: {found} {wanted}");
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-12 * scale, "{form}: {found} {expected}");
         }
         assert_eq!(model(&gmsh).mesh().elements().len(), 4 + 12 + 2);
     }
@@ -108,7 +109,7 @@ fn the_manuals_example_of_version_2_is_read() {
 /// Every part of a file that ends too early is refused.
 #[test]
 fn files_that_end_early_are_refused() {
-    for form in FORMS {
+    for form in FILE_FORMS {
         let all = bytes(form);
         let end = b"$EndElements";
         let last = all.windows(end.len()).rposition(|part| part == end).unwrap() + end.len();
@@ -132,19 +133,20 @@ fn counts_beyond_the_file_are_refused() {
         let at = all.windows(section.len()).position(|part| part == section.as_bytes()).unwrap()
             + section.len();
         for word in 0..4 {
-            let mut lying = all.clone();
-            lying[at + 8 * word..at + 8 * word + 8].copy_from_slice(&(u64::MAX - 1).to_le_bytes());
+            let mut changed = all.clone();
+            changed[at + 8 * word..at + 8 * word + 8]
+                .copy_from_slice(&(u64::MAX - 1).to_le_bytes());
             // The smallest and the largest tag are not used.
             let is_used = section == "$Entities\n" || word < 2;
-            assert_eq!(read(&lying).is_err(), is_used, "{section} {word}");
+            assert_eq!(read(&changed).is_err(), is_used, "{section} {word}");
         }
     }
     let text = String::from_utf8(bytes("text22")).unwrap();
     for section in ["$Nodes\n", "$Elements\n"] {
         let at = text.find(section).unwrap() + section.len();
         let end = at + text[at..].find('\n').unwrap();
-        let lying = format!("{}{}{}", &text[..at], u64::MAX, &text[end..]);
-        assert!(read(lying.as_bytes()).is_err());
+        let changed = format!("{}{}{}", &text[..at], u64::MAX, &text[end..]);
+        assert!(read(changed.as_bytes()).is_err());
     }
 }
 
@@ -156,7 +158,7 @@ proptest! {
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {
-        for form in FORMS {
+        for form in FILE_FORMS {
             let mut bytes = bytes(form);
             for (place, value) in &changes {
                 let at = place.index(bytes.len());
@@ -176,7 +178,7 @@ proptest! {
     }
 }
 
-/// Two squares of the geometry with nodes of their own along a common side.
+/// Two squares of the geometry with separate nodes along a common side.
 #[test]
 fn nodes_of_a_file_are_merged() {
     let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\

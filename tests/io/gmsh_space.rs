@@ -22,15 +22,15 @@ fn soft() -> Material {
     Material::new(1.0e9, 0.3, 2000.0).unwrap()
 }
 
-const UP: [f64; 3] = [0.0, 0.0, 1.0];
-const ALONG: [f64; 3] = [1.0, 0.0, 0.0];
+const Z_AXIS: [f64; 3] = [0.0, 0.0, 1.0];
+const X_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 
 fn parts() -> [(&'static str, GmshPart); 4] {
     [
         ("block", GmshPart::Solid(soft())),
         ("wall", GmshPart::Shell(concrete(), 0.25)),
-        ("column", GmshPart::Beam(concrete(), section(), ALONG)),
-        ("beam", GmshPart::Beam(concrete(), section(), UP)),
+        ("column", GmshPart::Beam(concrete(), section(), X_AXIS)),
+        ("beam", GmshPart::Beam(concrete(), section(), Z_AXIS)),
     ]
 }
 
@@ -43,42 +43,47 @@ fn elements<'a>(mesh: &'a Mesh, nodes: &'a [usize]) -> impl Iterator<Item = &'a 
     mesh.elements().filter(|element| nodes.contains(&element.nodes().len()))
 }
 
-/// Forces and moments at all nodes by `displacement` of a point, and their work on it.
+/// Forces and moments at all nodes, and their work on the displacements that cause them.
+struct ElementForces {
+    nodal: Vec<[f64; 6]>,
+    work: f64,
+}
+
+/// Forces of the elements for a `displacement` of each point.
 fn forces<'a>(
     mesh: &Mesh,
     elements: impl Iterator<Item = &'a dyn Element>,
     displacement: impl Fn([f64; 3]) -> [f64; 6],
-) -> (Vec<[f64; 6]>, f64) {
-    let mut sum = vec![[0.0; 6]; mesh.nodes().len()];
+) -> ElementForces {
+    let mut nodal = vec![[0.0; 6]; mesh.nodes().len()];
     let mut work = 0.0;
     for element in elements {
         let points: Vec<_> = element.nodes().iter().map(|&node| mesh.nodes()[node]).collect();
-        let own = element.directions().len();
-        let moved: Vec<f64> =
-            points.iter().flat_map(|&point| displacement(point)[..own].to_vec()).collect();
-        let mut matrix = vec![0.0; moved.len() * moved.len()];
+        let node_dofs = element.directions().len();
+        let displacements: Vec<f64> =
+            points.iter().flat_map(|&point| displacement(point)[..node_dofs].to_vec()).collect();
+        let mut matrix = vec![0.0; displacements.len() * displacements.len()];
         element.stiffness(&points, &mut matrix);
-        for (k, row) in matrix.chunks(moved.len()).enumerate() {
-            let force: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
-            sum[element.nodes()[k / own]][k % own] += force;
-            work += force * moved[k];
+        for (k, row) in matrix.chunks(displacements.len()).enumerate() {
+            let force: f64 = row.iter().zip(&displacements).map(|(a, b)| a * b).sum();
+            nodal[element.nodes()[k / node_dofs]][k % node_dofs] += force;
+            work += force * displacements[k];
         }
     }
-    (sum, work)
+    ElementForces { nodal, work }
 }
 
 #[test]
 fn groups_are_those_of_the_file() {
     let gmsh = file();
     let names = [0, 1, 2, 3].map(|dimension| gmsh.groups(dimension));
-    let wanted =
+    let expected =
         [&["head"][..], &["beam", "column", "edge"][..], &["base", "wall"][..], &["block"][..]];
-    assert_eq!(names, wanted);
+    assert_eq!(names, expected);
     let head = gmsh.cells(0, "head").unwrap();
     assert_eq!(gmsh.nodes()[head[0][0]], [4.0, 0.0, 3.0]);
     let base = gmsh.cells(2, "base").unwrap();
-    let at_base = |face: &Vec<usize>| face.iter().all(|&node| gmsh.nodes()[node][2] == -0.8);
-    assert!(base.len() == 16 && base.iter().all(at_base));
+    assert!(base.len() == 16 && base.iter().flatten().all(|&node| gmsh.nodes()[node][2] == -0.8));
     let mesh = gmsh.mesh(&parts()).unwrap();
     assert_eq!(mesh.nodes(), gmsh.nodes());
     let counts = [2, 3, 4, 8].map(|nodes| elements(&mesh, &[nodes]).count());
@@ -102,7 +107,7 @@ fn groups_are_those_of_the_file() {
 #[test]
 fn masses_are_volumes_times_densities() {
     let mesh = file().mesh(&parts()).unwrap();
-    for (nodes, wanted) in [
+    for (nodes, expected) in [
         (&[8][..], 2000.0 * 4.0 * 3.0 * 0.8),
         (&[3, 4], 2500.0 * 3.0 * 3.0 * 0.25),
         (&[2], 2500.0 * 0.2 * (3.0 + 4.0)),
@@ -113,27 +118,30 @@ fn masses_are_volumes_times_densities() {
             let order = element.order();
             let mut matrix = vec![0.0; order * order];
             element.mass(&points, MassKind::Lumped, &mut matrix);
-            let own = element.directions().len();
-            found += (0..points.len()).map(|k| matrix[(k * own) * (order + 1)]).sum::<f64>();
+            let node_dofs = element.directions().len();
+            found += (0..points.len()).map(|k| matrix[(k * node_dofs) * (order + 1)]).sum::<f64>();
         }
-        assert!((found / wanted - 1.0).abs() < 1e-12, "{nodes:?}: {found}, not {wanted}");
+        assert!((found / expected - 1.0).abs() < 1e-12, "{nodes:?}: {found}, not {expected}");
     }
+}
+
+/// Whether a point is within the block, not on its surface.
+fn is_inside_block([x, y, z]: [f64; 3]) -> bool {
+    x > 0.01 && x < 3.99 && y > 0.01 && y < 2.99 && z > -0.79 && z < -0.01
 }
 
 /// A uniform strain of the block of unstructured bricks: exact energy, and no force inside.
 #[test]
 fn bricks_pass_the_patch_test() {
     let mesh = file().mesh(&parts()).unwrap();
-    let (sum, work) =
+    let ElementForces { nodal, work } =
         forces(&mesh, elements(&mesh, &[8]), |[x, ..]| [1e-3 * x, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let modulus = 1.0e9 * 0.7 / (1.3 * 0.4);
-    let wanted = modulus * 1e-6 * 4.0 * 3.0 * 0.8;
-    assert!((work / wanted - 1.0).abs() < 1e-12, "{work} {wanted}");
-    let inside = |[x, y, z]: [f64; 3]| {
-        x > 0.01 && x < 3.99 && y > 0.01 && y < 2.99 && z > -0.79 && z < -0.01
-    };
+    let expected = modulus * 1e-6 * 4.0 * 3.0 * 0.8;
+    assert!((work / expected - 1.0).abs() < 1e-12, "{work} {expected}");
     let mut count = 0;
-    for (_, force) in mesh.nodes().iter().zip(&sum).filter(|(point, _)| inside(**point)) {
+    for (_, force) in mesh.nodes().iter().zip(&nodal).filter(|(point, _)| is_inside_block(**point))
+    {
         count += 1;
         assert!(force.iter().all(|force| force.abs() < 1e-9 * modulus * 1e-3), "{force:?}");
     }
@@ -145,22 +153,25 @@ fn bricks_pass_the_patch_test() {
 #[test]
 fn triangles_and_quadrilaterals_of_a_wall_pass_the_patch_test_together() {
     let mesh = file().mesh(&parts()).unwrap();
-    // The rotation of the wall about x is ½(∂u_z/∂y − ∂u_y/∂z).
-    let strain = |[_, y, z]: [f64; 3]| {
-        [0.0, 1e-3 * y + 4e-4 * z, -2e-4 * y + 5e-4 * z, 0.5 * (-2e-4 - 4e-4), 0.0, 0.0]
-    };
-    let (sum, work) = forces(&mesh, elements(&mesh, &[3, 4]), strain);
-    let (e, nu) = (30.0e9, 0.2);
-    let (a, b, shear): (f64, f64, f64) = (1e-3, 5e-4, 4e-4 - 2e-4);
+    let ElementForces { nodal, work } =
+        forces(&mesh, elements(&mesh, &[3, 4]), |[_, y, z]: [f64; 3]| {
+            // The rotation of the wall about x is ½(∂u_z/∂y − ∂u_y/∂z).
+            [0.0, 1e-3 * y + 4e-4 * z, -2e-4 * y + 5e-4 * z, 0.5 * (-2e-4 - 4e-4), 0.0, 0.0]
+        });
+    let e = 30.0e9;
+    let nu = 0.2;
+    let a: f64 = 1e-3;
+    let b: f64 = 5e-4;
+    let shear: f64 = 4e-4 - 2e-4;
     let density =
         e / (1.0 - nu * nu) * (a * a + b * b + 2.0 * nu * a * b + 0.5 * (1.0 - nu) * shear * shear);
-    let wanted = density * 9.0 * 0.25;
-    assert!((work / wanted - 1.0).abs() < 1e-12, "{work} {wanted}");
+    let expected = density * 9.0 * 0.25;
+    assert!((work / expected - 1.0).abs() < 1e-12, "{work} {expected}");
     let scale = e * 1e-3 * 0.25;
     for (_, force) in mesh
         .nodes()
         .iter()
-        .zip(&sum)
+        .zip(&nodal)
         .filter(|([x, y, z], _)| *x == 0.0 && *y > 0.01 && *y < 2.99 && *z > 0.01 && *z < 2.99)
     {
         assert!(force.iter().all(|force| force.abs() < 1e-9 * scale), "{force:?}");
@@ -173,25 +184,28 @@ fn beams_have_their_section_and_orientation() {
     let gmsh = file();
     let column = gmsh.cells(1, "column").unwrap();
     let mesh = gmsh.mesh(&parts()).unwrap();
-    let own =
-        || mesh.elements().filter(|element| column.iter().any(|line| line == element.nodes()));
-    assert_eq!(own().count(), 3);
-    let shape = |z: f64| (z * z * (9.0 - z) / 54.0, z * (6.0 - z) / 18.0);
+    let column_elements: Vec<&dyn Element> = mesh
+        .elements()
+        .filter(|element| column.iter().any(|line| line == element.nodes()))
+        .collect();
+    assert_eq!(column_elements.len(), 3);
     for (axis, moment) in [(0, 0.004), (1, 0.002)] {
-        let (_, work) = forces(&mesh, own(), |[_, _, z]| {
-            let (deflection, slope) = shape(z);
-            let mut all = [0.0; 6];
-            all[axis] = deflection;
-            all[4 - axis] = if axis == 0 { slope } else { -slope };
-            all
+        let bent = forces(&mesh, column_elements.iter().copied(), |[_, _, z]| {
+            let deflection = z * z * (9.0 - z) / 54.0;
+            let slope = z * (6.0 - z) / 18.0;
+            let mut displacement = [0.0; 6];
+            displacement[axis] = deflection;
+            displacement[4 - axis] = if axis == 0 { slope } else { -slope };
+            displacement
         });
-        let wanted = 3.0 * 30.0e9 * moment / 27.0;
-        assert!((work / wanted - 1.0).abs() < 1e-12, "{axis}: {work} {wanted}");
+        let work = bent.work;
+        let expected = 3.0 * 30.0e9 * moment / 27.0;
+        assert!((work / expected - 1.0).abs() < 1e-12, "{axis}: {work} {expected}");
     }
 }
 
 /// A brick, a shell on its upper face, a line over it, and a line of the geometry on an edge.
-const BRICK: &str = "$MeshFormat
+const BRICK_FILE: &str = "$MeshFormat
 4.1 0 8
 $EndMeshFormat
 $PhysicalNames
@@ -243,9 +257,9 @@ $Elements
 $EndElements
 ";
 
-fn small() -> [(&'static str, GmshPart); 3] {
+fn brick_parts() -> [(&'static str, GmshPart); 3] {
     [
-        ("mast", GmshPart::Beam(concrete(), section(), ALONG)),
+        ("mast", GmshPart::Beam(concrete(), section(), X_AXIS)),
         ("slab", GmshPart::Shell(concrete(), 0.2)),
         ("block", GmshPart::Solid(concrete())),
     ]
@@ -262,63 +276,76 @@ fn fault<T: std::fmt::Debug>(result: basemat::Result<T>) -> (usize, FileFault) {
     }
 }
 
-/// Line and fault of a mesh with these parts.
-fn refusal(text: &str, parts: &[(&str, GmshPart)]) -> (usize, String) {
+/// Where and why parts of a mesh are refused.
+struct PartRefusal {
+    line: usize,
+    text: String,
+}
+
+/// Refusal of the mesh of `text` with these parts.
+fn refusal(text: &str, parts: &[(&str, GmshPart)]) -> PartRefusal {
     let (line, fault) = fault(read(text).unwrap().mesh(parts));
-    (line, fault.to_string())
+    PartRefusal { line, text: fault.to_string() }
 }
 
 #[test]
 fn bricks_are_turned_right_side_out() {
-    let mesh = read(BRICK).unwrap().mesh(&small()).unwrap();
-    let turned = BRICK.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
-    let back = read(&turned).unwrap().mesh(&small()).unwrap();
-    let nodes = |mesh: &Mesh| mesh.elements().last().unwrap().nodes().to_vec();
-    assert_eq!(nodes(&mesh), [0, 1, 2, 3, 4, 5, 6, 7]);
-    assert_eq!(nodes(&back), nodes(&mesh));
+    let mesh = read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap();
+    let turned = BRICK_FILE.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
+    let back = read(&turned).unwrap().mesh(&brick_parts()).unwrap();
+    let last_nodes = mesh.elements().last().unwrap().nodes();
+    assert_eq!(last_nodes, [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(back.elements().last().unwrap().nodes(), last_nodes);
 }
 
 #[test]
 fn every_element_has_one_part_or_is_a_side() {
     // The line on the edge needs none.
-    assert_eq!(read(BRICK).unwrap().mesh(&small()).unwrap().elements().len(), 3);
-    let (line, text) = refusal(BRICK, &small()[1..]);
+    assert_eq!(read(BRICK_FILE).unwrap().mesh(&brick_parts()).unwrap().elements().len(), 3);
+    let PartRefusal { line, text } = refusal(BRICK_FILE, &brick_parts()[1..]);
     assert!(line == 43 && text.contains("part for line 1 of the group 'mast'"), "{line} {text}");
-    let left_out = [&small()[1..], &[("mast", GmshPart::LeftOut)]].concat();
-    assert_eq!(read(BRICK).unwrap().mesh(&left_out).unwrap().elements().len(), 2);
+    let left_out = [&brick_parts()[1..], &[("mast", GmshPart::LeftOut)]].concat();
+    assert_eq!(read(BRICK_FILE).unwrap().mesh(&left_out).unwrap().elements().len(), 2);
     // The slab is a face of the brick.
-    let without_slab = [small()[0], small()[2]];
-    assert_eq!(read(BRICK).unwrap().mesh(&without_slab).unwrap().elements().len(), 2);
-    let (line, text) = refusal(BRICK, &small()[..2]);
+    let without_slab = [brick_parts()[0], brick_parts()[2]];
+    assert_eq!(read(BRICK_FILE).unwrap().mesh(&without_slab).unwrap().elements().len(), 2);
+    let PartRefusal { line, text } = refusal(BRICK_FILE, &brick_parts()[..2]);
     assert!(line == 49 && text.contains("brick 4 of the group 'block'"), "{line} {text}");
-    let two_groups = BRICK.replacen("2 2 1 1 3 0", "2 2 1 2 3 9 0", 1);
-    let two = [&small()[..], &[("9", GmshPart::Shell(soft(), 0.1))]].concat();
-    let (line, text) = refusal(&two_groups, &two);
+    let two_groups = BRICK_FILE.replacen("2 2 1 1 3 0", "2 2 1 2 3 9 0", 1);
+    let two = [&brick_parts()[..], &[("9", GmshPart::Shell(soft(), 0.1))]].concat();
+    let PartRefusal { line, text } = refusal(&two_groups, &two);
     assert!(line == 47 && text.contains("quadrilateral 3, in 'slab' and '9',"), "{text}");
-    let (_, text) = refusal(BRICK, &[&small()[..], &small()[..1]].concat());
+    let text = refusal(BRICK_FILE, &[&brick_parts()[..], &brick_parts()[..1]].concat()).text;
     assert!(text.contains("part of group 'mast' is given twice"), "{text}");
-    let (_, text) = refusal(BRICK, &[("mast", GmshPart::Shell(concrete(), 0.2))]);
+    let text = refusal(BRICK_FILE, &[("mast", GmshPart::Shell(concrete(), 0.2))]).text;
     assert!(text.contains("there is no surface 'mast'"), "{text}");
-    assert!(fault(read(BRICK).unwrap().cells(3, "slab")).1.to_string().contains("volume 'slab'"));
+    assert!(
+        fault(read(BRICK_FILE).unwrap().cells(3, "slab")).1.to_string().contains("volume 'slab'")
+    );
 }
 
 #[test]
 fn elements_that_cannot_be_right_are_named_with_their_line() {
-    let along = [small()[1], small()[2], ("mast", GmshPart::Beam(concrete(), section(), UP))];
-    let (line, text) = refusal(BRICK, &along);
+    let along = [
+        brick_parts()[1],
+        brick_parts()[2],
+        ("mast", GmshPart::Beam(concrete(), section(), Z_AXIS)),
+    ];
+    let PartRefusal { line, text } = refusal(BRICK_FILE, &along);
     assert!(line == 43 && text.starts_with("element 1: beam between nodes 4 and 8"), "{text}");
-    let crossed = BRICK.replacen("3 5 6 7 8", "3 5 7 6 8", 1);
-    let (line, text) = refusal(&crossed, &small());
+    let crossed = BRICK_FILE.replacen("3 5 6 7 8", "3 5 7 6 8", 1);
+    let PartRefusal { line, text } = refusal(&crossed, &brick_parts());
     assert!(line == 47 && text.starts_with("element 3: shell"), "{text}");
-    let flat = BRICK.replacen("0 0 1\n", "0 0 -1\n", 1);
-    let (line, text) = refusal(&flat, &small());
+    let flat = BRICK_FILE.replacen("0 0 1\n", "0 0 -1\n", 1);
+    let PartRefusal { line, text } = refusal(&flat, &brick_parts());
     assert!(line == 49 && text.starts_with("element 4: brick"), "{text}");
-    let thin = [small()[0], small()[2], ("slab", GmshPart::Shell(concrete(), 0.0))];
-    let (line, text) = refusal(BRICK, &thin);
+    let thin = [brick_parts()[0], brick_parts()[2], ("slab", GmshPart::Shell(concrete(), 0.0))];
+    let PartRefusal { line, text } = refusal(BRICK_FILE, &thin);
     assert!(line == 47 && text.contains("thickness of a shell is 0"), "{text}");
-    let twice = BRICK.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
-    let given = value("quadrilateral of nodes 7 8 5 6", "given twice", "given once");
-    assert_eq!(fault(read(&twice.replacen("4 4 1 4", "4 5 1 9", 1))), (48, given));
+    let twice = BRICK_FILE.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
+    let fault_of_twin =
+        value("quadrilateral of nodes 7 8 5 6", "fault_of_twin twice", "fault_of_twin once");
+    assert_eq!(fault(read(&twice.replacen("4 4 1 4", "4 5 1 9", 1))), (48, fault_of_twin));
 }
 
 #[test]
@@ -331,38 +358,41 @@ fn elements_that_are_not_read_are_named_and_counted() {
         (92, "12 elements (type 92)", "of the first order"),
     ];
     for (kind, name, remedy) in kinds {
-        let text = BRICK.replacen("3 1 5 1\n", &format!("3 1 {kind} 12\n"), 1);
-        let (line, FileFault::Format { found, needed }) = fault(read(&text)) else { panic!() };
-        assert_eq!((line, &found[..]), (48, name));
+        let text = BRICK_FILE.replacen("3 1 5 1\n", &format!("3 1 {kind} 12\n"), 1);
+        let refusal = fault(read(&text));
+        let FileFault::Format { found, needed } = refusal.1 else { panic!() };
+        assert_eq!((refusal.0, &found[..]), (48, name));
         assert!(needed.ends_with(remedy), "{needed}");
     }
+}
+
+/// The brick's file with a point above it that belongs to `groups`.
+fn brick_with_point(groups: &str) -> GmshSpaceMesh {
+    let text = BRICK_FILE.replacen("0 2 1 1\n", &format!("1 2 1 1\n1 0 0 -9 {groups}\n"), 1);
+    let text = text.replacen("1 9 1 9\n3 1 0 9", "1 10 1 10\n3 1 0 10\n99", 1);
+    let text = text.replacen("0 0 0\n", "0 0 -9\n0 0 0\n", 1);
+    read(&text.replacen("4 4 1 4\n", "5 5 1 5\n0 1 15 1\n5 99\n", 1)).unwrap()
 }
 
 /// Points without a group, such as centres of arcs, are left out; points of a group are nodes.
 #[test]
 fn points_of_groups_are_nodes() {
-    let with = |groups: &str| {
-        let text = BRICK.replacen("0 2 1 1\n", &format!("1 2 1 1\n1 0 0 -9 {groups}\n"), 1);
-        let text = text.replacen("1 9 1 9\n3 1 0 9", "1 10 1 10\n3 1 0 10\n99", 1);
-        let text = text.replacen("0 0 0\n", "0 0 -9\n0 0 0\n", 1);
-        read(&text.replacen("4 4 1 4\n", "5 5 1 5\n0 1 15 1\n5 99\n", 1)).unwrap()
-    };
-    assert_eq!(with("0").nodes(), read(BRICK).unwrap().nodes());
-    let named = with("1 6");
+    assert_eq!(brick_with_point("0").nodes(), read(BRICK_FILE).unwrap().nodes());
+    let named = brick_with_point("1 6");
     assert_eq!(named.nodes()[named.cells(0, "6").unwrap()[0][0]], [0.0, 0.0, -9.0]);
-    assert!(named.mesh(&small()).is_ok());
+    assert!(named.mesh(&brick_parts()).is_ok());
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn any_damage_is_an_error_or_a_mesh(place in 0..BRICK.len(), byte: u8, keep in 0..BRICK.len()) {
-        let mut bytes = BRICK.as_bytes().to_vec();
+    fn any_damage_is_an_error_or_a_mesh(place in 0..BRICK_FILE.len(), byte: u8, keep in 0..BRICK_FILE.len()) {
+        let mut bytes = BRICK_FILE.as_bytes().to_vec();
         bytes[place] = byte;
         for bytes in [&bytes[..], &bytes[..keep]] {
             if let Ok(gmsh) = GmshSpaceMesh::from_reader("damaged", bytes) {
-                let _ = gmsh.mesh(&small());
+                let _ = gmsh.mesh(&brick_parts());
                 let _ = gmsh.cells(2, "slab");
             }
         }

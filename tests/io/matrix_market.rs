@@ -8,8 +8,7 @@ use basemat::{Error, FileError, FileFault, MemoryError};
 use basemat_problems::faults::{count, not_a_number, value};
 use basemat_problems::random::Random;
 
-/// Dense sums of the entries.
-/// All entries, row by row.
+/// All entries, row by row; repeated entries are summed.
 fn dense(matrix: &Triplets) -> Vec<f64> {
     basemat_problems::dense::dense(matrix).concat()
 }
@@ -31,23 +30,24 @@ fn parse(text: &str) -> basemat::Result<Triplets> {
 /// zero, two of them, and the sum of the logarithms of all.
 #[test]
 fn files_of_scipy_mean_the_same() {
-    const GENERAL: (usize, usize, [f64; 2], f64) =
+    // Order, count, entries above and below the diagonal, sum of logarithms.
+    const GENERAL_MATRIX: (usize, usize, [f64; 2], f64) =
         (6, 21, [-255_566.503_131_418_17, 0.0], 98.743_898_183_749);
-    const SYMMETRIC: (usize, usize, [f64; 2], f64) =
+    const SYMMETRIC_MATRIX: (usize, usize, [f64; 2], f64) =
         (6, 30, [-255_566.505_151_404_3, 1.002_313_601_275_691_3e-9], 134.547_795_023_493_85);
     for (name, (order, count, [above, below], logarithms)) in [
-        ("coordinate_general", GENERAL),
-        ("array_general", GENERAL),
-        ("coordinate_symmetric", SYMMETRIC),
-        ("array_symmetric", SYMMETRIC),
+        ("coordinate_general", GENERAL_MATRIX),
+        ("array_general", GENERAL_MATRIX),
+        ("coordinate_symmetric", SYMMETRIC_MATRIX),
+        ("array_symmetric", SYMMETRIC_MATRIX),
         ("integer_symmetric", (3, 7, [-1.0, -1.0], 2.079_441_541_679_835_7)),
     ] {
         let values = dense(&data(name));
         assert_eq!(values.len(), order * order);
-        let there: Vec<f64> = values.iter().copied().filter(|value| *value != 0.0).collect();
-        assert_eq!(there.len(), count, "{name}");
+        let nonzero: Vec<f64> = values.iter().copied().filter(|value| *value != 0.0).collect();
+        assert_eq!(nonzero.len(), count, "{name}");
         assert_eq!((values[1], values[order * order - 2]), (above, below), "{name}");
-        let sum: f64 = there.iter().map(|value| value.abs().ln()).sum();
+        let sum: f64 = nonzero.iter().map(|value| value.abs().ln()).sum();
         assert!((sum - logarithms).abs() < 1e-10, "{name}: {sum}");
     }
     assert_eq!(dense(&data("coordinate_general")), dense(&data("array_general")));
@@ -60,7 +60,8 @@ fn round_trips_keep_every_bit() {
     for symmetric in [false, true] {
         let mut matrix = Triplets::new(40);
         for _ in 0..300 {
-            let [i, j] = [0; 2].map(|_| (random.bits() % 40) as usize);
+            let i = (random.bits() % 40) as usize;
+            let j = (random.bits() % 40) as usize;
             let value = random.within(-1.0, 1.0) * random.log_within(1e-300, 1e300);
             matrix.add(i, j, value);
             if symmetric && i != j {
@@ -102,67 +103,99 @@ fn a_byte_order_mark_is_passed_over() {
     assert!(parse(&text.replace("2.0", "\u{feff}2.0")).is_err());
 }
 
+/// File of one entry.
+fn file_of_one(value: &str) -> String {
+    format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 {value}\n")
+}
+
 #[test]
 fn numbers_are_read_wholly_or_refused() {
-    let with = |value: &str| {
-        format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 {value}\n")
-    };
     for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
-        assert_eq!(dense(&parse(&with(two)).unwrap()), [2.0], "{two}");
+        assert_eq!(dense(&parse(&file_of_one(two)).unwrap()), [2.0], "{two}");
     }
     for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
     {
-        let error = parse(&with(bad)).unwrap_err();
+        let error = parse(&file_of_one(bad)).unwrap_err();
         assert_eq!(error, fault(3, not_a_number(bad)), "{bad}");
     }
     for bad in ["1,0", "1.0", "1D0", "-1", "1e0"] {
-        let text = with("2").replace("1 1 2", &format!("{bad} 1 2"));
-        let whole = value("field", &format!("'{bad}'"), "a whole number");
-        let index = value("index", bad, "from 1 to 1");
+        let text = file_of_one("2").replace("1 1 2", &format!("{bad} 1 2"));
+        let not_whole = fault(3, not_whole(bad));
+        let not_index = fault(3, value("index", bad, "from 1 to 1"));
         let error = parse(&text).unwrap_err();
-        assert!([fault(3, whole), fault(3, index)].contains(&error), "{bad}: {error}");
+        assert!([not_whole, not_index].contains(&error), "{bad}: {error}");
     }
+}
+
+/// File of the general matrix whose lines after the header are `lines`.
+fn coordinate(lines: &str) -> String {
+    format!("%%MatrixMarket matrix coordinate real general\n{lines}")
+}
+
+/// File of the symmetric matrix whose lines after the header are `lines`.
+fn symmetric(lines: &str) -> String {
+    format!("%%MatrixMarket matrix coordinate real symmetric\n{lines}")
+}
+
+/// File of the dense matrix whose lines after the header are `lines`.
+fn array(lines: &str) -> String {
+    format!("%%MatrixMarket matrix array real general\n{lines}")
+}
+
+/// File of a matrix without entries whose header ends with `text`.
+fn header(text: &str) -> String {
+    format!("%%MatrixMarket {text}\n2 2 0\n")
+}
+
+fn not_whole(text: &str) -> FileFault {
+    value("field", &format!("'{text}'"), "a whole number")
+}
+
+fn wrong_fields(found: usize, needed: &str) -> FileFault {
+    count("fields", found, needed)
+}
+
+fn wrong_format(found: &str, needed: &str) -> FileFault {
+    FileFault::Format { found: found.to_owned(), needed: needed.to_owned() }
+}
+
+fn wrong_header(found: &str) -> FileFault {
+    wrong_format(found, "'%%MatrixMarket matrix <format> <field> <symmetry>'")
+}
+
+fn unsupported(text: &str) -> FileFault {
+    wrong_format(text, "a real matrix, coordinate or array, general or symmetric")
+}
+
+fn wrong_index(found: &str) -> FileFault {
+    value("index", found, "from 1 to 2")
+}
+
+fn wrong_entries(found: usize, needed: usize) -> FileFault {
+    count("entries", found, &format!("{needed}, as the size line states"))
+}
+
+/// Fault of a matrix of `rows` rows that needs so many bytes.
+fn too_large(rows: f64, bytes: f64) -> FileFault {
+    FileFault::Memory(MemoryError {
+        quantity: "rows of the matrix",
+        asked: rows,
+        needed: bytes,
+        limit: 8.0 * 1024.0_f64.powi(3),
+        remedy: "for one part of a model",
+    })
 }
 
 #[test]
 fn bad_files_are_refused_with_line_and_reason() {
-    let coordinate = |rest: &str| format!("%%MatrixMarket matrix coordinate real general\n{rest}");
-    let symmetric = |rest: &str| format!("%%MatrixMarket matrix coordinate real symmetric\n{rest}");
-    let array = |rest: &str| format!("%%MatrixMarket matrix array real general\n{rest}");
-    let header = |text: &str| format!("%%MatrixMarket {text}\n2 2 0\n");
-    let not = not_a_number;
-    let not_whole = |text: &str| value("field", &format!("'{text}'"), "a whole number");
-    let fields = |found, needed| count("fields", found, needed);
-    let format = |found: &str, needed: &str| FileFault::Format {
-        found: found.to_owned(),
-        needed: needed.to_owned(),
-    };
-    let head = |found: &str| format(found, "'%%MatrixMarket matrix <format> <field> <symmetry>'");
-    let index = |found| value("index", found, "from 1 to 2");
-    let unsupported =
-        |text: &str| format(text, "a real matrix, coordinate or array, general or symmetric");
-    let entries = |found, needed: usize| {
-        count("entries", found, &format!("{needed}, as the size line states"))
-    };
-    let too_large = |asked, needed| {
-        let quantity = "rows of the matrix";
-        let remedy = "`set_memory_limit` allows more";
-        FileFault::Memory(MemoryError {
-            quantity,
-            asked,
-            needed,
-            limit: 4.0 * 1024.0_f64.powi(3),
-            remedy,
-        })
-    };
     let long = "1".repeat(70_000);
     for (text, line, reason) in [
         (String::new(), 0, FileFault::Missing { quantity: "header".into() }),
-        ("1 2 3\n".into(), 1, head("1 2 3")),
+        ("1 2 3\n".into(), 1, wrong_header("1 2 3")),
         (
             "%%MatrixMarket matrix coordinate real\n".into(),
             1,
-            head("%%MatrixMarket matrix coordinate real"),
+            wrong_header("%%MatrixMarket matrix coordinate real"),
         ),
         (header("vector coordinate real general"), 1, unsupported("vector")),
         (header("matrix sparse real general"), 1, unsupported("sparse")),
@@ -170,21 +203,21 @@ fn bad_files_are_refused_with_line_and_reason() {
         (header("matrix coordinate pattern general"), 1, unsupported("pattern")),
         (header("matrix coordinate real hermitian"), 1, unsupported("hermitian")),
         (header("matrix coordinate real skew-symmetric"), 1, unsupported("skew-symmetric")),
-        (coordinate("% only a comment\n"), 2, fields(0, "3")),
-        (coordinate("2 2\n"), 2, fields(2, "3")),
+        (coordinate("% only a comment\n"), 2, wrong_fields(0, "3")),
+        (coordinate("2 2\n"), 2, wrong_fields(2, "3")),
         (coordinate("2 -2 1\n"), 2, not_whole("-2")),
         (coordinate("2 2 x\n"), 2, not_whole("x")),
         (coordinate("2 3 1\n"), 2, value("size of the matrix", "2 x 3", "square")),
-        (coordinate("2 2 1\n1 1\n"), 3, fields(2, "3")),
-        (coordinate("2 2 1\n1 1 1 0\n"), 3, fields(4, "3")),
-        (coordinate("2 2 1\n1 1 nan\n"), 3, not("nan")),
-        (coordinate("2 2 1\n1 1 1e999\n"), 3, not("1e999")),
+        (coordinate("2 2 1\n1 1\n"), 3, wrong_fields(2, "3")),
+        (coordinate("2 2 1\n1 1 1 0\n"), 3, wrong_fields(4, "3")),
+        (coordinate("2 2 1\n1 1 nan\n"), 3, not_a_number("nan")),
+        (coordinate("2 2 1\n1 1 1e999\n"), 3, not_a_number("1e999")),
         (coordinate("2 2 1\n1.5 1 1\n"), 3, not_whole("1.5")),
-        (coordinate("2 2 1\n0 1 1\n"), 3, index("0")),
-        (coordinate("2 2 1\n1 3 1\n"), 3, index("3")),
-        (coordinate("2 2 3\n1 1 1\n%\n2 2 1\n"), 5, entries(2, 3)),
-        (coordinate("2 2 1\n1 1 1\n\n2 2 1\n"), 5, entries(2, 1)),
-        (coordinate("2 2 18446744073709551615\n1 1 1\n"), 3, entries(1, usize::MAX)),
+        (coordinate("2 2 1\n0 1 1\n"), 3, wrong_index("0")),
+        (coordinate("2 2 1\n1 3 1\n"), 3, wrong_index("3")),
+        (coordinate("2 2 3\n1 1 1\n%\n2 2 1\n"), 5, wrong_entries(2, 3)),
+        (coordinate("2 2 1\n1 1 1\n\n2 2 1\n"), 5, wrong_entries(2, 1)),
+        (coordinate("2 2 18446744073709551615\n1 1 1\n"), 3, wrong_entries(1, usize::MAX)),
         (
             coordinate("99999999999999 99999999999999 0\n"),
             2,
@@ -197,11 +230,11 @@ fn bad_files_are_refused_with_line_and_reason() {
             3,
             value("entry", "(1, 2)", "on or below the diagonal of a symmetric matrix"),
         ),
-        (array("2 2\n1\n2\n3\n"), 5, entries(3, 4)),
-        (array("2 2\n1\n2\n3\n4\n5\n"), 7, entries(5, 4)),
-        (array("2 2\n1 2\n"), 3, fields(2, "1")),
+        (array("2 2\n1\n2\n3\n"), 5, wrong_entries(3, 4)),
+        (array("2 2\n1\n2\n3\n4\n5\n"), 7, wrong_entries(5, 4)),
+        (array("2 2\n1 2\n"), 3, wrong_fields(2, "1")),
         (coordinate(&long), 2, value("length of the line", "65536 bytes or more", "less")),
-        (coordinate("\u{fffd}\n"), 2, fields(1, "3")),
+        (coordinate("\u{fffd}\n"), 2, wrong_fields(1, "3")),
     ] {
         assert_eq!(
             parse(&text).unwrap_err(),

@@ -16,7 +16,7 @@ use basemat_problems::faults::is_unwritable;
 
 use basemat_problems::scenes::{self, SI, block, friction, scene, tower};
 
-/// A folder of its own for each test, emptied before.
+/// An empty folder for each test.
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("vtk_{name}"));
     let _ = std::fs::remove_dir_all(&path);
@@ -46,39 +46,52 @@ pub(super) fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
     found
 }
 
-fn recorded() -> (Vec<State>, TimeSeries, DeformedShape) {
+/// A run of the tower: its states, what the recorder has, and the shape that moves.
+struct RecordedTower {
+    states: Vec<State>,
+    time_series: TimeSeries,
+    shape: DeformedShape,
+}
+
+fn recorded_tower() -> RecordedTower {
     let tower = tower(SI, None);
     let shape = DeformedShape::of_model(&tower);
     let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
     let recorder = Recorder::new().contact(40).motion(40);
     let (time_series, _, states) = scenes::recorded(&mut simulation, recorder, 200);
-    (states, time_series, shape)
+    RecordedTower { states, time_series, shape }
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+/// Value of `key` in a line of XML.
+fn attribute<'a>(line: &'a str, key: &str) -> &'a str {
+    let after_key = line.split(&format!("{key}=\"")).nth(1).unwrap();
+    after_key.split('"').next().unwrap()
 }
 
 #[test]
 fn a_series_holds_the_states() {
-    let (states, time_series, shape) = recorded();
+    let RecordedTower { states, time_series, shape } = recorded_tower();
     let folder = folder("series");
     assert_eq!(paraview::write_series(&folder, "tower", &shape, &time_series), Ok(12));
-    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
 
-    let collection = read("tower.pvd");
+    let collection = read(&folder, "tower.pvd");
     let entries: Vec<&str> = collection.lines().filter(|l| l.contains("<DataSet")).collect();
     assert_eq!(entries.len(), 12);
     for (k, entry) in entries.iter().enumerate() {
-        let value = |key: &str| {
-            let rest = entry.split(&format!("{key}=\"")).nth(1).unwrap();
-            rest.split('"').next().unwrap().to_owned()
-        };
-        assert_eq!(value("timestep").parse(), Ok(states[40 * (k / 2)].time));
-        assert_eq!(value("part").parse(), Ok(k % 2));
-        assert!(folder.join(value("file")).exists());
+        assert_eq!(attribute(entry, "timestep").parse(), Ok(states[40 * (k / 2)].time));
+        assert_eq!(attribute(entry, "part").parse(), Ok(k % 2));
+        assert!(folder.join(attribute(entry, "file")).exists());
     }
 
     for frame in 0..6 {
         let state = &states[40 * frame];
-        let grid = arrays(&read(&format!("tower_{frame:04}.vtu")));
-        let (points, cells) = (shape.points().len(), shape.cells().len());
+        let grid = arrays(&read(&folder, &format!("tower_{frame:04}.vtu")));
+        let points = shape.points().len();
+        let cells = shape.cells().len();
         assert_eq!((points, cells), (49, 36));
         assert_eq!(grid["points"].len(), 3 * points);
         assert_eq!(grid["offsets"], (1..=cells).map(|k| 4.0 * k as f64).collect::<Vec<_>>());
@@ -87,25 +100,25 @@ fn a_series_holds_the_states() {
         for (name, values) in
             [("displacement", state.displacement()), ("velocity", state.velocity())]
         {
-            for (found, known) in grid[name].chunks(3).zip(values.chunks(2)) {
-                assert_eq!(found, [known[0], known[1], 0.0]);
+            for (found, expected) in grid[name].chunks(3).zip(values.chunks(2)) {
+                assert_eq!(found, [expected[0], expected[1], 0.0]);
             }
         }
-        let base = arrays(&read(&format!("tower_base_{frame:04}.vtu")));
+        let base = arrays(&read(&folder, &format!("tower_base_{frame:04}.vtu")));
         let pressure: Vec<f64> = state.contact.iter().map(|c| c.pressure).collect();
         assert_eq!(base["pressure"], pressure);
         let gap: Vec<f64> = state.contact.iter().map(|c| c.gap).collect();
         assert_eq!(base["gap"], gap);
         let open: Vec<bool> = base["mode"].iter().map(|&mode| mode == 3.0).collect();
-        let known: Vec<bool> = state.modes.iter().map(|&mode| mode == Mode::Open).collect();
-        assert_eq!(open, known);
+        let expected: Vec<bool> = state.modes.iter().map(|&mode| mode == Mode::Open).collect();
+        assert_eq!(open, expected);
         assert_eq!(base["types"], vec![3.0; state.modes.len()]);
     }
 }
 
 #[test]
 fn deformed_shapes_move_as_their_structures() {
-    // A building turns about the middle of its base; its floors keep their own sway.
+    // A building turns about the middle of its base; its floors sway relative to it.
     let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
     let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();
     let building = building.centered_at(7.0).unwrap();
@@ -113,8 +126,8 @@ fn deformed_shapes_move_as_their_structures() {
     assert_eq!(shape.points()[5].position, [12.0, 7.0]);
     assert_eq!(shape.cells().len(), 3 + 4);
     let moved = shape.displacements(&[0.1, 0.2, 0.01, 0.3, 0.4]).unwrap();
-    for (found, known) in moved[5].iter().zip([0.4, 0.2 + 0.05]) {
-        assert!((found - known).abs() < 1e-15);
+    for (found, expected) in moved[5].iter().zip([0.4, 0.2 + 0.05]) {
+        assert!((found - expected).abs() < 1e-15);
     }
     assert_eq!(moved[0][0], 0.1);
     assert_eq!(moved[2][0], 0.3);
@@ -137,13 +150,15 @@ fn deformed_shapes_move_as_their_structures() {
     // Followers of a rigid link go with it.
     let mut mesh = Mesh::new();
     let places = [[0.0, 0.0], [0.0, 3.0], [-2.0, 0.0], [2.0, 0.0]];
-    let [foot, top, left, right] = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
-    mesh.add(Beam::new([foot, top], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
-    for node in [left, right] {
+    let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
+    let foot = nodes[0];
+    let edges = [nodes[2], nodes[3]];
+    mesh.add(Beam::new([foot, nodes[1]], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    for node in edges {
         mesh.add(Beam::new([foot, node], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
     }
-    let model = FemModel::new(mesh, &[left, right]).unwrap();
-    let model = model.with_rigid_link(foot, &[left, right]).unwrap();
+    let model = FemModel::new(mesh, &edges).unwrap();
+    let model = model.with_rigid_link(foot, &edges).unwrap();
     let shift = model.rigid_motion(Direction::X, [0.0; 3]);
     let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
     assert_eq!(moved, [[1.0, 0.0, 0.0]; 4]);
@@ -151,28 +166,29 @@ fn deformed_shapes_move_as_their_structures() {
     // P from a block: a rigid turn leaves all distances, to second order.
     let shape = DeformedShape::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
     let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
-    let at = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
-    let distance = (at(0)[0] - at(2)[0]).hypot(at(0)[1] - at(2)[1]);
+    let moved_point = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
+    let distance =
+        (moved_point(0)[0] - moved_point(2)[0]).hypot(moved_point(0)[1] - moved_point(2)[1]);
     assert!((distance - 52.0_f64.sqrt()).abs() < 1e-9);
 }
 
 #[test]
 fn bad_requests_are_errors() {
-    let (_, time_series, shape) = recorded();
+    let RecordedTower { time_series, shape, .. } = recorded_tower();
     let folder = folder("errors");
-    let series = |name, shape: &DeformedShape, time_series| {
-        paraview::write_series(&folder, name, shape, time_series).unwrap_err()
-    };
     for name in ["", "a/b", "..", "a b", "\"x\""] {
-        assert!(matches!(series(name, &shape, &time_series), Error::Scene { .. }));
+        let error = paraview::write_series(&folder, name, &shape, &time_series).unwrap_err();
+        assert!(matches!(error, Error::Scene { .. }));
     }
     // More degrees of freedom than the run has.
     let point = ShapePoint { position: [0.0; 2], horizontal: 98.into(), ..ShapePoint::default() };
     let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
-    assert!(matches!(series("a", &other, &time_series), Error::Index { index: 98, bound: 98, .. }));
+    let error = paraview::write_series(&folder, "a", &other, &time_series).unwrap_err();
+    assert!(matches!(error, Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
     let without = Recorder::new().start(&simulation).unwrap();
-    assert!(matches!(series("a", &shape, &without), Error::Scene { .. }));
+    let error = paraview::write_series(&folder, "a", &shape, &without).unwrap_err();
+    assert!(matches!(error, Error::Scene { .. }));
     // A folder that cannot be made.
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("file"), "").unwrap();

@@ -1,5 +1,6 @@
 //! Models in space as ParaView's cells: bricks, shells, bars, masses, and a solid of another form.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use basemat::bem::SpringGround;
@@ -34,6 +35,15 @@ impl Element for Tetrahedron {
     }
 }
 
+/// Vector from point `a` to point `b`.
+fn between(points: &[[f64; 3]], a: usize, b: usize) -> [f64; 3] {
+    [0, 1, 2].map(|k| points[b][k] - points[a][k])
+}
+
+fn grid_of(folder: &Path, name: &str) -> BTreeMap<String, Vec<f64>> {
+    arrays(&std::fs::read_to_string(folder.join(name)).unwrap())
+}
+
 /// Two bricks on the ground at z = 5, the second one lying on its side; on them a slab, a wall, a column with a rigid
 /// arm, and a tetrahedron. Nodes: bottom 0 to 5, top 6 to 11, wall 12 and 13, head 14, arm 15, tip 16.
 fn model() -> FemModel {
@@ -41,9 +51,9 @@ fn model() -> FemModel {
     let mut mesh = Mesh::in_space();
     let grid = mesh.add_grid(2, 3, |i, j| [2.0 * j as f64, 3.0 * i as f64, 5.0]).unwrap();
     let bricks = grid.extrude(&mut mesh, &[1.0]).unwrap();
-    let [a, b, c, d, e, f, g, h] = bricks[1];
+    let second = bricks[1];
     mesh.add(Hex8::new(bricks[0], concrete)).unwrap();
-    mesh.add(Hex8::new([a, d, h, e, b, c, g, f], concrete)).unwrap();
+    mesh.add(Hex8::new([0, 3, 7, 4, 1, 2, 6, 5].map(|corner| second[corner]), concrete)).unwrap();
     mesh.add(Shell::new(vec![6, 7, 10, 9], concrete, 0.4).unwrap()).unwrap();
     for x in [0.0, 2.0] {
         mesh.add_node_at([x, 0.0, 9.0]).unwrap();
@@ -64,9 +74,31 @@ fn model() -> FemModel {
 
 /// Volume of a brick of VTK: positive if its second side lies where the first one faces, counter-clockwise.
 fn volume(points: &[[f64; 3]]) -> f64 {
-    let along = |a: usize, b: usize| [0, 1, 2].map(|k| points[b][k] - points[a][k]);
-    let ([a, b, c], [d, e, f], [g, h, i]) = (along(0, 1), along(0, 3), along(0, 4));
+    let [[a, b, c], [d, e, f], [g, h, i]] = [1, 3, 4].map(|corner| between(points, 0, corner));
     a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+}
+
+/// Places and cells of the elements in their order, by vtkCellType.h.
+fn assert_cells(grid: &BTreeMap<String, Vec<f64>>, model: &FemModel) {
+    assert_eq!(grid["types"], [12.0, 12.0, 9.0, 9.0, 5.0, 3.0, 1.0, 41.0, 3.0]);
+    assert_eq!(grid["offsets"], [8.0, 16.0, 20.0, 24.0, 27.0, 29.0, 30.0, 34.0, 36.0]);
+    let points: Vec<[f64; 3]> =
+        grid["points"].chunks(3).map(|point| point.try_into().unwrap()).collect();
+    let nodes = model.mesh().nodes();
+    assert!(points.iter().zip(nodes).all(|(point, [x, y, z])| *point == [*x, *y, z - 5.0]));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices")]
+    let cells: Vec<usize> = grid["connectivity"].iter().map(|node| *node as usize).collect();
+    assert_eq!(cells[..8], [0, 1, 4, 3, 6, 7, 10, 9]);
+    for brick in [&cells[..8], &cells[8..16]] {
+        let corners: Vec<[f64; 3]> = brick.iter().map(|&corner| points[corner]).collect();
+        assert!((volume(&corners) - 2.0 * 3.0).abs() < 1e-12, "{brick:?}");
+        // Both sides run the same way round.
+        for k in 0..4 {
+            assert_eq!(between(&corners, k, k + 4), between(&corners, 0, 4));
+        }
+    }
+    let others = [6, 7, 10, 9, 6, 7, 13, 12, 7, 8, 13, 9, 14, 15, 6, 7, 9, 16, 6, 16];
+    assert_eq!(cells[16..], others);
 }
 
 #[test]
@@ -87,30 +119,8 @@ fn a_model_in_space_is_written_by_its_elements() {
     simulation.run(20, |state| series.record(state)).unwrap();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk_model");
     assert_eq!(paraview::write_series(&folder, "model", &shape, &series), Ok(2));
-    let read = |name: &str| arrays(&std::fs::read_to_string(folder.join(name)).unwrap());
-    let grid = read("model_0001.vtu");
-
-    // Cells of the elements in their order, by vtkCellType.h.
-    assert_eq!(grid["types"], [12.0, 12.0, 9.0, 9.0, 5.0, 3.0, 1.0, 41.0, 3.0]);
-    assert_eq!(grid["offsets"], [8.0, 16.0, 20.0, 24.0, 27.0, 29.0, 30.0, 34.0, 36.0]);
-    let points: Vec<[f64; 3]> =
-        grid["points"].chunks(3).map(|own| own.try_into().unwrap()).collect();
-    let nodes = model.mesh().nodes();
-    assert!(points.iter().zip(nodes).all(|(own, [x, y, z])| *own == [*x, *y, z - 5.0]));
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices")]
-    let cells: Vec<usize> = grid["connectivity"].iter().map(|own| *own as usize).collect();
-    assert_eq!(cells[..8], [0, 1, 4, 3, 6, 7, 10, 9]);
-    for brick in [&cells[..8], &cells[8..16]] {
-        let corners: Vec<[f64; 3]> = brick.iter().map(|&corner| points[corner]).collect();
-        assert!((volume(&corners) - 2.0 * 3.0).abs() < 1e-12, "{brick:?}");
-        // Both sides run the same way round.
-        for k in 0..4 {
-            let edge = |k: usize| [0, 1, 2].map(|a| corners[k + 4][a] - corners[k][a]);
-            assert_eq!(edge(k), edge(0));
-        }
-    }
-    let others = [6, 7, 10, 9, 6, 7, 13, 12, 7, 8, 13, 9, 14, 15, 6, 7, 9, 16, 6, 16];
-    assert_eq!(cells[16..], others);
+    let grid = grid_of(&folder, "model_0001.vtu");
+    assert_cells(&grid, &model);
 
     // Nodes move by their degrees of freedom; the arm by u + θ × d with its head.
     let frame = series.motion_frames().nth(1).unwrap();
@@ -120,15 +130,21 @@ fn a_model_in_space_is_written_by_its_elements() {
         ("static_displacement", &rest[..]),
     ] {
         assert!(values.iter().any(|value| value.abs() > 1e-6), "{name}");
-        let of = |node, own| values[model.dof(node, own).unwrap()];
-        let moved = |node| [Direction::X, Direction::Y, Direction::Z].map(|own| of(node, own));
+        let component = |node, direction| values[model.dof(node, direction).unwrap()];
         for node in (0..17).filter(|node| *node != 15) {
-            assert_eq!(grid[name][3 * node..3 * node + 3], moved(node), "{name} {node}");
+            let moved = [Direction::X, Direction::Y, Direction::Z]
+                .map(|direction| component(node, direction));
+            assert_eq!(grid[name][3 * node..3 * node + 3], moved, "{name} {node}");
         }
-        let [u, v, w] = moved(14);
-        let [a, b, c] = [Direction::RotationX, Direction::RotationY, Direction::RotationZ]
-            .map(|own| of(14, own));
-        let (dx, dy, dz) = (1.0, -1.0, 0.5);
+        let u = component(14, Direction::X);
+        let v = component(14, Direction::Y);
+        let w = component(14, Direction::Z);
+        let a = component(14, Direction::RotationX);
+        let b = component(14, Direction::RotationY);
+        let c = component(14, Direction::RotationZ);
+        let dx = 1.0;
+        let dy = -1.0;
+        let dz = 0.5;
         let arm = [u + b * dz - c * dy, v + c * dx - a * dz, w + a * dy - b * dx];
         for (found, exact) in grid[name][45..48].iter().zip(arm) {
             assert!((found - exact).abs() < 1e-15, "{name}");
@@ -137,7 +153,7 @@ fn a_model_in_space_is_written_by_its_elements() {
 
     // One state alone.
     paraview::write_state(folder.join("rest.vtu"), &shape, &rest).unwrap();
-    let alone = read("rest.vtu");
+    let alone = grid_of(&folder, "rest.vtu");
     assert_eq!(alone["displacement"], grid["static_displacement"]);
     assert_eq!(alone["connectivity"], grid["connectivity"]);
     let short = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..10]);

@@ -15,48 +15,58 @@ use basemat_problems::series::{Error, Series, whole, within};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
+/// Grading, number of elements, and time step of a strip of half width 1.
+type StripMesh = (Grading, usize, f64);
+
 /// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
 fn transient_errors(
     file: &str,
     poisson: f64,
-    mesh: (Grading, usize, f64),
+    mesh: StripMesh,
     bonded: bool,
     load: impl Fn(f64) -> f64,
 ) -> [f64; 5] {
     let (grading, elements, time_step) = mesh;
     let table = table(file);
-    let [vertical, horizontal, coupling, rocking] =
-        ["uy_Fy", "ux_Fx", "th_Fx", "th_M"].map(|column| Series::new(&table, column));
-    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
+    let vertical = Series::new(&table, "uy_Fy");
+    let horizontal = Series::new(&table, "ux_Fx");
+    let coupling = Series::new(&table, "th_Fx");
+    let rocking = Series::new(&table, "th_M");
     let mut errors = [Error::default(); 5];
-    let mut runs = if bonded {
-        [strip(Contact::Bonded), strip(Contact::Bonded)]
+    let contacts = if bonded {
+        [Contact::Bonded, Contact::Bonded]
     } else {
-        [strip(Contact::Tangential), strip(Contact::Normal)]
+        [Contact::Tangential, Contact::Normal]
     };
+    let mut strips =
+        contacts.map(|contact| RigidStrip::new(poisson, grading, elements, time_step, contact));
     let steps = whole(vertical.duration() / time_step);
     for n in 1..=steps {
         let time = n as f64 * time_step;
         let force =
             (load(time - time_step) + 4.0 * load(time - 0.5 * time_step) + load(time)) / 6.0;
-        let [first, second] = if bonded {
-            [runs[0].push([force, force, 0.0]), runs[1].push([0.0, 0.0, force])]
+        let by_forces;
+        let by_moment;
+        if bonded {
+            by_forces = strips[0].push([force, force, 0.0]);
+            by_moment = strips[1].push([0.0, 0.0, force]);
         } else {
-            let [across, [_, down, turn]] =
-                [runs[0].push([force, 0.0, 0.0]), runs[1].push([0.0, force, force])];
-            [[across[0], down, 0.0], [0.0, 0.0, turn]]
-        };
-        errors[0].add(first[1], vertical.at(time));
-        errors[1].add(first[0], horizontal.at(time));
-        errors[2].add(first[2], coupling.at(time));
-        errors[3].add(second[0], coupling.at(time));
-        errors[4].add(second[2], rocking.at(time));
+            let without_pressure = strips[0].push([force, 0.0, 0.0]);
+            let without_shear = strips[1].push([0.0, force, force]);
+            by_forces = [without_pressure[0], without_shear[1], 0.0];
+            by_moment = [0.0, 0.0, without_shear[2]];
+        }
+        errors[0].add(by_forces[1], vertical.at(time));
+        errors[1].add(by_forces[0], horizontal.at(time));
+        errors[2].add(by_forces[2], coupling.at(time));
+        errors[3].add(by_moment[0], coupling.at(time));
+        errors[4].add(by_moment[2], rocking.at(time));
     }
     errors.map(Error::relative)
 }
 
 /// A column, the same quantity of a state, and whether it is a mean over the step.
-type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
+type StateCheck<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
 
 /// Errors of a structure with degrees of freedom `[u_x, u_y, θ, …]` under the vertically incident S wave of
 /// the tables.
@@ -65,7 +75,7 @@ fn structure_errors<const N: usize>(
     structure: impl Structure + 'static,
     ground: impl Ground + 'static,
     time_step: f64,
-    checks: [Check; N],
+    checks: [StateCheck; N],
 ) -> [f64; N] {
     let table = table(file);
     let columns = checks.map(|check| Series::new(&table, check.0));
@@ -75,12 +85,12 @@ fn structure_errors<const N: usize>(
     let run = simulation
         .run(steps, |state| {
             for k in 0..N {
-                let wanted = if checks[k].2 {
+                let expected = if checks[k].2 {
                     columns[k].mean(state.time, time_step)
                 } else {
                     columns[k].at(state.time)
                 };
-                errors[k].add(checks[k].1(state), wanted);
+                errors[k].add(checks[k].1(state), expected);
             }
         })
         .unwrap();
@@ -90,10 +100,15 @@ fn structure_errors<const N: usize>(
 }
 
 /// The half-plane of the tables, of unit shear modulus and density, under a strip of half width 1.
-fn half_plane(poisson: f64, (grading, elements, _): (Grading, usize, f64)) -> ElasticGround {
+fn half_plane(poisson: f64, (grading, elements, _): StripMesh) -> ElasticGround {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
     ElasticGround::new(soil, strip).unwrap()
+}
+
+/// Horizontal displacement at `height` above a rigid base.
+fn roof_displacement(state: &State, height: f64) -> f64 {
+    state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
 }
 
 pub(super) fn block_errors(
@@ -103,9 +118,6 @@ pub(super) fn block_errors(
     density: f64,
     time_step: f64,
 ) -> [f64; 5] {
-    let roof = |state: &State| {
-        state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
-    };
     structure_errors(
         file,
         RigidBlock::new(2.0, height, density).unwrap(),
@@ -114,18 +126,21 @@ pub(super) fn block_errors(
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
-            ("u_roof", &roof, false),
+            ("u_roof", &|state| roof_displacement(state, height), false),
             ("V", &shear, true),
             ("M", &moment, true),
         ],
     )
 }
 
-fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
+/// Shear force in the cantilever above the mass of the base.
+fn beam_shear(state: &State) -> f64 {
+    -state.base_shear - state.acceleration()[0]
+}
+
+fn cantilever_errors(mesh: StripMesh, beams: usize) -> [f64; 6] {
     let cantilever = Cantilever::new(beams);
     let top = cantilever.top();
-    let tip = move |state: &State| state.absolute_displacement()[top];
-    let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
     structure_errors(
         "td_EBcantilever_SV_nu0333.csv",
         cantilever,
@@ -134,7 +149,7 @@ fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
-            ("u_top", &tip, false),
+            ("u_top", &|state| state.absolute_displacement()[top], false),
             ("V_beam", &beam_shear, true),
             ("V", &shear, true),
             ("M", &moment, true),
@@ -142,16 +157,15 @@ fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
     )
 }
 
-fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
+/// Displacement of storey `j` relative to the frame of the base.
+fn storey_displacement(state: &State, j: usize) -> f64 {
+    let u = state.absolute_displacement();
+    u[2 + j] - u[0] + j as f64 * u[2]
+}
+
+fn building_errors(mesh: StripMesh) -> [f64; 7] {
     let building = three_storeys().unwrap();
     let first_shear = building.shear(0).unwrap();
-    // Storey displacements relative to the frame of the base.
-    let relative = |j: usize| {
-        move |state: &State| {
-            let u = state.absolute_displacement();
-            u[2 + j] - u[0] + j as f64 * u[2]
-        }
-    };
     let storey_shear = move |s: &State| {
         first_shear.value(s.absolute_displacement(), s.velocity(), s.acceleration())
     };
@@ -163,8 +177,8 @@ fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
-            ("v1", &relative(1), false),
-            ("v3", &relative(3), false),
+            ("v1", &|state| storey_displacement(state, 1), false),
+            ("v3", &|state| storey_displacement(state, 3), false),
             ("V1", &storey_shear, false),
             ("V", &shear, true),
             ("M", &moment, true),
@@ -172,38 +186,37 @@ fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
     )
 }
 
-const U8: (Grading, usize, f64) = (Grading::Uniform, 8, 0.05);
-const U16: (Grading, usize, f64) = (Grading::Uniform, 16, 0.05);
-const U32: (Grading, usize, f64) = (Grading::Uniform, 32, 0.05);
-const C8: (Grading, usize, f64) = (Grading::Cosine, 8, 0.05);
-const C16: (Grading, usize, f64) = (Grading::Cosine, 16, 0.05);
+const UNIFORM_8: StripMesh = (Grading::Uniform, 8, 0.05);
+const UNIFORM_16: StripMesh = (Grading::Uniform, 16, 0.05);
+const UNIFORM_32: StripMesh = (Grading::Uniform, 32, 0.05);
+const COSINE_8: StripMesh = (Grading::Cosine, 8, 0.05);
+const COSINE_16: StripMesh = (Grading::Cosine, 16, 0.05);
 
-const POISSON: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
+/// Name in the tables, and value.
+const POISSON_RATIOS: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
 
 /// Errors of the impedances on four meshes, their limits, and the order in the element size.
 fn check_impedances(bonded: bool) {
-    let (kind, names) = if bonded {
-        ("bonded", &["khh", "kvv", "krr", "khr"][..])
-    } else {
-        ("relaxed", &["khh", "kvv", "krr"][..])
-    };
+    let kind = if bonded { "bonded" } else { "relaxed" };
+    let names = if bonded { &["khh", "kvv", "krr", "khr"][..] } else { &["khh", "kvv", "krr"] };
     let count = names.len();
-    for (name, poisson) in POISSON {
+    for (name, poisson) in POISSON_RATIOS {
         let file = format!("strip_{kind}_nu{name}_xi00.csv");
         let limits = [
-            (U8, [4e-2, 4e-2, 1.3e-1, 7.3e-2]),
-            (U16, [2e-2, 2e-2, 6.2e-2, 3.5e-2]),
-            (C8, [1.3e-2, 1.3e-2, 3.9e-2, 1.9e-2]),
-            (C16, [3.5e-3, 3.3e-3, 9.7e-3, 6.2e-3]),
+            (UNIFORM_8, [4e-2, 4e-2, 1.3e-1, 7.3e-2]),
+            (UNIFORM_16, [2e-2, 2e-2, 6.2e-2, 3.5e-2]),
+            (COSINE_8, [1.3e-2, 1.3e-2, 3.9e-2, 1.9e-2]),
+            (COSINE_16, [3.5e-3, 3.3e-3, 9.7e-3, 6.2e-3]),
         ];
-        let [u8, u16, c8, c16] = limits.map(|(mesh, limits)| {
+        let mesh_errors = limits.map(|(mesh, limits)| {
             let errors = impedance_errors(&file, poisson, mesh, bonded);
             let scene = format!("{kind} {name} {:?} {}", mesh.0, mesh.1);
             within(&scene, names, &errors[..count], &limits[..count]);
             errors
         });
         for k in 0..3 {
-            let (uniform, cosine) = ((u8[k] / u16[k]).log2(), (c8[k] / c16[k]).log2());
+            let uniform = (mesh_errors[0][k] / mesh_errors[1][k]).log2();
+            let cosine = (mesh_errors[2][k] / mesh_errors[3][k]).log2();
             assert!((0.9..1.2).contains(&uniform), "order of {}: {uniform}", names[k]);
             assert!((1.7..2.3).contains(&cosine), "order of {}: {cosine}", names[k]);
         }
@@ -217,7 +230,7 @@ fn check_impedances(bonded: bool) {
 fn luco_westmann_1972_bonded_strip() {
     check_impedances(true);
     let file = "strip_bonded_nu0333_xi00.csv";
-    let errors = impedance_errors(file, 1.0 / 3.0, U32, true);
+    let errors = impedance_errors(file, 1.0 / 3.0, UNIFORM_32, true);
     let limits = [8.5e-3, 9.5e-3, 2.9e-2, 1.8e-2];
     within("bonded 0333 Uniform 32", &["khh", "kvv", "krr", "khr"], &errors, &limits);
 }
@@ -230,16 +243,19 @@ fn karasudhi_keer_lee_1968_relaxed_strip() {
     check_impedances(false);
 }
 
+fn gauss_pulse(t: f64) -> f64 {
+    (-((t - 3.0) / 0.5).powi(2)).exp()
+}
+
 /// GOAL: the operator in time, with forces prescribed.
 /// SCENE: massless rigid strip under a Gaussian or Ricker pulse of each force.
 /// REFERENCE: `td_strip_*`, Fourier syntheses of the impedances, in time.
 #[test]
 fn td_strip_force_pulses() {
-    let gauss = |t: f64| (-((t - 3.0) / 0.5).powi(2)).exp();
     let names = ["uy_Fy", "ux_Fx", "th_M", "th_Fx", "ux_M"];
     let order = [0, 1, 4, 2, 3];
     for (kind, count) in [("bonded", 5), ("relaxed", 3)] {
-        for (name, poisson) in &POISSON[1..] {
+        for (name, poisson) in &POISSON_RATIOS[1..] {
             for (pulse, limits) in [
                 (
                     "gauss",
@@ -254,9 +270,10 @@ fn td_strip_force_pulses() {
                 ),
             ] {
                 let file = format!("td_strip_{kind}_nu{name}_{pulse}.csv");
-                let load = |t: f64| if pulse == "gauss" { gauss(t) } else { ricker(t, 1.0, 5.0) };
-                for (mesh, limits) in [C8, C16].into_iter().zip(limits) {
-                    let errors = transient_errors(&file, *poisson, mesh, kind == "bonded", load);
+                for (mesh, limits) in [COSINE_8, COSINE_16].into_iter().zip(limits) {
+                    let errors = transient_errors(&file, *poisson, mesh, kind == "bonded", |t| {
+                        if pulse == "gauss" { gauss_pulse(t) } else { ricker(t, 1.0, 5.0) }
+                    });
                     let errors = order.map(|k| errors[k]);
                     let scene = format!("{kind} {name} {pulse} cosine {}", mesh.1);
                     within(&scene, &names[..count], &errors[..count], &limits[..count]);
@@ -282,14 +299,15 @@ fn td_block_under_sv_pulse() {
         ("nu0333_h4_rho0.5", third, 4.0, 0.5, [3.4e-3, 3.7e-3, 5e-3, 2.7e-3, 1.6e-2]),
     ] {
         let file = format!("td_block_SV_{name}.csv");
-        let errors = block_errors(&file, half_plane(poisson, C16), height, density, C16.2);
+        let errors =
+            block_errors(&file, half_plane(poisson, COSINE_16), height, density, COSINE_16.2);
         within(&format!("block {name} cosine 16"), &names, &errors, &limits);
     }
     for (mesh, limits) in [
-        (U8, [4.8e-2, 5.9e-2, 1e-1, 3e-2, 1.8e-1]),
-        (U16, [2.3e-2, 2.8e-2, 5e-2, 1.5e-2, 8.5e-2]),
-        (U32, [1.2e-2, 1.4e-2, 2.4e-2, 7.3e-3, 4.2e-2]),
-        (C8, [1.5e-2, 1.8e-2, 3.2e-2, 9.2e-3, 5.3e-2]),
+        (UNIFORM_8, [4.8e-2, 5.9e-2, 1e-1, 3e-2, 1.8e-1]),
+        (UNIFORM_16, [2.3e-2, 2.8e-2, 5e-2, 1.5e-2, 8.5e-2]),
+        (UNIFORM_32, [1.2e-2, 1.4e-2, 2.4e-2, 7.3e-3, 4.2e-2]),
+        (COSINE_8, [1.5e-2, 1.8e-2, 3.2e-2, 9.2e-3, 5.3e-2]),
     ] {
         let ground = half_plane(third, mesh);
         let errors = block_errors("td_block_SV_nu0333_h2_rho1.csv", ground, 2.0, 1.0, mesh.2);
@@ -297,14 +315,14 @@ fn td_block_under_sv_pulse() {
     }
 }
 
-/// GOAL: a flexible structure of finite elements with damping, brought by a user.
+/// GOAL: a user's flexible structure of finite elements with damping.
 /// SCENE: Euler–Bernoulli cantilever (8 beams) on a bonded rigid base, SV Ricker pulse.
 /// REFERENCE: `td_EBcantilever_SV_nu0333.csv`, exact beam functions in the frequency domain.
 #[test]
 fn td_cantilever_under_sv_pulse() {
     let names = ["u_base", "theta", "u_top", "V_beam", "V", "M"];
     let limits = [3.8e-3, 6.9e-3, 6.1e-3, 3.6e-3, 3.2e-3, 1.3e-2];
-    within("cantilever cosine 16", &names, &cantilever_errors(C16, 8), &limits);
+    within("cantilever cosine 16", &names, &cantilever_errors(COSINE_16, 8), &limits);
 }
 
 /// GOAL: the shear building, its storeys' dashpots and section forces.
@@ -314,5 +332,5 @@ fn td_cantilever_under_sv_pulse() {
 fn td_shear_building_under_sv_pulse() {
     let names = ["u_base", "theta", "v1", "v3", "V1", "V", "M"];
     let limits = [3.3e-3, 4.5e-3, 3.8e-3, 7.6e-3, 3.4e-3, 2.1e-3, 1.15e-2];
-    within("shear building cosine 16", &names, &building_errors(C16), &limits);
+    within("shear building cosine 16", &names, &building_errors(COSINE_16), &limits);
 }

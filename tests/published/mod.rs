@@ -7,3 +7,4 @@ mod overturning;
 mod reference;
 mod reference_tables;
 mod refine;
+mod soil_closed_forms;

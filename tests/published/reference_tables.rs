@@ -55,8 +55,8 @@ fn housner_1963_free_rocking() {
     let mut amplitude = start;
     for impacts in times.windows(2).take(20) {
         amplitude = block.next_peak(amplitude).unwrap();
-        let within = rows.iter().filter(|row| row[0] > impacts[0] && row[0] < impacts[1]);
-        let peak = within.fold(0.0, |most: f64, row| most.max(row[1].abs()));
+        let between = rows.iter().filter(|row| row[0] > impacts[0] && row[0] < impacts[1]);
+        let peak = between.fold(0.0, |largest: f64, row| largest.max(row[1].abs()));
         assert!(peak <= amplitude + 1e-12 && peak >= amplitude - below, "{peak} {amplitude}");
     }
     // rate before the first impact: the tabulated rate is linear there to (p Δt)²
@@ -75,10 +75,13 @@ fn newmark_1965_sine() {
         ("newmark_sine_A0.4g_f1.0_mu0.2.csv", 0.4, 1.0, 0.2),
         ("newmark_sine_A0.8g_f2.0_mu0.1.csv", 0.8, 2.0, 0.1),
     ] {
-        let (step, gravity) = (1e-4, 9.81);
+        let step = 1e-4;
+        let gravity = 9.81;
         let omega = 2.0 * std::f64::consts::PI * frequency;
-        let ground = |k: i32| amplitude * gravity * (omega * f64::from(k) * step).sin();
-        let record = Record::new(step, (0..=104_000).map(ground).collect()).unwrap();
+        let samples = (0..=104_000)
+            .map(|k| amplitude * gravity * (omega * f64::from(k) * step).sin())
+            .collect();
+        let record = Record::new(step, samples).unwrap();
         let history = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
         let table = table(file);
         // the table's events go on past its last row at 10 s, so 10.4 s;
@@ -115,7 +118,7 @@ fn newmark_1965_el_centro() {
     for ([friction, maximum, minimum, residual, largest], _) in rows {
         let block = SlidingBlock::new(*friction, STANDARD_GRAVITY).unwrap();
         let history = block.slide(&el_centro_1940());
-        // the table's own sub-steps leave 2e-6 m
+        // the sub-steps of the table leave 2e-6 m
         close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
         close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
         close("residual", history.residual(), *residual, 2.5e-6, 0.0);
@@ -151,7 +154,9 @@ fn half_plane_no_tension_strip() {
 /// Rigid strip on springs without tension.
 #[test]
 fn winkler_no_tension_strip() {
-    let (stiffness, half_width, load) = (3e7, 2.5, 4e5);
+    let stiffness = 3e7;
+    let half_width = 2.5;
+    let load = 4e5;
     let strip = WinklerStrip::new(stiffness, half_width).unwrap();
     let uplift = strip.uplift_tilt(load).unwrap();
     let rows = table("winkler_static_M_theta.csv").rows([
@@ -186,7 +191,8 @@ fn rigid_strip_limits() {
             // 0.05 says that it tends to zero
             let compliance = table.column("re_crr");
             close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
-            let (near, far) = (compliance[0] * rocking - 1.0, compliance[1] * rocking - 1.0);
+            let near = compliance[0] * rocking - 1.0;
+            let far = compliance[1] * rocking - 1.0;
             assert!(near.abs() < far.abs() / 12.0, "{near:e} {far:e}");
             let quadrature = strip.quadrature_compliance();
             close("Im c_hh", table.column("im_chh")[0], quadrature, 0.0, 2e-3);

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use basemat::sweep::{CaseFile, CaseTable, Parameter, Sweep, SweepError};
+use basemat::sweep::{CaseFile, CaseRow, CaseTable, Parameter, Sweep, SweepError};
 use basemat::{Error, FileFault};
 
 fn path(name: &str) -> PathBuf {
@@ -28,16 +28,21 @@ fn sweep() -> Sweep<'static> {
 /// Appends a case; the fourth has a second result, the third fails and the sixth warns.
 fn append(file: &mut CaseFile, case: usize) {
     let slip = case as f64 / 3.0;
-    let (names, outcome): (&[&str], _) = match case {
-        2 => (&[], Err("no, \"not\"\nthis".to_owned())),
-        3 => (&["gap_m", "slip_m"], Ok(vec![1.0, slip])),
-        _ => (&["slip_m"], Ok(vec![slip])),
+    let names: &[&str] = match case {
+        2 => &[],
+        3 => &["gap_m", "slip_m"],
+        _ => &["slip_m"],
+    };
+    let outcome = match case {
+        2 => Err("no, \"not\"\nthis".to_owned()),
+        3 => Ok(vec![1.0, slip]),
+        _ => Ok(vec![slip]),
     };
     let warnings = if case == 5 { "slips, and\nwarns" } else { "" };
     file.append(case, names, outcome, warnings).unwrap();
 }
 
-fn whole(name: &str) -> CaseTable {
+fn finished_table(name: &str) -> CaseTable {
     let mut file = sweep().open(path(name)).unwrap();
     for case in 0..6 {
         append(&mut file, case);
@@ -45,9 +50,14 @@ fn whole(name: &str) -> CaseTable {
     file.finish().unwrap()
 }
 
+/// The bits of a result, if the case has it.
+fn value_bits(row: &CaseRow<'_>, name: &str) -> Option<u64> {
+    row.value(name).ok().map(f64::to_bits)
+}
+
 #[test]
 fn rows_survive_the_process_in_any_order() {
-    let expected = whole("expected");
+    let expected = finished_table("expected");
     for first in [vec![], vec![2], vec![5, 0, 2], vec![0, 2, 1, 3], vec![5, 4, 3, 2, 1, 0]] {
         let path = path("resumed");
         let mut file = sweep().open(&path).unwrap();
@@ -72,9 +82,8 @@ fn rows_survive_the_process_in_any_order() {
             assert_eq!((row.index, row.warnings), (other.index, other.warnings));
             assert_eq!(row.results.err(), other.results.err());
             for name in ["slip_m", "gap_m"] {
-                let bits =
-                    |row: &basemat::sweep::CaseRow<'_>| row.value(name).ok().map(f64::to_bits);
-                assert_eq!(bits(&row), bits(&other), "{name} of case {}", row.index);
+                let name_of_case = format!("{name} of case {}", row.index);
+                assert_eq!(value_bits(&row, name), value_bits(&other, name), "{name_of_case}");
             }
         }
         assert_eq!(table, sweep().merge([&path]).unwrap());
@@ -112,26 +121,29 @@ fn a_case_twice_and_a_table_with_holes_are_refused() {
     assert!(matches!(other.open(&path), Err(Error::File(_))));
 }
 
+fn sweep_of_two() -> Sweep<'static> {
+    Sweep::grid([Parameter::numbers("x", [1.0, 2.0])]).unwrap()
+}
+
 #[test]
 fn a_shard_whose_cases_all_failed_merges_and_one_without_results_does_not() {
-    let two = || Sweep::grid([Parameter::numbers("x", [1.0, 2.0])]).unwrap();
     let paths = [path("failed"), path("good")];
     for (index, outcome) in [Err("failed".to_owned()), Ok(vec![7.0])].into_iter().enumerate() {
-        let mut file = two().shard(index, 2).unwrap().open(&paths[index]).unwrap();
+        let mut file = sweep_of_two().shard(index, 2).unwrap().open(&paths[index]).unwrap();
         let names: &[&str] = if index == 0 { &[] } else { &["y"] };
         file.append(index, names, outcome, "").unwrap();
         file.finish().unwrap();
     }
-    let [one, other] = [0, 1].map(|k| two().merge([&paths[k], &paths[1 - k]]).unwrap());
-    assert_eq!(one, other);
+    let merged = sweep_of_two().merge([&paths[0], &paths[1]]).unwrap();
+    assert_eq!(merged, sweep_of_two().merge([&paths[1], &paths[0]]).unwrap());
     assert_eq!(
-        (one.columns(), one.rows().nth(1).unwrap().value("y")),
+        (merged.columns(), merged.rows().nth(1).unwrap().value("y")),
         (&["y".to_owned()][..], Ok(7.0))
     );
     let bare = path("bare");
-    let mut file = two().shard(0, 2).unwrap().open(&bare).unwrap();
+    let mut file = sweep_of_two().shard(0, 2).unwrap().open(&bare).unwrap();
     file.append::<&str>(0, &[], Ok(vec![]), "").unwrap();
     file.finish().unwrap();
-    let Err(Error::File(error)) = two().merge([&bare, &paths[1]]) else { panic!() };
+    let Err(Error::File(error)) = sweep_of_two().merge([&bare, &paths[1]]) else { panic!() };
     assert!(matches!(error.fault, FileFault::Value { .. }), "{error}");
 }

@@ -26,7 +26,7 @@ fn write(path: &Path, content: &[u8]) {
     std::fs::write(path, content).unwrap();
 }
 
-const COLUMNS: [&str; 2] = ["slip_m", "ratio"];
+const RESULT_COLUMNS: [&str; 2] = ["slip_m", "ratio"];
 
 /// `count` × 2 cases.
 fn sweep(count: u32) -> Sweep<'static> {
@@ -47,13 +47,13 @@ fn compute(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
 
 type Compute = dyn Fn(&SweepCase<'_>) -> std::result::Result<[f64; 2], String> + Sync;
 
-fn whole(count: u32) -> CaseTable {
-    sweep(count).table(COLUMNS, compute).unwrap()
+fn finished_table(count: u32) -> CaseTable {
+    sweep(count).table(RESULT_COLUMNS, compute).unwrap()
 }
 
 #[test]
 fn the_check_sum_is_that_of_all_values() {
-    let table = whole(3);
+    let table = finished_table(3);
     let text = table.csv();
     let mut reader = basemat_problems::csv::ReaderBuilder::new();
     let mut reader = reader.comment(Some(b'#')).from_reader(text.as_bytes());
@@ -77,18 +77,19 @@ fn the_check_sum_is_that_of_all_values() {
 
 #[test]
 fn every_damaged_byte_is_refused() {
-    let (table, path) = (whole(3), folder("bytes").join("cases.csv"));
+    let table = finished_table(3);
+    let path = folder("bytes").join("cases.csv");
     let text = table.csv().as_bytes().to_vec();
     let mut refused = 0;
     for place in 0..text.len() {
         for bit in 0..8 {
-            let mut other = text.clone();
-            other[place] ^= 1 << bit;
-            write(&path, &other);
+            let mut damaged_text = text.clone();
+            damaged_text[place] ^= 1 << bit;
+            write(&path, &damaged_text);
             match sweep(3).merge([&path]) {
                 Ok(merged) => assert_eq!(merged, table, "byte {place}, bit {bit}"),
                 Err(Error::File(_) | Error::Sweep(_) | Error::DuplicateName { .. }) => refused += 1,
-                Err(other) => panic!("byte {place}, bit {bit}: {other}"),
+                Err(error) => panic!("byte {place}, bit {bit}: {error}"),
             }
         }
     }
@@ -98,7 +99,8 @@ fn every_damaged_byte_is_refused() {
 /// Digits that stay digits: the damage that a reader of numbers cannot see.
 #[test]
 fn edited_digits_are_refused() {
-    let (table, path) = (whole(4), folder("digits").join("cases.csv"));
+    let table = finished_table(4);
+    let path = folder("digits").join("cases.csv");
     let text = table.csv();
     let mut damaged = 0;
     for case in [0, 2, 6] {
@@ -124,30 +126,36 @@ fn edited_digits_are_refused() {
     assert!(damaged > 30, "{damaged}");
 }
 
+fn plain_sweep() -> Sweep<'static> {
+    let friction = (0..50).map(|k| 0.1 * f64::from(k));
+    Sweep::grid([Parameter::numbers("friction", friction)]).unwrap()
+}
+
+fn compute_plain(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
+    Ok([1.0 / 3.0, case.index as f64])
+}
+
 /// In rows with quoted cells, which end what the mark began, and in rows without any, which do not.
 #[test]
 fn a_stray_quotation_mark_drops_no_rows() {
-    let plain = || {
-        let friction = (0..50).map(|k| 0.1 * f64::from(k));
-        Sweep::grid([Parameter::numbers("friction", friction)]).unwrap()
-    };
-    let first = |case: &SweepCase<'_>| Ok::<_, String>([1.0 / 3.0, case.index as f64]);
     for (name, sweep, compute) in [
         ("quoted", &(|| sweep(25)) as &dyn Fn() -> Sweep<'static>, &compute as &Compute),
-        ("plain", &plain, &first),
+        ("plain", &plain_sweep, &compute_plain),
     ] {
         let folder = folder(&format!("quotes_{name}"));
-        let (path, part) = (folder.join("cases.csv"), folder.join("cases.csv.part"));
-        let table = sweep().table(COLUMNS, compute).unwrap();
+        let path = folder.join("cases.csv");
+        let part = folder.join("cases.csv.part");
+        let table = sweep().table(RESULT_COLUMNS, compute).unwrap();
         let text = table.csv();
         let runs = AtomicUsize::new(0);
-        let (mut kept, mut refused) = (0, 0);
+        let mut taken = 0;
+        let mut refused = 0;
         for at in (0..text.len()).filter(|&at| text.is_char_boundary(at)) {
             let spoilt = format!("{}\"{}", &text[..at], &text[at..]);
             let _ = std::fs::remove_file(&path);
             write(&part, spoilt.as_bytes());
             runs.store(0, Ordering::Relaxed);
-            let found = sweep().table_in(&path, COLUMNS, |case| {
+            let found = sweep().table_in(&path, RESULT_COLUMNS, |case| {
                 runs.fetch_add(1, Ordering::Relaxed);
                 compute(case)
             });
@@ -155,7 +163,7 @@ fn a_stray_quotation_mark_drops_no_rows() {
                 Ok(found) => {
                     assert_eq!(found, table, "{name}, {at}");
                     assert_eq!(runs.load(Ordering::Relaxed), 0, "{name}, {at}");
-                    kept += 1;
+                    taken += 1;
                 }
                 Err(Error::File(_)) => {
                     assert_eq!(std::fs::read_to_string(&part).unwrap(), spoilt, "{name}, {at}");
@@ -164,23 +172,31 @@ fn a_stray_quotation_mark_drops_no_rows() {
                 Err(other) => panic!("{name}, {at}: {other}"),
             }
         }
-        assert!(kept < 100 && refused > text.len() / 2, "{name}: {kept} taken, {refused} refused");
+        assert!(
+            taken < 100 && refused > text.len() / 2,
+            "{name}: {taken} taken, {refused} refused"
+        );
     }
 }
 
-/// Runs in a process of its own whose files may have 2 or 4 kB: `ulimit` counts in blocks.
+#[cfg(unix)]
+fn compute_index(case: &SweepCase<'_>) -> Result<[f64; 2]> {
+    Ok([case.index as f64, 0.5])
+}
+
+/// Runs in a separate process whose files may have 2 or 4 kB: `ulimit` counts in blocks.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_ends_the_sweep_with_its_rows() {
-    const CASES: u32 = 200;
-    const NAME: &str = "results::damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
-    let (begin, end) = ("rows begin\n", "rows end\n");
-    let compute = |case: &SweepCase<'_>| Result::Ok([case.index as f64, 0.5]);
+    const FRICTION_COUNT: u32 = 200;
+    const TEST_NAME: &str = "results::damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
+    let begin = "rows begin\n";
+    let end = "rows end\n";
     if let Some(path) = std::env::var_os("BASEMAT_FULL_DISK") {
         let runs = AtomicUsize::new(0);
-        let fault = sweep(CASES).table_in(path, COLUMNS, |case| {
+        let fault = sweep(FRICTION_COUNT).table_in(path, RESULT_COLUMNS, |case| {
             runs.fetch_add(1, Ordering::Relaxed);
-            compute(case)
+            compute_index(case)
         });
         let Err(Error::Sweep(error)) = fault else { panic!("{fault:?}") };
         let SweepError::Unwritten { computed, left, rows, .. } = &error else { panic!("{error}") };
@@ -192,44 +208,48 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
         return;
     }
     let folder = folder("full");
-    let (path, part) = (folder.join("cases.csv"), folder.join("cases.csv.part"));
+    let path = folder.join("cases.csv");
+    let part = folder.join("cases.csv.part");
     let test = std::env::current_exe().unwrap();
     let output = std::process::Command::new("sh")
         .args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" --exact \"$1\" --nocapture"])
         .arg(test)
-        .arg(NAME)
+        .arg(TEST_NAME)
         .env("BASEMAT_FULL_DISK", &path)
         .output()
         .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
     let rows = text.split_once(begin).unwrap().1.split_once(end).unwrap().0;
-    let whole = sweep(CASES).table(COLUMNS, compute).unwrap();
+    let whole = sweep(FRICTION_COUNT).table(RESULT_COLUMNS, compute_index).unwrap();
     // From the file that was cut, and from the rows handed over.
-    for from in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
+    for saved_rows in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
         let _ = std::fs::remove_file(&path);
-        write(&part, from.as_bytes());
-        let before = from.matches("El Centro").count();
+        write(&part, saved_rows.as_bytes());
+        let saved_count = saved_rows.matches("El Centro").count();
         let runs = AtomicUsize::new(0);
-        let table = sweep(CASES).table_in(&path, COLUMNS, |case| {
+        let table = sweep(FRICTION_COUNT).table_in(&path, RESULT_COLUMNS, |case| {
             runs.fetch_add(1, Ordering::Relaxed);
-            compute(case)
+            compute_index(case)
         });
         assert_eq!(table.unwrap(), whole);
         let runs = runs.load(Ordering::Relaxed);
-        assert!(before > 5 && runs <= 400 - 2 * before + 2, "{runs} runs, {before} there");
+        assert!(
+            saved_count > 5 && runs <= 400 - 2 * saved_count + 2,
+            "{runs} runs, {saved_count} saved"
+        );
     }
 }
 
 #[test]
 fn many_values_are_compared_in_no_time() {
     let clock = std::time::Instant::now();
-    let many = 300_000;
-    let numbers = || Parameter::numbers("x", (0..many).map(f64::from));
-    let texts = Parameter::texts("y", (0..many).map(|k| k.to_string()));
-    assert_eq!(Sweep::grid([numbers()]).unwrap().cases().len(), 300_000);
+    let count = 300_000;
+    let numbers = Parameter::numbers("x", (0..count).map(f64::from));
+    let texts = Parameter::texts("y", (0..count).map(|k| k.to_string()));
+    assert_eq!(Sweep::grid([numbers]).unwrap().cases().len(), 300_000);
     assert!(Sweep::grid([texts]).is_ok());
-    let twice = Parameter::numbers("x", (0..many).map(f64::from).chain([7.0]));
+    let twice = Parameter::numbers("x", (0..count).map(f64::from).chain([7.0]));
     let repeated = Error::DuplicateName { quantity: "value", name: "7".to_owned() };
     let item = "parameter 'x'".to_owned();
     assert_eq!(Sweep::grid([twice]).unwrap_err(), Error::Item { item, source: Box::new(repeated) });

@@ -8,16 +8,29 @@ use basemat::motion::AtRest;
 use basemat::results::{Quantity, Recorder, spectrum_csv};
 use basemat::structure::RigidBlock;
 
-use super::{Recorded, STEPS, recorded};
+use super::{Recorded, STEP_COUNT, recorded};
 use basemat_problems::scenes::{SI, block, scene};
 
-/// Heading and rows of a text.
-fn table(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+struct CsvTable {
+    heading: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl CsvTable {
+    /// Place of the column with this heading.
+    fn column(&self, name: &str) -> usize {
+        self.heading.iter().position(|column| column == name).unwrap()
+    }
+}
+
+fn cells(record: &basemat_problems::csv::StringRecord) -> Vec<String> {
+    record.iter().map(str::to_owned).collect()
+}
+
+fn table(text: &str) -> CsvTable {
     let mut reader = basemat_problems::csv::Reader::from_reader(text.as_bytes());
-    let owned =
-        |record: &basemat_problems::csv::StringRecord| record.iter().map(str::to_owned).collect();
-    let heading = owned(reader.headers().unwrap());
-    (heading, reader.records().map(|record| owned(&record.unwrap())).collect())
+    let heading = cells(reader.headers().unwrap());
+    CsvTable { heading, rows: reader.records().map(|record| cells(&record.unwrap())).collect() }
 }
 
 /// A cell as pandas reads it.
@@ -34,12 +47,12 @@ fn same(cell: &str, value: f64) {
 #[test]
 fn histories_have_a_column_for_every_series() {
     let Recorded { time_series, .. } = recorded(Recorder::new().every(3));
-    let (heading, rows) = table(&time_series.csv());
-    let mut wanted = vec!["time_s".to_owned()];
-    wanted.extend(Quantity::recorded(false).map(|quantity| quantity.column(false)));
-    wanted
+    let CsvTable { heading, rows } = table(&time_series.csv());
+    let mut expected = vec!["time_s".to_owned()];
+    expected.extend(Quantity::recorded(false).map(|quantity| quantity.column(false)));
+    expected
         .extend(["top_m", "top_acceleration_m_per_s2", "input_energy_j_per_m"].map(str::to_owned));
-    assert_eq!(heading, wanted);
+    assert_eq!(heading, expected);
     assert_eq!(rows.len(), time_series.times().len());
     for (k, row) in rows.iter().enumerate() {
         same(&row[0], time_series.times()[k]);
@@ -64,7 +77,7 @@ fn what_is_not_known_is_an_empty_cell() {
         .unwrap();
     let mut time_series = Recorder::new().start(&simulation).unwrap();
     simulation.run(2, |state| time_series.record(state)).unwrap();
-    let (_, rows) = table(&time_series.csv());
+    let rows = table(&time_series.csv()).rows;
     assert!(rows.iter().all(|row| row.last().unwrap().is_empty()));
 }
 
@@ -85,8 +98,8 @@ fn columns_of_probes_differ() {
         .build()
         .unwrap();
     let time_series = Recorder::new().start(&simulation).unwrap();
-    let (heading, _) = table(&time_series.csv());
-    let wanted = [
+    let heading = table(&time_series.csv()).heading;
+    let expected = [
         "roof_left_m",
         "roof_left_m_2",
         "roof_left_m_3",
@@ -95,20 +108,22 @@ fn columns_of_probes_differ() {
         "unnamed",
         "input_energy_j_per_m",
     ];
-    assert_eq!(heading[12..], wanted);
+    assert_eq!(heading[12..], expected);
 }
 
 #[test]
 fn contact_has_a_row_for_every_frame_and_element() {
     let Recorded { time_series, states, .. } = recorded(Recorder::new().contact(10));
-    let (heading, rows) = table(&time_series.contact_csv());
+    let CsvTable { heading, rows } = table(&time_series.contact_csv());
     assert_eq!(heading.len(), 9);
     let count = time_series.elements().len();
-    assert_eq!(rows.len(), (STEPS / 10 + 1) * count);
+    assert_eq!(rows.len(), (STEP_COUNT / 10 + 1) * count);
     let mut modes = std::collections::BTreeSet::new();
     for (k, row) in rows.iter().enumerate() {
-        let (state, e) = (&states[k / count * 10], k % count);
-        let (element, contact) = (time_series.elements()[e], state.contact[e]);
+        let state = &states[k / count * 10];
+        let e = k % count;
+        let element = time_series.elements()[e];
+        let contact = state.contact[e];
         same(&row[0], state.time);
         assert_eq!(row[1], e.to_string());
         same(&row[2], element.left());
@@ -119,29 +134,32 @@ fn contact_has_a_row_for_every_frame_and_element() {
         modes.insert(row[4].clone());
     }
     assert!(modes.len() > 2, "{modes:?}");
-    // Without frames there is the heading alone.
-    let (_, none) = table(&recorded(Recorder::new()).time_series.contact_csv());
-    assert!(none.is_empty());
+    // Without frames the heading is all.
+    let empty = table(&recorded(Recorder::new()).time_series.contact_csv());
+    assert!(empty.rows.is_empty());
 }
 
 #[test]
 fn envelopes_and_spectra() {
     let Recorded { time_series, run, .. } = recorded(Recorder::new());
-    let (heading, rows) = table(&run.envelope_csv());
-    assert_eq!((heading.len(), rows.len()), (15, run.envelope.len()));
-    let at = |name: &str| heading.iter().position(|column| column == name).unwrap();
-    for (row, own) in rows.iter().zip(&run.envelope) {
-        same(&row[at("left_m")], own.element.left());
-        same(&row[at("static_pressure_pa")], own.static_pressure);
-        same(&row[at("lowest_pressure_pa")], own.pressure.lowest.value);
-        same(&row[at("highest_pressure_time_s")], own.pressure.highest.time);
-        same(&row[at("shear_pa")], own.shear.value);
-        same(&row[at("gap_m")], own.gap.value);
-        same(&row[at("slip_time_s")], own.slip.time);
-        same(&row[at("open_s")], own.open);
+    let envelopes = table(&run.envelope_csv());
+    assert_eq!((envelopes.heading.len(), envelopes.rows.len()), (15, run.envelope.len()));
+    for (row, envelope) in envelopes.rows.iter().zip(&run.envelope) {
+        for (name, value) in [
+            ("left_m", envelope.element.left()),
+            ("static_pressure_pa", envelope.static_pressure),
+            ("lowest_pressure_pa", envelope.pressure.lowest.value),
+            ("highest_pressure_time_s", envelope.pressure.highest.time),
+            ("shear_pa", envelope.shear.value),
+            ("gap_m", envelope.gap.value),
+            ("slip_time_s", envelope.slip.time),
+            ("open_s", envelope.open),
+        ] {
+            same(&row[envelopes.column(name)], value);
+        }
     }
     let spectrum = time_series.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
-    let (heading, rows) = table(&spectrum_csv(&spectrum));
+    let CsvTable { heading, rows } = table(&spectrum_csv(&spectrum));
     assert_eq!(heading[3], "pseudo_acceleration_m_per_s2");
     same(&rows[1][3], spectrum[1].pseudo_acceleration);
     same(&rows[0][4], spectrum[0].acceleration);

@@ -1,11 +1,17 @@
 //! Places of the texts of an SVG: none may leave the sheet or touch another.
 
 /// A text and its box: left, top, right, bottom.
-type Placed = (String, [f64; 4]);
+type PlacedText = (String, [f64; 4]);
+
+/// The texts of a sheet, and its width and height.
+struct PictureTexts {
+    texts: Vec<PlacedText>,
+    size: [f64; 2],
+}
 
 /// Panics if a text that can be seen is not on the sheet, or touches another one.
 pub(crate) fn assert_readable(svg: &str, name: &str) {
-    let (texts, [width, height]) = texts(svg);
+    let PictureTexts { texts, size: [width, height] } = sheet(svg);
     assert!(!texts.is_empty(), "{name}: no texts");
     for (k, (text, place)) in texts.iter().enumerate() {
         let [left, top, right, bottom] = *place;
@@ -20,9 +26,9 @@ pub(crate) fn assert_readable(svg: &str, name: &str) {
 
 /// As the renderer of PNG files lays it out, in a font that is wider than the one of those files.
 #[cfg(feature = "png")]
-fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
+fn sheet(svg: &str) -> PictureTexts {
     use resvg::usvg::{Group, Node, Options, TextChunk, TextSpan, Tree};
-    fn collect(group: &Group, texts: &mut Vec<Placed>) {
+    fn collect(group: &Group, texts: &mut Vec<PlacedText>) {
         for node in group.children() {
             match node {
                 Node::Group(group) => collect(group, texts),
@@ -45,20 +51,26 @@ fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
     let tree = Tree::from_str(svg, &options).unwrap();
     let mut texts = Vec::new();
     collect(tree.root(), &mut texts);
-    (texts, [tree.size().width(), tree.size().height()].map(f64::from))
+    PictureTexts { texts, size: [tree.size().width(), tree.size().height()].map(f64::from) }
+}
+
+#[cfg(not(feature = "png"))]
+fn attribute(tag: &str, name: &str) -> Option<String> {
+    let value = tag.split(&format!(" {name}=\"")).nth(1)?;
+    value.split('"').next().map(str::to_owned)
+}
+
+#[cfg(not(feature = "png"))]
+fn number(tag: &str, name: &str) -> Option<f64> {
+    attribute(tag, name).and_then(|text| text.parse().ok())
 }
 
 /// By the attributes that plotters and the animation write, 0.6 of the font's size for a letter.
 #[cfg(not(feature = "png"))]
-fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
-    let attribute = |tag: &str, name: &str| {
-        let value = tag.split(&format!(" {name}=\"")).nth(1)?;
-        value.split('"').next().map(str::to_owned)
-    };
-    let number = |tag: &str, name: &str| attribute(tag, name).and_then(|text| text.parse().ok());
-    let sheet = svg.split('>').next().unwrap();
-    let size = ["width", "height"].map(|side| number(sheet, side).unwrap());
-    let default: f64 = number(sheet, "font-size").unwrap_or(16.0);
+fn sheet(svg: &str) -> PictureTexts {
+    let opening_tag = svg.split('>').next().unwrap();
+    let size = ["width", "height"].map(|side| number(opening_tag, side).unwrap());
+    let default: f64 = number(opening_tag, "font-size").unwrap_or(16.0);
     let mut texts = Vec::new();
     for piece in svg.split("<text").skip(1) {
         let (tag, rest) = piece.split_once('>').unwrap();
@@ -69,7 +81,8 @@ fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
         }
         let em = number(tag, "font-size").unwrap_or(default);
         let length = 0.6 * em * words.chars().count() as f64;
-        let [x, y] = ["x", "y"].map(|name| number(tag, name).unwrap());
+        let x = number(tag, "x").unwrap();
+        let y = number(tag, "y").unwrap();
         let start = match attribute(tag, "text-anchor").as_deref() {
             Some("middle") => -0.5 * length,
             Some("end") => -length,
@@ -81,7 +94,8 @@ fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
             Some("-0.5ex") => -0.25 * em,
             _ => 0.0,
         };
-        let (top, bottom) = (shift - 0.76 * em, shift + 0.24 * em);
+        let top = shift - 0.76 * em;
+        let bottom = shift + 0.24 * em;
         let place = match attribute(tag, "transform") {
             None => [x + start, y + top, x + start + length, y + bottom],
             // Turned to the left.
@@ -92,5 +106,5 @@ fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
         };
         texts.push((words, place));
     }
-    (texts, size)
+    PictureTexts { texts, size }
 }

@@ -46,6 +46,11 @@ fn coulomb() -> Coulomb {
     Coulomb::new(0.4).unwrap()
 }
 
+/// The first of the numbers that `read` takes from a run's warnings.
+fn first_warning<T>(run: &Run, read: impl Fn(&Warning) -> Option<T>) -> Option<T> {
+    run.warnings.iter().find_map(read)
+}
+
 /// Whether a run has a warning of this kind.
 fn warns(run: &Run, is_kind: impl Fn(&Warning) -> bool) -> bool {
     run.warnings.iter().any(is_kind)
@@ -64,7 +69,8 @@ fn is_of_step(warning: &Warning) -> bool {
 #[test]
 fn a_longer_step_never_warns_less() {
     let record = el_centro_1940();
-    let (mut rates, mut squares) = (0.0, 0.0);
+    let mut rates = 0.0;
+    let mut squares = 0.0;
     for pair in record.accelerations().windows(2) {
         rates += (pair[1] - pair[0]).powi(2) / 0.02;
         squares += 0.02 * (pair[0].powi(2) + pair[0] * pair[1] + pair[1].powi(2)) / 3.0;
@@ -73,20 +79,22 @@ fn a_longer_step_never_warns_less() {
     for step in [0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 40.0] {
         let record = run(step, building(1.0), coulomb(), el_centro_1940(), 32.0);
         assert!(warns(&record, is_of_step), "record, {step} s: {:?}", record.warnings);
-        let told = record.warnings.iter().find_map(|warning| match warning {
+        let long_step = first_warning(&record, |warning| match warning {
             Warning::Mistake(Mistake::LongTimeStep { period, interval, needed, .. }) => {
                 Some([*period, *interval, *needed])
             }
             _ => None,
         });
-        if let Some([period, interval, needed]) = told {
+        if let Some([period, interval, needed]) = long_step {
             assert!((period / mean_period - 1.0).abs() < 0.02, "{period} {mean_period}");
             assert_eq!(interval, 0.02);
             assert!(needed <= period / 14.9, "{needed}");
         }
         // A motion without a record is sampled.
-        let wave = |_: f64, time: f64| [0.01 * (time * 12.0).sin() * (0.1 * time).sin(), 0.0];
-        let closure = run(step, building(1.0), coulomb(), FreeFieldFn::new(wave), 120.0);
+        let wave = FreeFieldFn::new(|_: f64, time: f64| {
+            [0.01 * (time * 12.0).sin() * (0.1 * time).sin(), 0.0]
+        });
+        let closure = run(step, building(1.0), coulomb(), wave, 120.0);
         let judged = step <= 0.1 || warns(&closure, is_of_step);
         assert!(judged, "closure, {step} s: {:?}", closure.warnings);
     }
@@ -100,11 +108,13 @@ fn a_longer_step_never_warns_less() {
     assert!(!warns(&slow, is_of_step), "{:?}", slow.warnings);
 }
 
+fn is_heavy(warning: &Warning) -> bool {
+    matches!(warning, Warning::Mistake(Mistake::HeavyStructure { .. }))
+}
+
 /// Reference: the weight by hand over 8 m, and G = ρ c² = 118.75 MPa.
 #[test]
 fn a_weight_that_no_soil_carries() {
-    let is_heavy =
-        |warning: &Warning| matches!(warning, Warning::Mistake(Mistake::HeavyStructure { .. }));
     for (factor, expected) in [(1.0, false), (5.0, false), (20.0, true), (100.0, true)] {
         let run = run(0.005, building(factor), coulomb(), el_centro_1940(), 0.1);
         assert_eq!(warns(&run, is_heavy), expected, "{factor}: {:?}", run.warnings);
@@ -131,21 +141,23 @@ fn matrices(vertical: f64) -> MatrixModel {
     MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2])).unwrap()
 }
 
+/// Vertical and horizontal mass of the warning of unequal masses.
+fn unequal_masses(vertical: f64) -> Option<[f64; 2]> {
+    let run = run(0.005, matrices(vertical), coulomb(), el_centro_1940(), 0.1);
+    first_warning(&run, |warning| match warning {
+        Warning::Mistake(Mistake::UnequalMasses { vertical, horizontal }) => {
+            Some([*vertical, *horizontal])
+        }
+        _ => None,
+    })
+}
+
 #[test]
 fn floors_that_the_vertical_mass_lacks() {
-    let told = |vertical: f64| {
-        let run = run(0.005, matrices(vertical), coulomb(), el_centro_1940(), 0.1);
-        run.warnings.iter().find_map(|warning| match warning {
-            Warning::Mistake(Mistake::UnequalMasses { vertical, horizontal }) => {
-                Some([*vertical, *horizontal])
-            }
-            _ => None,
-        })
-    };
-    assert_eq!(told(150e3), None);
-    let [vertical, horizontal] = told(50e3).unwrap();
+    assert_eq!(unequal_masses(150e3), None);
+    let [vertical, horizontal] = unequal_masses(50e3).unwrap();
     assert!((vertical - 50e3).abs() < 1e-3 && (horizontal - 150e3).abs() < 1e-3);
-    assert!(told(300e3).is_some());
+    assert!(unequal_masses(300e3).is_some());
 }
 
 /// A raft of shells under a block of the same density.
@@ -171,19 +183,20 @@ fn shaken_raft(model: impl Structure + 'static) -> Run {
     simulation.run(5, |_| {}).unwrap()
 }
 
+fn unusual_density(run: &Run) -> Option<f64> {
+    first_warning(run, |warning| match warning {
+        Warning::Mistake(Mistake::UnusualDensity { density }) => Some(*density),
+        _ => None,
+    })
+}
+
 #[test]
 fn densities_that_no_material_has() {
-    let told = |run: &Run| {
-        run.warnings.iter().find_map(|warning| match warning {
-            Warning::Mistake(Mistake::UnusualDensity { density }) => Some(*density),
-            _ => None,
-        })
-    };
     for density in [25.0, 2.5, 25_000.0] {
-        assert_eq!(told(&shaken_raft(raft(density, 1.0))), Some(density));
+        assert_eq!(unusual_density(&shaken_raft(raft(density, 1.0))), Some(density));
     }
     for density in [450.0, 2500.0, 7850.0] {
-        assert_eq!(told(&shaken_raft(raft(density, 1.0))), None, "{density}");
+        assert_eq!(unusual_density(&shaken_raft(raft(density, 1.0))), None, "{density}");
     }
     // One of two structures.
     let group = StructureGroup::new().with(raft(2500.0, 1.0), 0.0).unwrap();
@@ -191,62 +204,70 @@ fn densities_that_no_material_has() {
     assert_eq!(group.description().densities, Some([25.0, 2500.0]));
     // A wall of a kilometre is told by its weight.
     let thick = shaken_raft(raft(2500.0, 1000.0));
-    assert!(warns(&thick, |warning| matches!(
-        warning,
-        Warning::Mistake(Mistake::HeavyStructure { .. })
-    )));
+    assert!(warns(&thick, is_heavy));
     // Reduction keeps what the model tells.
     let reduced = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
     assert_eq!(reduced.description().densities, Some([25.0; 2]));
 }
 
-#[test]
-fn motions_stronger_than_two_g_and_records_that_drift() {
-    let told = |record: Record| {
-        let run = run(0.005, building(1.0), coulomb(), record, 0.2);
-        let strong = warns(&run, |warning| {
+/// Warnings of a ground motion.
+#[derive(Debug, PartialEq)]
+struct MotionWarnings {
+    is_strong: bool,
+    drift_velocity: Option<f64>,
+}
+
+fn motion_warnings(record: Record) -> MotionWarnings {
+    let run = run(0.005, building(1.0), coulomb(), record, 0.2);
+    MotionWarnings {
+        is_strong: warns(&run, |warning| {
             matches!(warning, Warning::Mistake(Mistake::UnusualMotion { .. }))
-        });
-        let drift = run.warnings.iter().find_map(|warning| match warning {
+        }),
+        drift_velocity: first_warning(&run, |warning| match warning {
             Warning::Mistake(Mistake::DriftingRecord { velocity }) => Some(*velocity),
             _ => None,
-        });
-        (strong, drift)
-    };
+        }),
+    }
+}
+
+#[test]
+fn motions_stronger_than_two_g_and_records_that_drift() {
     let record = el_centro_1940();
-    assert_eq!(told(record.clone()), (false, None));
+    let usual = MotionWarnings { is_strong: false, drift_velocity: None };
+    assert_eq!(motion_warnings(record.clone()), usual);
     // 0.318 g times 6.2 is below 2 g; times 9.75 it is 3.1 g.
-    assert!(!told(record.scaled(6.2).unwrap()).0);
-    assert!(told(record.scaled(9.75).unwrap()).0);
+    assert!(!motion_warnings(record.scaled(6.2).unwrap()).is_strong);
+    assert!(motion_warnings(record.scaled(9.75).unwrap()).is_strong);
     // A pulse of 1.3 Hz with the offset of a recorder, 0.0783 m/s² for 10 s.
-    let sample = |k: usize| {
-        let time = 0.01 * k as f64;
+    let mut samples = Vec::new();
+    for k in 0..1000 {
+        let time = 0.01 * f64::from(k);
         let pulse = 1.5 * (8.17 * time).sin() * (-((time - 4.0) / 2.0).powi(2)).exp();
-        pulse + 0.0783
-    };
-    let offset = Record::new(0.01, (0..1000).map(sample).collect()).unwrap();
-    let velocity = told(offset.clone()).1.unwrap();
+        samples.push(pulse + 0.0783);
+    }
+    let offset = Record::new(0.01, samples).unwrap();
+    let velocity = motion_warnings(offset.clone()).drift_velocity.unwrap();
     assert!((velocity - 0.0783 * 9.99).abs() < 0.02, "{velocity}");
     let corrected = offset.with_baseline(basemat::motion::Baseline::RemoveMean).unwrap();
-    assert_eq!(told(corrected).1, None);
+    assert_eq!(motion_warnings(corrected).drift_velocity, None);
+}
+
+/// Strength and pressure of the warning of a weak bond.
+fn weak_bond(tension: f64, cohesion: f64) -> Option<[f64; 2]> {
+    let block = RigidBlock::new(6.0, 9.0, 1000.0).unwrap();
+    let law = Cohesive::new(tension, cohesion, 0.4).unwrap();
+    let run = run(0.005, block, law, el_centro_1940(), 0.1);
+    first_warning(&run, |warning| match warning {
+        Warning::Mistake(Mistake::WeakBond { strength, pressure }) => Some([*strength, *pressure]),
+        _ => None,
+    })
 }
 
 #[test]
 fn strengths_in_kilopascals() {
-    let block = || RigidBlock::new(6.0, 9.0, 1000.0).unwrap();
-    let told = |tension: f64, cohesion: f64| {
-        let law = Cohesive::new(tension, cohesion, 0.4).unwrap();
-        let run = run(0.005, block(), law, el_centro_1940(), 0.1);
-        run.warnings.iter().find_map(|warning| match warning {
-            Warning::Mistake(Mistake::WeakBond { strength, pressure }) => {
-                Some([*strength, *pressure])
-            }
-            _ => None,
-        })
-    };
-    assert_eq!(told(0.0, 0.0), None);
-    assert_eq!(told(50e3, 100e3), None);
-    let [strength, pressure] = told(10.0, 20.0).unwrap();
+    assert_eq!(weak_bond(0.0, 0.0), None);
+    assert_eq!(weak_bond(50e3, 100e3), None);
+    let [strength, pressure] = weak_bond(10.0, 20.0).unwrap();
     assert_eq!(strength, 10.0);
     assert!((pressure / (9.0 * 1000.0 * STANDARD_GRAVITY) - 1.0).abs() < 1e-9);
 }

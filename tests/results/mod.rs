@@ -3,6 +3,7 @@
 //! REFERENCE: the states they were made of, and statics.
 
 mod case_files;
+mod case_table_files;
 mod case_tables;
 mod damaged_tables;
 mod files;
@@ -13,6 +14,7 @@ mod mistakes;
 mod npz;
 mod pages;
 mod plot;
+mod plot_texts;
 mod refused;
 mod resolution;
 mod safety;
@@ -29,20 +31,20 @@ use basemat::results::{Recorder, TimeSeries};
 
 use basemat_problems::scenes::{self, SI, block, friction, scene};
 
-const FRICTION: f64 = 0.35;
-const STEPS: usize = 400;
+const FRICTION_COEFFICIENT: f64 = 0.35;
+const STEP_COUNT: usize = 400;
 
 fn simulation() -> Simulation {
     scene(SI, 0.6)
         .structure(block(SI))
-        .interface(friction(FRICTION))
+        .interface(friction(FRICTION_COEFFICIENT))
         .probe(Probe::displacement("top", block(SI).horizontal_at(6.0)))
         .probe(Probe::acceleration("top acceleration", block(SI).horizontal_at(6.0)))
         .build()
         .unwrap()
 }
 
-/// A simulation that has run, and all that is left of it.
+/// A simulation that has run, and its results.
 struct Recorded {
     simulation: Simulation,
     states: Vec<State>,
@@ -52,6 +54,6 @@ struct Recorded {
 
 fn recorded(recorder: Recorder) -> Recorded {
     let mut simulation = simulation();
-    let (time_series, run, states) = scenes::recorded(&mut simulation, recorder, STEPS);
+    let (time_series, run, states) = scenes::recorded(&mut simulation, recorder, STEP_COUNT);
     Recorded { simulation, states, time_series, run }
 }

@@ -5,29 +5,32 @@
 use basemat::Error;
 use basemat::coupled::Probe;
 use basemat::interface::Bonded;
-use basemat::results::{Comparison, Quantity, Recorder};
+use basemat::results::{Comparison, Quantity, Recorder, Run};
 use basemat::structure::RigidBlock;
 
-use super::{FRICTION, Recorded, STEPS, recorded};
+use super::{FRICTION_COEFFICIENT, Recorded, STEP_COUNT, recorded};
 use basemat_problems::scenes::{SI, block, friction, scene};
 
 /// Values stay SI in files and are converted to the engineers' units where they are printed; an
 /// unknown label stays.
 #[test]
 fn probes_come_with_their_unit() {
-    let build = || {
-        scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION)).probes([
+    let mut simulation = scene(SI, 0.6)
+        .structure(block(SI))
+        .interface(friction(FRICTION_COEFFICIENT))
+        .probes([
             Probe::displacement("slide", RigidBlock::HORIZONTAL),
             Probe::displacement("turn", RigidBlock::ROTATION).in_unit("rad"),
             Probe::velocity("rate", (RigidBlock::HORIZONTAL, 100.0)).in_unit("cm/s"),
             Probe::acceleration("shake", RigidBlock::HORIZONTAL),
             Probe::displacement("bare", RigidBlock::VERTICAL).in_unit(""),
         ])
-    };
-    let mut simulation = build().build().unwrap();
+        .build()
+        .unwrap();
     let mut time_series = Recorder::new().start(&simulation).unwrap();
-    let run = simulation.run(STEPS, |state| time_series.record(state)).unwrap();
-    let (page, mut table) = (run.to_string(), Comparison::default());
+    let run = simulation.run(STEP_COUNT, |state| time_series.record(state)).unwrap();
+    let page = run.to_string();
+    let mut table = Comparison::default();
     table.extend([("a", run.clone())]);
     let table_page = table.to_string();
     let labels = [
@@ -39,25 +42,27 @@ fn probes_come_with_their_unit() {
     for (name, unit, factor) in labels {
         let peak = run.probe(name).unwrap().largest();
         let series = time_series.probe(name).unwrap().iter();
-        assert_eq!(peak.value.abs(), series.fold(0.0, |most: f64, value| most.max(value.abs())));
+        let largest = series.fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        assert_eq!(peak.value.abs(), largest);
         assert!(peak.value != 0.0);
+        let expected = factor * peak.value;
         for text in [&page, &table_page] {
             let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
             let words: Vec<&str> = line.split_whitespace().collect();
             assert!(words.contains(&unit), "{line}");
-            let shown = |word: &&str| {
+            let shown = words.iter().any(|word| {
                 let value: f64 = word.parse().unwrap_or(f64::NAN);
-                (value - factor * peak.value).abs() < 1e-3 * factor * peak.value.abs()
-            };
-            assert!(words.iter().any(shown), "{line}, not {}", factor * peak.value);
+                (value - expected).abs() < 1e-3 * factor * peak.value.abs()
+            });
+            assert!(shown, "{line}, not {expected}");
         }
     }
     let text = time_series.csv();
-    let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare,input_energy_j_per_m";
-    assert!(text.lines().next().unwrap().ends_with(wanted));
+    let expected = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare,input_energy_j_per_m";
+    assert!(text.lines().next().unwrap().ends_with(expected));
     let csv = table.csv();
-    let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare";
-    assert!(csv.lines().next().unwrap().ends_with(wanted));
+    let expected = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare";
+    assert!(csv.lines().next().unwrap().ends_with(expected));
     let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     let turn = run.probe("turn").unwrap().largest().value;
     assert_eq!(last[last.len() - 4].parse(), Ok(turn));
@@ -67,17 +72,22 @@ fn probes_come_with_their_unit() {
     assert_eq!(run.probe("nobody"), Err(nobody));
 }
 
+fn run_with(probe: Probe) -> Run {
+    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    builder.probe(probe).build().unwrap().begin_run()
+}
+
+fn tilt_probe() -> Probe {
+    Probe::displacement("tilt", RigidBlock::ROTATION)
+}
+
 #[test]
 fn cases_with_other_probes_or_units_have_no_common_rows() {
-    let run = |probe: Probe| {
-        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
-        builder.probe(probe).build().unwrap().begin_run()
-    };
-    let tilt = || Probe::displacement("tilt", RigidBlock::ROTATION);
-    let same: Comparison = ["a", "b"].map(|name| (name, run(tilt()))).into_iter().collect();
+    let same: Comparison =
+        ["a", "b"].map(|name| (name, run_with(tilt_probe()))).into_iter().collect();
     assert_eq!((same.cases.len(), same.csv().lines().count()), (2, 3));
     assert!(same.to_string().contains("tilt"));
-    let mixed = [("a", run(tilt())), ("b", run(tilt().in_unit("rad")))];
+    let mixed = [("a", run_with(tilt_probe())), ("b", run_with(tilt_probe().in_unit("rad")))];
     let mixed: Comparison = mixed.into_iter().collect();
     assert!(!mixed.to_string().contains("tilt") && !mixed.csv().contains("tilt"));
 }
@@ -122,22 +132,23 @@ fn pages_and_tables() {
     assert_eq!(Comparison::default().csv().lines().count(), 1);
 
     let text = time_series.csv();
-    assert_eq!(text.lines().count(), STEPS + 2);
+    assert_eq!(text.lines().count(), STEP_COUNT + 2);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().all(|line| line.split(',').count() == columns));
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
-    assert_eq!(last[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEPS]));
+    assert_eq!(last[1].parse(), Ok(time_series.series(Quantity::BaseShear)[STEP_COUNT]));
 }
 
 #[test]
 fn a_page_says_where_most_of_the_base_opens() {
-    let scene = || scene(SI, 2.5).structure(block(SI));
-    let mut seen = Vec::new();
-    for builder in [scene().interface(Bonded), scene().interface(friction(0.8))] {
-        let run = builder.build().unwrap().run(STEPS, |_| {}).unwrap();
+    let mut opened = Vec::new();
+    let bonded = scene(SI, 2.5).structure(block(SI)).interface(Bonded);
+    let rubbing = scene(SI, 2.5).structure(block(SI)).interface(friction(0.8));
+    for builder in [bonded, rubbing] {
+        let run = builder.build().unwrap().run(STEP_COUNT, |_| {}).unwrap();
         let is_open = run.whole.uplifted_fraction.highest.value > 0.5;
         assert_eq!(run.to_string().contains("most of the base opens"), is_open, "{run}");
-        seen.push(is_open);
+        opened.push(is_open);
     }
-    assert_eq!(seen, [false, true]);
+    assert_eq!(opened, [false, true]);
 }

@@ -4,9 +4,14 @@
 
 use basemat::Error;
 use basemat::coupled::State;
-use basemat::results::{Recorder, log_spaced};
+use basemat::results::{Recorder, Run, TimeSeries, log_spaced};
 
 use super::simulation;
+
+fn record(state: &State, time_series: &mut TimeSeries, run: &mut Run) {
+    time_series.record(state).unwrap();
+    run.record(state);
+}
 
 #[test]
 fn bad_requests_are_errors() {
@@ -23,13 +28,13 @@ fn bad_requests_are_errors() {
     assert!(matches!(spectrum, Err(Error::Scene { .. })));
 
     let mut simulation = simulation();
-    let start = |recorder: Recorder| recorder.start(&simulation);
     for recorder in
         [Recorder::new().every(0), Recorder::new().contact(0), Recorder::new().motion(0)]
     {
-        assert!(matches!(start(recorder), Err(Error::Input { .. })));
+        assert!(matches!(recorder.start(&simulation), Err(Error::Input { .. })));
     }
-    let (mut time_series, mut run) = (start(Recorder::new()).unwrap(), simulation.begin_run());
+    let mut time_series = Recorder::new().start(&simulation).unwrap();
+    let mut run = simulation.begin_run();
     let known = ["top", "top acceleration"].map(str::to_owned).into();
     assert_eq!(
         time_series.probe("nobody"),
@@ -45,16 +50,12 @@ fn bad_requests_are_errors() {
     assert!(log_spaced(1.0, 2.0, 1).is_err() && log_spaced(1.0, 2.0, usize::MAX).is_err());
     // The same state twice, and one of another scene.
     let state = simulation.step().unwrap().clone();
-    let mut record = |state: &State| {
-        time_series.record(state).unwrap();
-        run.record(state);
-    };
-    record(&state);
-    record(&state);
+    record(&state, &mut time_series, &mut run);
+    record(&state, &mut time_series, &mut run);
     let mut other = state.clone();
     other.time += 1.0;
     other.contact.pop();
-    record(&other);
+    record(&other, &mut time_series, &mut run);
     // Those that somebody has meddled with.
     let spoil: [&dyn Fn(&mut State); 3] = [
         &|state| state.foundations[0].elements = 0..100,
@@ -65,7 +66,7 @@ fn bad_requests_are_errors() {
         let mut other = state.clone();
         other.time += 1.0;
         spoil(&mut other);
-        record(&other);
+        record(&other, &mut time_series, &mut run);
     }
     assert_eq!(time_series.times().len(), 2);
     assert_eq!((run.steps, run.end), (1, state.time));
@@ -74,16 +75,18 @@ fn bad_requests_are_errors() {
 /// States of another simulation of the same sizes are not taken for the next ones of this.
 #[test]
 fn states_of_another_simulation_are_ignored() {
-    let (mut own, mut other) = (simulation(), simulation());
-    let (mut time_series, mut run) = (Recorder::new().start(&own).unwrap(), own.begin_run());
-    let foreign = other.step().unwrap();
+    let mut first = simulation();
+    let mut second = simulation();
+    let mut time_series = Recorder::new().start(&first).unwrap();
+    let mut run = first.begin_run();
+    let foreign = second.step().unwrap();
     time_series.record(foreign).unwrap();
     run.record(foreign);
     assert_eq!((time_series.times(), run.steps), (&[0.0][..], 0));
-    let state = own.step().unwrap();
+    let state = first.step().unwrap();
     time_series.record(state).unwrap();
     run.record(state);
-    assert_eq!((time_series.times(), run.steps), (&[0.0, own.time_step()][..], 1));
+    assert_eq!((time_series.times(), run.steps), (&[0.0, first.time_step()][..], 1));
 }
 
 /// Time series and snapshots of more steps than the limit of memory allows are an error before the run, which names

@@ -21,9 +21,9 @@ use basemat_problems::wrapped::Pulled;
 fn statics_of_a_pushed_block() {
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let weight = STANDARD_GRAVITY * block.total_mass();
-    // The second one uplifts: eccentricity h/4 = 1.25 > b/3. The third must be held by tension.
-    for (share, height, bonded) in [(0.2, 1.5, false), (0.25, 5.0, false), (0.5, 6.0, true)] {
-        let push = share * weight;
+    // The second one uplifts: eccentricity h/4 = 1.25 > b/3. The third stands by tension only.
+    for (push_ratio, height, bonded) in [(0.2, 1.5, false), (0.25, 5.0, false), (0.5, 6.0, true)] {
+        let push = push_ratio * weight;
         let along = block.horizontal_at(height);
         let pushed = Pulled { structure: block.clone(), along, force: move |_| push };
         let builder = Simulation::builder(1e-3)
@@ -39,11 +39,13 @@ fn statics_of_a_pushed_block() {
         };
         let simulation = builder.safety_friction([0.6]).build().unwrap();
         let time_series = Recorder::new().start(&simulation).unwrap();
-        let value = |quantity| time_series.series(quantity)[0];
-        assert!((value(Quantity::SlidingSafety) * share / 0.6 - 1.0).abs() < 1e-6);
-        assert!((value(Quantity::OverturningSafety) * share * height / 2.0 - 1.0).abs() < 1e-6);
-        assert_eq!(value(Quantity::OverturningSafety) < 1.0, bonded);
-        assert_eq!(value(Quantity::UpliftedFraction) > 0.0, height == 5.0);
+        let sliding = time_series.series(Quantity::SlidingSafety)[0];
+        let overturning = time_series.series(Quantity::OverturningSafety)[0];
+        let uplifted = time_series.series(Quantity::UpliftedFraction)[0];
+        assert!((sliding * push_ratio / 0.6 - 1.0).abs() < 1e-6);
+        assert!((overturning * push_ratio * height / 2.0 - 1.0).abs() < 1e-6);
+        assert_eq!(overturning < 1.0, bonded);
+        assert_eq!(uplifted > 0.0, height == 5.0);
     }
 }
 
@@ -65,23 +67,26 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
         .gravity(STANDARD_GRAVITY)
         .build()
         .unwrap();
-    let mut least = [f64::INFINITY; 2];
+    let mut smallest_overturning = f64::INFINITY;
+    let mut smallest_sliding = f64::INFINITY;
     let run = simulation.run(500, |state| {
         for foundation in &state.foundations {
-            // N b over the moment about the middle of its own base, and friction N over the shear.
+            // N b over the moment about the middle of the foundation's base, and friction N over the shear.
             let safety = foundation.normal_force / foundation.base_moment.abs();
-            least[0] = least[0].min(safety);
-            least[1] = least[1].min(0.5 * foundation.normal_force / foundation.base_shear.abs());
+            smallest_overturning = smallest_overturning.min(safety);
+            let safety = 0.5 * foundation.normal_force / foundation.base_shear.abs();
+            smallest_sliding = smallest_sliding.min(safety);
         }
     });
     let run = run.unwrap();
-    let close = |found: f64, known: f64| (found / known - 1.0).abs() < 1e-9;
-    assert!(close(run.whole.overturning_safety.lowest.value, least[0]));
-    assert!(close(run.whole.sliding_safety.lowest.value, least[1]));
-    assert!(least[0] < 1.3);
+    let overturning = run.whole.overturning_safety.lowest.value;
+    assert!((overturning / smallest_overturning - 1.0).abs() < 1e-9);
+    let sliding = run.whole.sliding_safety.lowest.value;
+    assert!((sliding / smallest_sliding - 1.0).abs() < 1e-9);
+    assert!(smallest_overturning < 1.3);
 }
 
-/// A law of one's own whose coefficient is nonsense.
+/// A user's law whose coefficient is nonsense.
 struct Nonsense(Coulomb);
 
 impl InterfaceLaw for Nonsense {
@@ -94,56 +99,70 @@ impl InterfaceLaw for Nonsense {
 
 type Laws = Vec<Box<dyn InterfaceLaw>>;
 
-/// GOAL: the factor of safety is made of the laws' own coefficients, element by element, unless the
+/// A run of 20 steps; the builder is told these coefficients.
+fn march(laws: Laws, safety_friction: Vec<f64>) -> Result<(Run, TimeSeries), Error> {
+    let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
+    let mut simulation = builder.safety_friction(safety_friction).build()?;
+    let mut time_series = Recorder::new().start(&simulation)?;
+    let run = simulation.run(20, |state| time_series.record(state))?;
+    Ok((run, time_series))
+}
+
+/// Factors of safety against sliding without the static state, which has no shear.
+fn sliding_factors(laws: Laws, safety_friction: Vec<f64>) -> Vec<f64> {
+    let time_series = march(laws, safety_friction).unwrap().1;
+    time_series.series(Quantity::SlidingSafety)[1..].to_vec()
+}
+
+fn coulomb_laws(coefficients: &[f64]) -> Laws {
+    let mut laws: Laws = Vec::new();
+    for &friction in coefficients {
+        laws.push(Box::new(Coulomb::new(friction).unwrap()));
+    }
+    laws
+}
+
+/// Laws of friction, but for one bonded element.
+fn partly_bonded_laws(coefficients: &[f64]) -> Laws {
+    let mut laws = coulomb_laws(coefficients);
+    laws[2] = Box::new(Bonded);
+    laws
+}
+
+/// GOAL: the factor of safety is made of the coefficients of the laws, element by element, unless the
 /// builder is told others; a base with an element that has none has no factor.
 #[test]
 fn friction_is_that_of_the_laws() {
-    let coulomb = |friction| Coulomb::new(friction).unwrap();
-    let layer = |friction| ThinLayer::new(soil(SI), 0.5, friction).unwrap();
-    let march = |laws: Laws, told: Vec<f64>| {
-        let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
-        let mut simulation = builder.safety_friction(told).build()?;
-        let mut time_series = Recorder::new().start(&simulation)?;
-        let run = simulation.run(20, |state| time_series.record(state))?;
-        Ok::<_, Error>((run, time_series))
-    };
     let count = simulation().ground().elements().len();
-    let each = |friction: &dyn Fn(usize) -> f64| -> Laws {
-        (0..count).map(|e| Box::new(coulomb(friction(e))) as Box<dyn InterfaceLaw>).collect()
-    };
-    let graded = |e: usize| 0.3 + 0.01 * e as f64;
-    // Without the static state, which has no shear.
-    let factor = |marched: Result<(Run, TimeSeries), Error>| {
-        marched.unwrap().1.series(Quantity::SlidingSafety)[1..].to_vec()
-    };
-    let told = |laws: Laws| factor(march(laws, (0..count).map(graded).collect()));
-    let read = |laws: Laws| factor(march(laws, Vec::new()));
-    let own = read(each(&graded));
-    assert!(own.iter().all(|factor| factor.is_finite()));
-    assert_eq!(own, told(each(&graded)));
-    assert!(own.iter().zip(read(each(&|_| 0.3))).all(|(a, b)| *a > b));
+    let graded: Vec<f64> = (0..count).map(|e| 0.3 + 0.01 * e as f64).collect();
+    let factors = sliding_factors(coulomb_laws(&graded), Vec::new());
+    assert!(factors.iter().all(|factor| factor.is_finite()));
+    assert_eq!(factors, sliding_factors(coulomb_laws(&graded), graded.clone()));
+    let smaller = sliding_factors(coulomb_laws(&vec![0.3; count]), Vec::new());
+    assert!(factors.iter().zip(smaller).all(|(a, b)| *a > b));
     // One law for all; a layer; infinite friction.
-    for law in [Box::new(coulomb(0.3)) as Box<dyn InterfaceLaw>, Box::new(layer(0.3))] {
-        let factor = read(vec![law]);
-        assert!(factor.iter().all(|factor| *factor >= 1.0 - 1e-9 && factor.is_finite()));
+    let layer = ThinLayer::new(soil(SI), 0.5, 0.3).unwrap();
+    for laws in [coulomb_laws(&[0.3]), vec![Box::new(layer) as Box<dyn InterfaceLaw>]] {
+        let factors = sliding_factors(laws, Vec::new());
+        assert!(factors.iter().all(|factor| *factor >= 1.0 - 1e-9 && factor.is_finite()));
     }
-    let unlimited = read(vec![Box::new(Coulomb::uplift_only())]);
+    let unlimited = sliding_factors(vec![Box::new(Coulomb::uplift_only())], Vec::new());
     assert!(unlimited.iter().all(|factor| *factor == f64::INFINITY));
     // One bonded element: none, unless told.
-    let mixed = || {
-        let mut laws = each(&graded);
-        laws[2] = Box::new(Bonded);
-        laws
-    };
-    assert!(read(mixed()).iter().all(|factor| factor.is_nan()));
-    assert!(march(mixed(), Vec::new()).unwrap().0.whole.sliding_safety.lowest.value.is_nan());
-    assert!(told(mixed()).iter().all(|factor| factor.is_finite()));
-    let refused = |laws: Laws, told: Vec<f64>| march(laws, told).err().unwrap();
-    let nonsense = vec![Box::new(Nonsense(coulomb(0.3))) as Box<dyn InterfaceLaw>];
-    assert!(matches!(refused(nonsense, Vec::new()), Error::Input { .. }));
+    let without = sliding_factors(partly_bonded_laws(&graded), Vec::new());
+    assert!(without.iter().all(|factor| factor.is_nan()));
+    let run = march(partly_bonded_laws(&graded), Vec::new()).unwrap().0;
+    assert!(run.whole.sliding_safety.lowest.value.is_nan());
+    let told = sliding_factors(partly_bonded_laws(&graded), graded.clone());
+    assert!(told.iter().all(|factor| factor.is_finite()));
+    let nonsense = Nonsense(Coulomb::new(0.3).unwrap());
+    let refused = march(vec![Box::new(nonsense) as Box<dyn InterfaceLaw>], Vec::new());
+    assert!(matches!(refused.err().unwrap(), Error::Input { .. }));
     for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {
-        assert!(matches!(refused(mixed(), vec![coefficient]), Error::Input { .. }));
+        let refused = march(partly_bonded_laws(&graded), vec![coefficient]);
+        assert!(matches!(refused.err().unwrap(), Error::Input { .. }));
     }
-    assert!(march(mixed(), vec![f64::INFINITY]).is_ok());
-    assert!(matches!(refused(mixed(), vec![0.4; 3]), Error::Size { found: 3, .. }));
+    assert!(march(partly_bonded_laws(&graded), vec![f64::INFINITY]).is_ok());
+    let refused = march(partly_bonded_laws(&graded), vec![0.4; 3]);
+    assert!(matches!(refused.err().unwrap(), Error::Size { found: 3, .. }));
 }

@@ -7,49 +7,63 @@ use basemat::coupled::State;
 use basemat::results::Run;
 use basemat::results::{Comparison, Criterion, ServiceCheck, Serviceability};
 
-use super::{FRICTION, STEPS};
+use super::{FRICTION_COEFFICIENT, STEP_COUNT};
 use basemat_problems::scenes::{SI, block, friction, scene};
 
-fn run(limits: Serviceability) -> (Run, Vec<State>) {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
+/// A run with limits, and its states.
+struct CheckedRun {
+    run: Run,
+    states: Vec<State>,
+}
+
+fn checked_run(limits: Serviceability) -> CheckedRun {
+    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
     let mut simulation = builder.serviceability(limits).build().unwrap();
     let mut states = vec![simulation.state().clone()];
-    let run = simulation.run(STEPS, |state| states.push(state.clone())).unwrap();
-    (run, states)
+    let run = simulation.run(STEP_COUNT, |state| states.push(state.clone())).unwrap();
+    CheckedRun { run, states }
 }
 
 fn value(criterion: Criterion, state: &State) -> f64 {
     match criterion {
         Criterion::Slip => state.mean_slip.abs(),
-        Criterion::Gap => state.contact.iter().fold(0.0, |most, own| own.gap.max(most)),
+        Criterion::Gap => {
+            state.contact.iter().fold(0.0, |largest, contact| contact.gap.max(largest))
+        }
         Criterion::UpliftedFraction => state.uplifted_fraction,
         _ => state.base_rotation.abs(),
     }
 }
 
+/// Text of the cell of a table's first row under this heading.
+fn cell<'a>(csv: &'a str, name: &str) -> &'a str {
+    let mut lines = csv.lines();
+    let place = lines.next().unwrap().split(',').position(|heading| heading == name).unwrap();
+    lines.next().unwrap().split(',').nth(place).unwrap()
+}
+
 #[test]
 fn verdicts_are_those_of_the_states() {
-    let (free, states) = run(Serviceability::default());
+    let CheckedRun { run: free, states } = checked_run(Serviceability::default());
     assert!(free.serviceability.is_empty() && free.is_serviceable().is_none());
     assert!(!free.to_string().contains("Serviceability"));
-    let peak = |criterion| states.iter().map(|s| value(criterion, s)).fold(0.0, f64::max);
-    let wanted =
+    let criteria =
         [Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation];
-    let peaks = wanted.map(peak);
+    let peaks =
+        criteria.map(|criterion| states.iter().map(|s| value(criterion, s)).fold(0.0, f64::max));
     assert!(peaks.iter().all(|peak| *peak > 0.0));
-    for share in [0.5, 1.0, 2.0] {
-        let limit = |k: usize| share * peaks[k];
+    for factor in [0.5, 1.0, 2.0] {
         let limits = Serviceability {
-            slip: Some(limit(0)),
-            gap: Some(limit(1)),
-            uplifted_fraction: Some(limit(2).min(1.0)),
-            rotation: Some(limit(3)),
+            slip: Some(factor * peaks[0]),
+            gap: Some(factor * peaks[1]),
+            uplifted_fraction: Some((factor * peaks[2]).min(1.0)),
+            rotation: Some(factor * peaks[3]),
         };
-        let (run, again) = run(limits);
+        let CheckedRun { run, states: again } = checked_run(limits);
         assert_eq!(again.len(), states.len());
         assert_eq!(run.whole.base_shear, free.whole.base_shear);
         assert_eq!(run.serviceability.len(), 4);
-        for ((check, criterion), peak) in run.serviceability.iter().zip(wanted).zip(peaks) {
+        for ((check, criterion), peak) in run.serviceability.iter().zip(criteria).zip(peaks) {
             assert_eq!(check.criterion, criterion);
             assert_eq!(check.largest.value.abs(), peak);
             let first = states.iter().find(|s| value(criterion, s) > check.limit);
@@ -57,34 +71,30 @@ fn verdicts_are_those_of_the_states() {
             assert_eq!(check.is_met(), peak <= check.limit);
             assert!((check.margin() - (1.0 - peak / check.limit)).abs() < 1e-15);
         }
-        assert_eq!(run.is_serviceable(), Some(share >= 1.0));
+        assert_eq!(run.is_serviceable(), Some(factor >= 1.0));
         let page = run.to_string();
-        let verdict = if share < 1.0 { "Serviceability: not met" } else { "Serviceability: met" };
+        let verdict = if factor < 1.0 { "Serviceability: not met" } else { "Serviceability: met" };
         assert!(page.contains(verdict), "{page}");
-        assert_eq!(page.contains("exceeded from"), share < 1.0);
-        let least =
+        assert_eq!(page.contains("exceeded from"), factor < 1.0);
+        let margin =
             run.serviceability.iter().map(ServiceCheck::margin).fold(f64::INFINITY, f64::min);
         let first = run.serviceability.iter().filter_map(|check| check.first_excess);
         let first = first.reduce(f64::min).map_or(String::new(), |time| time.to_string());
         let csv = Comparison::from_iter([("a", run.clone())]).csv();
-        let [heading, line] = [0, 1].map(|k| csv.lines().nth(k).unwrap().split(','));
-        let cell = |name: &str| {
-            let place = heading.clone().position(|h| h == name).unwrap();
-            line.clone().nth(place).unwrap().to_owned()
-        };
-        assert_eq!(cell("serviceability_margin").parse(), Ok(least));
-        assert_eq!(cell("serviceability_first_excess_s"), first);
+        assert_eq!(cell(&csv, "serviceability_margin").parse(), Ok(margin));
+        assert_eq!(cell(&csv, "serviceability_first_excess_s"), first);
     }
+}
+
+fn build(limits: Serviceability) -> Result<(), Error> {
+    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    builder.serviceability(limits).build().map(|_| ())
 }
 
 /// GOAL: invalid limits are refused by name.
 #[test]
 fn bad_limits() {
     let none = Serviceability::default();
-    let built = |limits| {
-        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
-        builder.serviceability(limits).build().map(|_| ())
-    };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let refused = [
             Serviceability { slip: Some(bad), ..none },
@@ -92,7 +102,7 @@ fn bad_limits() {
             Serviceability { uplifted_fraction: Some(bad), ..none },
             Serviceability { rotation: Some(bad), ..none },
         ]
-        .map(built);
+        .map(build);
         let names = [
             "allowable slip",
             "allowable gap",
@@ -107,6 +117,7 @@ fn bad_limits() {
             );
         }
     }
-    let uplifted = |limit| built(Serviceability { uplifted_fraction: Some(limit), ..none });
-    assert!(uplifted(1.0 + 1e-12).is_err() && uplifted(1.0).is_ok());
+    let above_one = Serviceability { uplifted_fraction: Some(1.0 + 1e-12), ..none };
+    let one = Serviceability { uplifted_fraction: Some(1.0), ..none };
+    assert!(build(above_one).is_err() && build(one).is_ok());
 }

@@ -41,32 +41,38 @@ fn floors_of_a_light_rigid_block_move_as_the_ground() {
     assert_eq!(record.accelerations(), time_series.probe("top").unwrap());
 }
 
-/// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on
-/// from there, every point of them moved as the peak is.
-#[test]
-fn broadened_peaks_are_plateaus() {
-    let ordinate = |period: f64, value: f64| SpectralOrdinate {
+fn ordinate(period: f64, value: f64) -> SpectralOrdinate {
+    SpectralOrdinate {
         period,
         displacement: value,
         pseudo_velocity: 2.0 * value,
         pseudo_acceleration: 3.0 * value,
         acceleration: 4.0 * value,
-    };
-    // A triangle of height three over ln T, its top at f_j = 1 Hz.
-    let shape = |period: f64| 3.0 - period.ln().abs();
+    }
+}
+
+/// A triangle of height three over ln T, its top at f_j = 1 Hz.
+fn triangle(period: f64) -> f64 {
+    3.0 - period.ln().abs()
+}
+
+/// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on
+/// from there, every point of them moved as the peak is.
+#[test]
+fn broadened_peaks_are_plateaus() {
     let periods = log_spaced(0.1, 10.0, 401).unwrap();
-    let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, shape(t))).collect();
+    let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, triangle(t))).collect();
     for (wide, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
         let frequency = 1.0 / period;
-        let known = if (0.85..=1.15).contains(&frequency) {
+        let expected = if (0.85..=1.15).contains(&frequency) {
             3.0
         } else if frequency < 0.85 {
             // The peak at the frequency f has moved to 0.85 f.
-            shape(0.85 / frequency)
+            triangle(0.85 / frequency)
         } else {
-            shape(1.15 / frequency)
+            triangle(1.15 / frequency)
         };
-        assert!((wide.displacement - known).abs() < 1e-12, "{frequency}");
+        assert!((wide.displacement - expected).abs() < 1e-12, "{frequency}");
         assert_eq!(wide.acceleration, 4.0 * wide.displacement);
     }
     // A peak of one period: where it is seen.

@@ -6,17 +6,19 @@ use basemat::Error;
 use basemat::coupled::{EnergyTerm, State};
 use basemat::results::{Quantity, Recorder};
 
-use super::{FRICTION, Recorded, STEPS, recorded};
+use super::{FRICTION_COEFFICIENT, Recorded, STEP_COUNT, recorded};
 
 fn farthest_slip(state: &State) -> f64 {
-    state.contact.iter().fold(0.0, |most, own| own.slip.abs().max(most))
+    state.contact.iter().fold(0.0, |largest, contact| contact.slip.abs().max(largest))
 }
 
-/// Everything once more, from the states and by other means.
-#[test]
-fn histories_and_peaks_are_those_of_the_states() {
-    let Recorded { simulation, states, time_series, run } = recorded(Recorder::new().contact(1));
-    let elements = simulation.ground().elements();
+fn largest(states: &[State], value: fn(&State) -> f64) -> f64 {
+    states.iter().map(value).fold(f64::MIN, f64::max)
+}
+
+/// The recorded series and the peaks are those of the states.
+fn assert_series(recorded: &Recorded) {
+    let Recorded { states, time_series, run, .. } = recorded;
     let times: Vec<f64> = states.iter().map(|s| s.time).collect();
     assert_eq!(time_series.times(), times);
     let shear: Vec<f64> = states.iter().map(|s| s.base_shear).collect();
@@ -25,9 +27,9 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert_eq!(time_series.series(Quantity::BaseRotation), rotation);
     let top: Vec<f64> = states.iter().map(|s| s.probes[0]).collect();
     assert_eq!(time_series.probe("top").unwrap(), top);
-    assert_eq!(time_series.energy_balances()[STEPS], states[STEPS].energy_balance);
+    assert_eq!(time_series.energy_balances()[STEP_COUNT], states[STEP_COUNT].energy_balance);
 
-    let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
+    let peak = (0..=STEP_COUNT).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
     let found = run.whole.base_shear.highest;
     assert_eq!((found.value, found.time), (shear[peak], times[peak]));
     let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
@@ -35,20 +37,26 @@ fn histories_and_peaks_are_those_of_the_states() {
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     assert_eq!(run.probe("top").unwrap().magnitude(), top_peak);
 
-    let largest = |of: &dyn Fn(&State) -> f64| states.iter().map(of).fold(f64::MIN, f64::max);
-    assert_eq!(run.whole.base_moment.highest.value, largest(&|s| s.base_moment));
-    assert_eq!(run.whole.normal_force.highest.value, largest(&|s| s.normal_force));
-    assert_eq!(run.whole.base_rotation.highest.value, largest(&|s| s.base_rotation));
-    assert_eq!(run.whole.uplifted_fraction.largest().value, largest(&|s| s.uplifted_fraction));
-    assert_eq!(run.whole.largest_slip.magnitude(), largest(&farthest_slip));
+    assert_eq!(run.whole.base_moment.highest.value, largest(states, |s| s.base_moment));
+    assert_eq!(run.whole.normal_force.highest.value, largest(states, |s| s.normal_force));
+    assert_eq!(run.whole.base_rotation.highest.value, largest(states, |s| s.base_rotation));
+    let uplifted = run.whole.uplifted_fraction.largest().value;
+    assert_eq!(uplifted, largest(states, |s| s.uplifted_fraction));
+    assert_eq!(run.whole.largest_slip.magnitude(), largest(states, farthest_slip));
     assert_eq!(run.whole.static_normal_force, states[0].normal_force);
     let changes: usize = states.iter().map(|s| s.transitions.len()).sum();
     assert_eq!(run.mode_changes, changes);
+}
 
+fn assert_envelopes(recorded: &Recorded) {
+    let Recorded { simulation, states, run, .. } = recorded;
+    let elements = simulation.ground().elements();
     for (e, envelope) in run.envelope.iter().enumerate() {
-        let pressures = || states.iter().map(|s| s.contact[e].pressure);
-        assert_eq!(envelope.pressure.highest.value, pressures().fold(0.0, f64::max));
-        assert_eq!(envelope.pressure.lowest.value, pressures().fold(1e99, f64::min));
+        let pressures: Vec<f64> = states.iter().map(|s| s.contact[e].pressure).collect();
+        let highest = pressures.iter().copied().fold(0.0, f64::max);
+        assert_eq!(envelope.pressure.highest.value, highest);
+        let lowest = pressures.iter().copied().fold(1e99, f64::min);
+        assert_eq!(envelope.pressure.lowest.value, lowest);
         assert_eq!(envelope.static_pressure, states[0].contact[e].pressure);
         let gap = states.iter().map(|s| s.contact[e].gap).fold(-1e99, f64::max);
         assert_eq!(envelope.gap.value, gap);
@@ -56,18 +64,26 @@ fn histories_and_peaks_are_those_of_the_states() {
         assert!((envelope.open - open as f64 * simulation.time_step()).abs() < 1e-9);
         assert_eq!(envelope.element, elements[e]);
     }
+}
 
-    // Stretches of uplift as runs in a string.
+/// Stretches of uplift as runs in a string.
+fn assert_uplift(recorded: &Recorded) {
+    let Recorded { simulation, states, run, .. } = recorded;
     let letters: String =
         states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
     let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
-    let (uplift, dt) = (run.whole.uplift, simulation.time_step());
+    let uplift = run.whole.uplift;
+    let dt = simulation.time_step();
     assert!(stretches.len() > 2, "{letters}");
     assert_eq!(uplift.count, stretches.len());
     assert!((uplift.duration - dt * stretches.iter().sum::<usize>() as f64).abs() < 1e-9);
     assert!((uplift.longest - dt * *stretches.iter().max().unwrap() as f64).abs() < 1e-9);
+}
 
-    // Slip events as runs of letters for the direction.
+/// Slip events as runs of letters for the direction.
+fn assert_slip_events(recorded: &Recorded) {
+    let Recorded { simulation, states, run, .. } = recorded;
+    let dt = simulation.time_step();
     let letters: Vec<char> = states
         .windows(2)
         .map(|pair| {
@@ -86,18 +102,21 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert_eq!(sliding.events.len(), events);
     let slid = letters.iter().filter(|&&letter| letter != ' ').count();
     assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
-    assert_eq!(run.whole.residual_slip, states[STEPS].mean_slip);
+    assert_eq!(run.whole.residual_slip, states[STEP_COUNT].mean_slip);
     let way: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
     assert!((way / sliding.path - 1.0).abs() < 1e-12);
     let peak = states.iter().fold(0.0_f64, |m, s| m.max(s.mean_slip.abs()));
     assert_eq!(run.whole.mean_slip.magnitude(), peak);
+}
 
-    // Safety from the resultants that the state has of its own.
+/// Safety from the resultants of the state.
+fn assert_safety(recorded: &Recorded) {
+    let Recorded { states, time_series, run, .. } = recorded;
     let half = 2.0;
     for (k, state) in states.iter().enumerate() {
-        let sliding = FRICTION * state.normal_force / state.base_shear.abs();
+        let sliding = FRICTION_COEFFICIENT * state.normal_force / state.base_shear.abs();
         let overturning = state.normal_force * half / state.base_moment.abs();
-        for (quantity, known) in
+        for (quantity, expected) in
             [(Quantity::SlidingSafety, sliding), (Quantity::OverturningSafety, overturning)]
         {
             let found = time_series.series(quantity)[k];
@@ -105,28 +124,41 @@ fn histories_and_peaks_are_those_of_the_states() {
                 assert!(found.is_nan());
                 continue;
             }
-            assert!(known > 1e6 || (found / known - 1.0).abs() < 1e-8, "{found} {known}");
+            assert!(expected > 1e6 || (found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
             assert!(found > 1.0 - 1e-9);
         }
     }
-    let least = run.whole.sliding_safety.lowest;
-    assert!((least.value - 1.0).abs() < 1e-9);
+    let lowest = run.whole.sliding_safety.lowest;
+    assert!((lowest.value - 1.0).abs() < 1e-9);
+}
 
-    // Energy: fractions of the last energy balance, which close.
-    let energy_balance = states[STEPS].energy_balance;
+/// Fractions of the last energy balance, which close.
+fn assert_energy(recorded: &Recorded) {
+    let Recorded { states, run, .. } = recorded;
+    let energy_balance = states[STEP_COUNT].energy_balance;
     assert_eq!(run.energy_balance, energy_balance);
     let fractions = energy_balance.fractions().unwrap();
     assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-9);
-    let fraction = |term| energy_balance.fraction(term).unwrap();
-    assert!(
-        (fraction(EnergyTerm::Contact) * energy_balance.input / energy_balance.contact - 1.0).abs()
-            < 1e-12
-    );
-    assert!(fraction(EnergyTerm::Soil) > 0.05 && fraction(EnergyTerm::Contact) > 0.05);
+    let contact = energy_balance.fraction(EnergyTerm::Contact).unwrap();
+    assert!((contact * energy_balance.input / energy_balance.contact - 1.0).abs() < 1e-12);
+    let soil = energy_balance.fraction(EnergyTerm::Soil).unwrap();
+    assert!(soil > 0.05 && contact > 0.05);
+}
 
+/// Everything once more, from the states and by other means.
+#[test]
+fn histories_and_peaks_are_those_of_the_states() {
+    let recorded = recorded(Recorder::new().contact(1));
+    assert_series(&recorded);
+    assert_envelopes(&recorded);
+    assert_uplift(&recorded);
+    assert_slip_events(&recorded);
+    assert_safety(&recorded);
+    assert_energy(&recorded);
     // Frames are the states.
+    let Recorded { states, time_series, .. } = recorded;
     let frames: Vec<_> = time_series.contact_frames().collect();
-    assert_eq!(frames.len(), STEPS + 1);
+    assert_eq!(frames.len(), STEP_COUNT + 1);
     assert!(frames.iter().zip(&states).all(|(f, s)| f.states == s.contact && f.modes == s.modes));
 }
 
@@ -135,12 +167,12 @@ fn thinned_histories_are_every_seventh_state() {
     let Recorded { states, time_series, .. } =
         recorded(Recorder::new().every(7).contact(20).motion(50));
     let all = recorded(Recorder::new()).time_series;
-    assert_eq!(time_series.times().len(), 1 + STEPS / 7);
+    assert_eq!(time_series.times().len(), 1 + STEP_COUNT / 7);
     for (k, &shear) in time_series.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
     // Time, 11 scalars, 2 probes, 12 terms of the energy balance and its largest energy.
-    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 13) * (STEPS + 1));
+    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 13) * (STEP_COUNT + 1));
     assert!(time_series.bytes() < all.bytes());
     assert_eq!(time_series.contact_frames().count(), 21);
     let frames: Vec<_> = time_series.motion_frames().collect();

@@ -1,14 +1,17 @@
 //! Numbers in another unit earn a warning of the run, and usual numbers none; every page states its ground motion.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::{SimulationBuilder, Warning};
+use basemat::coupled::{Mistake, SimulationBuilder, Warning};
 use basemat::motion::{AtRest, FreeFieldFn, TravellingWave, VerticalIncidence};
 use basemat::prelude::*;
 use basemat::results::Run;
+use basemat::soil::SoilProfile;
 use basemat::structure::{MatrixModel, Triplets};
 
-fn soil() -> Soil {
-    Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap()
+use super::resolution::bonded_run;
+
+fn soil(speed: f64) -> Soil {
+    Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap()
 }
 
 /// Five storeys of this height (m) and mass (kg/m) under a record.
@@ -23,7 +26,7 @@ fn scene(
     motion: impl FreeField + 'static,
 ) -> SimulationBuilder {
     Simulation::builder(0.01)
-        .ground(ElasticGround::under(soil(), &structure, 10).unwrap())
+        .ground(ElasticGround::under(soil(250.0), &structure, 10).unwrap())
         .structure(structure)
         .interface(Coulomb::new(0.5).unwrap())
         .motion(motion)
@@ -31,7 +34,7 @@ fn scene(
 
 fn run(scene: SimulationBuilder, steps: usize) -> Run {
     let run = scene.build().unwrap().run(steps, |_| {}).unwrap();
-    for warning in run.warnings.iter().filter(|own| of_units(own)) {
+    for warning in run.warnings.iter().filter(|warning| of_units(warning)) {
         let line = format!("warning: {warning}");
         assert!(run.to_string().contains(&line) && line.chars().count() <= 100, "{line}");
     }
@@ -45,22 +48,23 @@ fn of_units(warning: &Warning) -> bool {
 /// The warnings of units, of which there must be one with these words.
 #[track_caller]
 fn warned(run: &Run, words: &str) {
-    let own: Vec<String> =
-        run.warnings.iter().filter(|own| of_units(own)).map(ToString::to_string).collect();
-    assert!(own.iter().any(|text| text.contains(words)), "{words}: {own:?}");
+    let mut texts =
+        run.warnings.iter().filter(|warning| of_units(warning)).map(ToString::to_string);
+    assert!(texts.any(|text| text.contains(words)), "{words}: {:?}", run.warnings);
 }
 
-const MASS: f64 = 20e3;
+/// Of a storey, kg/m.
+const FLOOR_MASS: f64 = 20e3;
 /// Steps of 0.01 s to the end of El Centro.
-const WHOLE: usize = 3118;
+const EL_CENTRO_STEPS: usize = 3118;
 
 #[test]
 fn usual_numbers_earn_no_warning() {
-    let usual = run(scene(building(3.0, MASS), el_centro_1940()), WHOLE);
+    let usual = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), EL_CENTRO_STEPS);
     assert!(!usual.warnings.iter().any(of_units), "{:?}", usual.warnings);
-    let ten_seconds = run(scene(building(3.0, MASS), el_centro_1940()), 1000);
+    let ten_seconds = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 1000);
     assert!(!ten_seconds.warnings.iter().any(of_units), "{:?}", ten_seconds.warnings);
-    let rest = run(scene(building(3.0, MASS), AtRest), 20);
+    let rest = run(scene(building(3.0, FLOOR_MASS), AtRest), 20);
     assert!(!rest.warnings.iter().any(of_units), "{:?}", rest.warnings);
 }
 
@@ -68,47 +72,62 @@ fn usual_numbers_earn_no_warning() {
 fn a_record_in_another_unit_is_told() {
     let record = el_centro_1940();
     let in_g = record.scaled(1.0 / STANDARD_GRAVITY).unwrap();
-    warned(&run(scene(building(3.0, MASS), in_g), WHOLE), "0.319 m/s²: motion in g?");
+    warned(
+        &run(scene(building(3.0, FLOOR_MASS), in_g), EL_CENTRO_STEPS),
+        "0.319 m/s²: motion in g?",
+    );
     let to_peak = record.scaled_to_peak(0.3).unwrap();
     let both = VerticalIncidence { horizontal: Some(to_peak.clone()), vertical: Some(to_peak) };
-    warned(&run(scene(building(3.0, MASS), both), WHOLE), "0.300 m/s²: motion in g?");
+    warned(
+        &run(scene(building(3.0, FLOOR_MASS), both), EL_CENTRO_STEPS),
+        "0.300 m/s²: motion in g?",
+    );
     let in_gal = record.scaled(100.0).unwrap();
-    warned(&run(scene(building(3.0, MASS), in_gal), 300), "motion in cm/s²?");
+    warned(&run(scene(building(3.0, FLOOR_MASS), in_gal), 300), "motion in cm/s²?");
     // 20 ms, and 20 µs.
     for (step, words) in [(20.0, "steps of 2.00e1 s"), (2e-5, "steps of 2.00e-5 s")] {
         let other = Record::new(step, record.accelerations().to_vec()).unwrap();
-        warned(&run(scene(building(3.0, MASS), other), 300), words);
+        warned(&run(scene(building(3.0, FLOOR_MASS), other), 300), words);
     }
 }
 
 #[test]
 fn numbers_of_a_structure_in_another_unit_are_told() {
-    let in_tonnes = scene(building(3.0, 1e-3 * MASS), el_centro_1940());
-    warned(&run(in_tonnes, WHOLE), "masses in t");
-    let in_gal = scene(building(3.0, MASS), el_centro_1940()).gravity(981.0);
-    warned(&run(in_gal, WHOLE), "gravity of 981 m/s²");
+    let in_tonnes = scene(building(3.0, 1e-3 * FLOOR_MASS), el_centro_1940());
+    warned(&run(in_tonnes, EL_CENTRO_STEPS), "masses in t");
+    let in_gal = scene(building(3.0, FLOOR_MASS), el_centro_1940()).gravity(981.0);
+    warned(&run(in_gal, EL_CENTRO_STEPS), "gravity of 981 m/s²");
     for friction in [30.0, 50.0] {
         let law = Coulomb::new(friction).unwrap();
-        let degrees = scene(building(3.0, MASS), el_centro_1940()).interface(law);
-        warned(&run(degrees, WHOLE), &format!("friction coefficient of {friction}: in degrees"));
+        let degrees = scene(building(3.0, FLOOR_MASS), el_centro_1940()).interface(law);
+        warned(
+            &run(degrees, EL_CENTRO_STEPS),
+            &format!("friction coefficient of {friction}: in degrees"),
+        );
     }
 }
 
 #[test]
 fn the_end_of_a_run_is_told() {
     // 5 s have half of the intensity.
-    let early = run(scene(building(3.0, MASS), el_centro_1940()), 500);
+    let early = run(scene(building(3.0, FLOOR_MASS), el_centro_1940()), 500);
     warned(&early, "run ends at 5.00 s, its record at 31.18 s: 51 % of the record's intensity");
     // A ground that moves ever faster.
     let ramp = FreeFieldFn::new(|_, time| [0.05 * time.powi(3), 0.0]);
-    warned(&run(scene(building(3.0, MASS), ramp), 100), "largest in the last step, at 1.00 s");
+    warned(
+        &run(scene(building(3.0, FLOOR_MASS), ramp), 100),
+        "largest in the last step, at 1.00 s",
+    );
+}
+
+/// The page of a run of 20 steps of the building.
+fn page(motion: impl FreeField + 'static) -> String {
+    run(scene(building(3.0, FLOOR_MASS), motion), 20).to_string()
 }
 
 #[test]
 fn every_page_states_its_motion() {
-    let page = |scene| run(scene, 20).to_string();
-    let built = || building(3.0, MASS);
-    let record = page(scene(built(), el_centro_1940()));
+    let record = page(el_centro_1940());
     assert!(
         record.starts_with("Run of 20 steps of 0.01 s from t = 0.000 s to 0.200 s\n"),
         "{record}"
@@ -117,54 +136,159 @@ fn every_page_states_its_motion() {
     for words in ["peak 3.12", " m/s² (0.318", " g), record of 31.18 s in steps of 0.02 s"] {
         assert!(line.contains(words), "{line}");
     }
-    let none = page(scene(built(), AtRest));
+    let none = page(AtRest);
     assert_eq!(none.lines().nth(1), Some("Ground motion: none"));
-    let fast = page(scene(built(), FreeFieldFn::new(|_, time| [1.5 * time * time, 0.0])));
+    let fast = page(FreeFieldFn::new(|_, time| [1.5 * time * time, 0.0]));
     let line = fast.lines().nth(1).unwrap();
     assert!(
         line.contains("peak 3") && line.ends_with("at the steps of the run, no record"),
         "{line}"
     );
     let travelling = TravellingWave::new(el_centro_1940(), 500.0, -5.0).unwrap();
-    assert!(page(scene(built(), travelling)).contains("record of 31.18 s in steps of 0.02 s"));
+    assert!(page(travelling).contains("record of 31.18 s in steps of 0.02 s"));
+}
+
+/// What damping does to a sliding block.
+struct BrakedBlock {
+    residual_slip: f64,
+    /// Rate of damping (1/s) and lost part of the slip of the warning.
+    warning: Option<(f64, f64)>,
+}
+
+/// Lets a block slide on its base with a damping of its mass (1/s).
+fn slide_with_damping(damping: f64) -> BrakedBlock {
+    let block = RigidBlock::new(6.0, 2.0, 2000.0).unwrap();
+    let mut mass = Triplets::new(3);
+    block.mass(&mut mass).unwrap();
+    let scaled = mass.entries().iter().map(|&(i, j, value)| (i, j, damping * value));
+    let drag = Triplets::from_entries(3, scaled);
+    let model = MatrixModel::new(mass, Triplets::new(3), block.base()).unwrap();
+    let mut simulation = Simulation::builder(0.005)
+        .ground(ElasticGround::under(soil(250.0), &model, 8).unwrap())
+        .structure(model.with_damping(drag).unwrap())
+        .interface(Coulomb::new(0.1).unwrap())
+        .initial_velocity(vec![1.5, 0.0, 0.0])
+        .gravity_stage(basemat::coupled::GravityStage::Frictional)
+        .build()
+        .unwrap();
+    let run = simulation.run(400, |_| {}).unwrap();
+    let warning = run.warnings.iter().find_map(|warning| match warning {
+        Warning::DampedSliding { rate, loss } => Some((*rate, *loss)),
+        _ => None,
+    });
+    BrakedBlock { residual_slip: run.whole.residual_slip, warning }
 }
 
 /// A block on its base that slides, with damping of its mass and without.
 #[test]
 fn damping_that_brakes_a_sliding_block_is_told() {
-    let block = RigidBlock::new(6.0, 2.0, 2000.0).unwrap();
-    let slid = |damping: f64| {
-        let [mut mass, mut drag] = [(); 2].map(|()| Triplets::new(3));
-        block.mass(&mut mass).unwrap();
-        block.mass(&mut drag).unwrap();
-        let scaled = drag.entries().iter().map(|&(i, j, value)| (i, j, damping * value));
-        let drag = Triplets::from_entries(3, scaled);
-        let model = MatrixModel::new(mass, Triplets::new(3), block.base()).unwrap();
-        let mut simulation = Simulation::builder(0.005)
-            .ground(ElasticGround::under(soil(), &model, 8).unwrap())
-            .structure(model.with_damping(drag).unwrap())
-            .interface(Coulomb::new(0.1).unwrap())
-            .initial_velocity(vec![1.5, 0.0, 0.0])
-            .gravity_stage(basemat::coupled::GravityStage::Frictional)
-            .build()
-            .unwrap();
-        let run = simulation.run(400, |_| {}).unwrap();
-        let told = run.warnings.iter().find_map(|warning| match warning {
-            Warning::DampedSliding { rate, loss } => Some((*rate, *loss)),
-            _ => None,
-        });
-        (run.whole.residual_slip, told)
-    };
-    let (free, none) = slid(0.0);
+    let free = slide_with_damping(0.0);
+    let free_slip = free.residual_slip;
     // v²/2μg.
-    assert!((free / (1.5 * 1.5 / (0.2 * STANDARD_GRAVITY)) - 1.0).abs() < 0.05, "{free}");
-    assert_eq!(none, None);
-    let (braked, told) = slid(0.5);
-    let (rate, loss) = told.unwrap();
+    let expected = 1.5 * 1.5 / (0.2 * STANDARD_GRAVITY);
+    assert!((free_slip / expected - 1.0).abs() < 0.05, "{free_slip}");
+    assert_eq!(free.warning, None);
+    let braked = slide_with_damping(0.5);
+    let (rate, loss) = braked.warning.unwrap();
     assert!((rate - 0.5).abs() < 1e-9);
-    assert!((loss - (1.0 - braked / free)).abs() < 0.05, "{loss} {braked} {free}");
+    let braked_slip = braked.residual_slip;
+    assert!(
+        (loss - (1.0 - braked_slip / free_slip)).abs() < 0.05,
+        "{loss} {braked_slip} {free_slip}"
+    );
     // A hundredth of that brakes by half a per cent; rounding does not brake.
     for damping in [0.005, 1e-9, 1e-12, 1e-14, 1e-16] {
-        assert_eq!(slid(damping).1, None, "{damping}");
+        assert_eq!(slide_with_damping(damping).warning, None, "{damping}");
     }
+}
+
+/// What warnings tell of a structure and a motion in other units.
+#[derive(Debug, Default, PartialEq)]
+struct UnitWarnings {
+    period: Option<f64>,
+    /// Over the peak of El Centro.
+    acceleration: Option<f64>,
+}
+
+/// Three equal storeys under El Centro with these factors.
+fn unit_warnings(by_stiffness: f64, by_motion: f64, soil: Soil) -> UnitWarnings {
+    let storeys = [Storey::new(3.0, 30e3, 60e6 * by_stiffness); 3];
+    let building = ShearBuilding::new(8.0, 60e3, 4e5, &storeys).unwrap();
+    let peak = el_centro_1940().peaks().acceleration;
+    let motion = el_centro_1940().scaled(by_motion).unwrap();
+    let run = bonded_run(building, motion, soil, 8, 5e-3);
+    let mut found = UnitWarnings::default();
+    for warning in &run.warnings {
+        match warning {
+            Warning::Mistake(Mistake::LongPeriod { period }) => found.period = Some(*period),
+            Warning::Mistake(Mistake::UnusualMotion { acceleration }) => {
+                found.acceleration = Some(acceleration / peak);
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Stiffnesses in kN/m and a motion in cm/s² warn, the same numbers in their units do not; nor on a soil that is not
+/// to scale itself.
+#[test]
+fn numbers_in_another_unit() {
+    assert_eq!(unit_warnings(1.0, 1.0, soil(250.0)), UnitWarnings::default());
+    let UnitWarnings { period, acceleration } = unit_warnings(1e-3, 100.0, soil(250.0));
+    // Equal storeys deflect by 3, 5 and 6 times m g/k under their weight to the side: ω² = 14/70 k/m.
+    let exact = 2.0 * std::f64::consts::PI * (5.0 * 30e3_f64 / 60e3).sqrt();
+    assert!((period.unwrap() / exact - 1.0).abs() < 0.02, "{period:?} {exact}");
+    assert!((acceleration.unwrap() / 100.0 - 1.0).abs() < 0.03, "{acceleration:?}");
+    let not_to_scale = Soil::new(1.0, 0.25, 1.0).unwrap();
+    assert_eq!(unit_warnings(1e-3, 100.0, not_to_scale), UnitWarnings::default());
+}
+
+/// Two steps of a light block on this soil.
+fn two_steps_on(soil: Soil) -> Run {
+    let block = RigidBlock::new(4.0, 2.0, 1.0).unwrap();
+    let mut simulation = Simulation::builder(1e-3)
+        .ground(ElasticGround::under(soil, &block, 4).unwrap())
+        .structure(block)
+        .interface(Bonded)
+        .gravity(0.0)
+        .build()
+        .unwrap();
+    simulation.run(2, |_| {}).unwrap()
+}
+
+/// Soils whose numbers are of another unit, and those that only are soft or hard.
+#[test]
+fn soils_in_other_units() {
+    for (modulus, density, slip) in [
+        (80.0, 1900.0, "modulus in MPa?"),
+        (80e3, 1900.0, "modulus in kPa?"),
+        (80e6, 19.0, "density in kN/m³?"),
+        (80e6, 1.9, "density in t/m³?"),
+        (80.0, 19.0, "density in kN/m³, modulus in MPa?"),
+        (80e3, 1.9, "density in t/m³, modulus in kPa?"),
+        (80e6, 19_000.0, "density in N/m³?"),
+        (1.0, 1.0, "a model not to scale?"),
+    ] {
+        let soil = Soil::new(modulus, 0.33, density).unwrap();
+        let run = two_steps_on(soil);
+        let speed = soil.shear_wave_speed();
+        let expected = Warning::Mistake(Mistake::UnusualSoil { shear_wave_speed: speed, density });
+        assert_eq!(run.warnings, [expected], "{modulus} {density}");
+        let line = format!("warning: {expected}");
+        assert!(line.ends_with(slip) && line.chars().count() <= 100, "{line}");
+        assert!(run.to_string().contains(&line));
+    }
+    for (speed, density) in [(10.001, 500.0), (25.0, 1100.0), (4999.0, 10_000.0)] {
+        let soil = Soil::from_shear_wave_speed(speed, 0.33, density).unwrap();
+        assert_eq!(two_steps_on(soil).warnings, [], "{speed} {density}");
+    }
+    // Each layer is judged by itself.
+    let profile = SoilProfile::on_half_plane(soil(800.0)).with_layer(soil(200.0), 4.0).unwrap();
+    let thin = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
+    let profile = profile.with_layer(thin, 3.0).unwrap();
+    let block = RigidBlock::new(4.0, 2.0, 1000.0).unwrap();
+    let ground = ElasticGround::under(profile, &block, 2).unwrap();
+    assert_eq!(ground.description().soils.len(), 3);
+    assert_eq!(ground.description().soils[1], thin);
 }

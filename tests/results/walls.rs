@@ -12,6 +12,10 @@ fn block() -> Result<WithWalls> {
     WithWalls::new(RigidBlock::new(6.0, 8.0, 900.0)?, 4.0)
 }
 
+fn positions(shape: &DeformedShape) -> Vec<[f64; 2]> {
+    shape.points().iter().map(|point| point.position).collect()
+}
+
 #[test]
 fn elements_of_walls_have_heights_and_pictures_show_the_trench() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
@@ -42,15 +46,15 @@ fn elements_of_walls_have_heights_and_pictures_show_the_trench() {
     assert!(page.contains("Pressure on base and walls") && page.contains("z, m"), "{page}");
 
     // The middle of the base does not move in a rotation about it; the shape lies where the block does.
-    let [along, _, up] = DofCombination::of_base(&block().unwrap(), [0.0, 0.0, 0.0]).unwrap();
-    assert_eq!([along.value(&[0.3, 0.2, 0.1]), up.value(&[0.3, 0.2, 0.1])], [0.3, 0.2]);
+    let rows = DofCombination::of_base(&block().unwrap(), [0.0, 0.0, 0.0]).unwrap();
+    let displacement = [0.3, 0.2, 0.1];
+    assert_eq!([rows[0].value(&displacement), rows[2].value(&displacement)], [0.3, 0.2]);
     let shape = DeformedShape::of_block(&block().unwrap(), 8.0).unwrap();
     let corners = [[-3.0, -4.0], [3.0, -4.0], [3.0, 4.0], [-3.0, 4.0]];
-    let of = |shape: &DeformedShape| shape.points().iter().map(|p| p.position).collect::<Vec<_>>();
-    assert_eq!(of(&shape), corners);
+    assert_eq!(positions(&shape), corners);
     let flat = RigidBlock::new(6.0, 8.0, 900.0).unwrap();
     let lowered = DeformedShape::of_block(&flat, 8.0).unwrap().lowered(4.0).unwrap();
-    assert_eq!(of(&lowered), corners);
+    assert_eq!(positions(&lowered), corners);
     assert!(lowered.lowered(f64::NAN).is_err());
 
     let svg = plot::animation("Block", &shape, &series, 20.0, 1.0).unwrap();

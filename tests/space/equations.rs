@@ -2,7 +2,7 @@
 
 use basemat::motion::FreeField;
 
-use super::cells::{Bed, Cells};
+use super::cells::{BedProperties, SpringCells};
 
 /// A cuboid whose middle of the base is at `center`.
 #[derive(Clone, Copy)]
@@ -12,68 +12,126 @@ pub(crate) struct Cuboid {
     pub(crate) center: [f64; 2],
 }
 
-type Six = [f64; 6];
+/// Motions along x, y and z, and rotations about them; or forces and moments.
+type SixComponents = [f64; 6];
+
+/// Displacement and velocity of a rigid body.
+type MotionState = [SixComponents; 2];
 
 impl Cuboid {
     pub(crate) fn mass(&self) -> f64 {
         self.density * self.sides.iter().product::<f64>()
     }
 
+    /// Moments of inertia about axes through the centre of gravity.
+    fn central_inertia(&self) -> [f64; 3] {
+        let [l, b, h] = self.sides;
+        let m = self.mass();
+        [(b * b + h * h), (l * l + h * h), (l * l + b * b)].map(|square| m * square / 12.0)
+    }
+
     /// M a, by the motion of slices of the cuboid: forces and moments about the middle of the base.
-    pub(crate) fn inertia_forces(&self, a: Six) -> Six {
-        let ([l, b, h], m) = (self.sides, self.mass());
-        let middle = 0.5 * h;
+    pub(crate) fn inertia_forces(&self, a: SixComponents) -> SixComponents {
+        let m = self.mass();
+        let middle = 0.5 * self.sides[2];
+        let inertia = self.central_inertia();
         let force = [m * (a[0] + middle * a[4]), m * (a[1] - middle * a[3]), m * a[2]];
         [
             force[0],
             force[1],
             force[2],
-            m * (b * b + h * h) / 12.0 * a[3] - middle * force[1],
-            m * (l * l + h * h) / 12.0 * a[4] + middle * force[0],
-            m * (l * l + b * b) / 12.0 * a[5],
+            inertia[0] * a[3] - middle * force[1],
+            inertia[1] * a[4] + middle * force[0],
+            inertia[2] * a[5],
         ]
     }
 
     /// a of M a = f, the inverse of the above.
-    fn acceleration(&self, f: Six) -> Six {
-        let ([l, b, h], m) = (self.sides, self.mass());
-        let middle = 0.5 * h;
-        let about_x = (f[3] + middle * f[1]) / (m * (b * b + h * h) / 12.0);
-        let about_y = (f[4] - middle * f[0]) / (m * (l * l + h * h) / 12.0);
+    fn acceleration(&self, f: SixComponents) -> SixComponents {
+        let m = self.mass();
+        let middle = 0.5 * self.sides[2];
+        let inertia = self.central_inertia();
+        let about_x = (f[3] + middle * f[1]) / inertia[0];
+        let about_y = (f[4] - middle * f[0]) / inertia[1];
         [
             f[0] / m - middle * about_y,
             f[1] / m + middle * about_x,
             f[2] / m,
             about_x,
             about_y,
-            f[5] / (m * (l * l + b * b) / 12.0),
+            f[5] / inertia[2],
         ]
     }
 
-    /// Forces of the bed on the base, for its displacement `u` and velocity `v`.
-    fn bed(
+    /// Displacement after `steps` steps of Runge and Kutta from rest.
+    pub(crate) fn march(
         &self,
-        cells: &Cells,
-        bed: Bed,
+        cells: &SpringCells,
+        bed: BedProperties,
         field: &dyn FreeField,
-        time: f64,
-        u: Six,
-        v: Six,
-    ) -> Six {
+        step: f64,
+        steps: usize,
+    ) -> SixComponents {
+        let equations = EquationsOfMotion { cuboid: self, cells, bed, field };
+        let mut y = [[0.0; 6]; 2];
+        for n in 0..steps {
+            let time = n as f64 * step;
+            let a = equations.rate(time, y);
+            let b = equations.rate(time + 0.5 * step, advanced(y, 0.5 * step, a));
+            let c = equations.rate(time + 0.5 * step, advanced(y, 0.5 * step, b));
+            let d = equations.rate(time + step, advanced(y, 1.0 * step, c));
+            for (factor, k) in [(1.0, a), (2.0, b), (2.0, c), (1.0, d)] {
+                y = advanced(y, factor * step / 6.0, k);
+            }
+        }
+        y[0]
+    }
+}
+
+/// y + duration · rate.
+fn advanced(y: MotionState, duration: f64, rate: MotionState) -> MotionState {
+    [0, 1].map(|j| std::array::from_fn(|i| y[j][i] + duration * rate[j][i]))
+}
+
+/// Displacement by the rigid motion `w` at a point of the base, from its middle.
+fn moved_by(w: SixComponents, x: f64, y: f64) -> [f64; 3] {
+    [w[0] - y * w[5], w[1] + x * w[5], w[2] + y * w[3] - x * w[4]]
+}
+
+/// A cuboid on a bed under a moving ground.
+struct EquationsOfMotion<'a> {
+    cuboid: &'a Cuboid,
+    cells: &'a SpringCells,
+    bed: BedProperties,
+    field: &'a dyn FreeField,
+}
+
+impl EquationsOfMotion<'_> {
+    /// Velocity and acceleration.
+    fn rate(&self, time: f64, [u, v]: MotionState) -> MotionState {
+        [v, self.cuboid.acceleration(self.bed_forces(time, u, v))]
+    }
+
+    /// Forces of the bed on the base, for its displacement `u` and velocity `v`.
+    fn bed_forces(&self, time: f64, u: SixComponents, v: SixComponents) -> SixComponents {
+        const HALF_INTERVAL: f64 = 1e-5;
         let mut sum = [0.0; 6];
-        let half = 1e-5;
-        for e in 0..cells.elements.len() {
-            let (area, place) = cells.cell(e);
-            let [x, y] = [0, 1].map(|k| place[k] - self.center[k]);
-            let moved = |w: Six| [w[0] - y * w[5], w[1] + x * w[5], w[2] + y * w[3] - x * w[4]];
-            let [before, now, after] =
-                [-half, 0.0, half].map(|d| field.displacement_at(place, time + d));
+        for e in 0..self.cells.elements.len() {
+            let area = self.cells.area(e);
+            let middle = self.cells.middle(e);
+            let x = middle[0] - self.cuboid.center[0];
+            let y = middle[1] - self.cuboid.center[1];
+            let before = self.field.displacement_at(middle, time + -HALF_INTERVAL);
+            let now = self.field.displacement_at(middle, time + 0.0);
+            let after = self.field.displacement_at(middle, time + HALF_INTERVAL);
+            let displacement = moved_by(u, x, y);
+            let velocity = moved_by(v, x, y);
             let force: [f64; 3] = std::array::from_fn(|k| {
                 let component = [1, 2, 0][k];
-                let rate = (after[k] - before[k]) / (2.0 * half);
+                let rate = (after[k] - before[k]) / (2.0 * HALF_INTERVAL);
                 -area
-                    * (bed.stiffness[component] * (moved(u)[k] - now[k])
-                        + bed.dashpot[component] * (moved(v)[k] - rate))
+                    * (self.bed.stiffness[component] * (displacement[k] - now[k])
+                        + self.bed.dashpot[component] * (velocity[k] - rate))
             });
             let moments = [y * force[2], -x * force[2], x * force[1] - y * force[0]];
             for (sum, value) in sum.iter_mut().zip(force.into_iter().chain(moments)) {
@@ -81,34 +139,5 @@ impl Cuboid {
             }
         }
         sum
-    }
-
-    /// Displacement after `steps` steps of Runge and Kutta from rest.
-    pub(crate) fn march(
-        &self,
-        cells: &Cells,
-        bed: Bed,
-        field: &dyn FreeField,
-        step: f64,
-        steps: usize,
-    ) -> Six {
-        let add =
-            |a: Six, factor: f64, b: Six| -> Six { std::array::from_fn(|i| a[i] + factor * b[i]) };
-        let rate = |time: f64, [u, v]: [Six; 2]| {
-            [v, self.acceleration(self.bed(cells, bed, field, time, u, v))]
-        };
-        let mut y = [[0.0; 6]; 2];
-        for n in 0..steps {
-            let time = n as f64 * step;
-            let next = |k: [Six; 2], factor: f64| [0, 1].map(|j| add(y[j], factor * step, k[j]));
-            let a = rate(time, y);
-            let b = rate(time + 0.5 * step, next(a, 0.5));
-            let c = rate(time + 0.5 * step, next(b, 0.5));
-            let d = rate(time + step, next(c, 1.0));
-            for (factor, k) in [(1.0, a), (2.0, b), (2.0, c), (1.0, d)] {
-                y = [0, 1].map(|j| add(y[j], factor * step / 6.0, k[j]));
-            }
-        }
-        y[0]
     }
 }

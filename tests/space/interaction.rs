@@ -1,4 +1,4 @@
-//! A storey on a square mat: its period on an elastic half-space, and held.
+//! A storey on a square mat: its periods on a half-space, on springs and on a fixed base.
 
 use std::f64::consts::TAU;
 
@@ -12,25 +12,38 @@ use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};
 use basemat::{Result, Soil, unobserved};
 
-const SIDE: f64 = 8.0;
-const HEIGHT: f64 = 12.0;
-const MASS: f64 = 4.0e5;
+const MAT_SIDE: f64 = 8.0;
+const FLOOR_HEIGHT: f64 = 12.0;
+const FLOOR_MASS: f64 = 4.0e5;
 
-/// A thin, light mat and a floor on columns of these two stiffnesses, whose own inertia is small.
+/// A thin, light mat and a floor on columns of these two stiffnesses, with small rotary inertia.
 fn building(stiffness: [f64; 2]) -> Result<StoreyBuilding> {
-    let mat = RigidBody::cuboid([SIDE, SIDE, 0.1], 50.0)?;
-    let twist = 20.0 * stiffness[0];
-    let storey = PlanStorey::new(HEIGHT, MASS, [0.1, 0.1], [stiffness[0], stiffness[1], twist]);
+    let mat = RigidBody::cuboid([MAT_SIDE, MAT_SIDE, 0.1], 50.0)?;
+    let twist_stiffness = 20.0 * stiffness[0];
+    let stiffness = [stiffness[0], stiffness[1], twist_stiffness];
+    let storey = PlanStorey::new(FLOOR_HEIGHT, FLOOR_MASS, [0.1, 0.1], stiffness);
     StoreyBuilding::new(mat, &[storey])
 }
 
-/// T̃/T by the static stiffnesses of the ground, which at these low frequencies are within some per cent of the dynamic
-/// ones; the two axes by themselves.
+/// A square mat of so many cells a side.
+fn mat_plan(cells: usize) -> Result<Plan> {
+    let half = 0.5 * MAT_SIDE;
+    Plan::rectangle(-half..half, -half..half, cells)
+}
+
+/// T̃/T by springs in series: columns, horizontal springs of the ground, its rocking springs.
+fn series_period_ratio(columns: f64, horizontal: f64, rocking: f64) -> f64 {
+    (1.0 + columns / horizontal + columns * FLOOR_HEIGHT.powi(2) / rocking).sqrt()
+}
+
+/// T̃/T by the static stiffnesses of the ground, for the two axes.
+///
+/// At these low frequencies the static stiffnesses are within some per cent of the dynamic ones.
 #[test]
 fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0).unwrap();
-    let stiffness = [0.8, 1.2].map(|period: f64| MASS * (TAU / period).powi(2));
-    let scene = || {
+    let stiffness = [0.8, 1.2].map(|period: f64| FLOOR_MASS * (TAU / period).powi(2));
+    let computed = interaction(1.0, || {
         let building = building(stiffness)?;
         let record = el_centro_1940();
         Ok(Simulation::builder(0.02)
@@ -38,21 +51,19 @@ fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
             .structure(building)
             .interface(Coulomb::new(0.6)?)
             .motion(Triaxial { x: Some(record.clone()), y: Some(record), up: None }))
-    };
-    let found = interaction(1.0, scene).unwrap();
-    let half = 0.5 * SIDE;
-    let mat = Plan::rectangle(-half..half, -half..half, 6).unwrap();
+    })
+    .unwrap();
+    let mat = mat_plan(6).unwrap();
     let ground =
         impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Bonded, &mut unobserved)
             .unwrap();
     let springs = ground[0].stiffnesses();
     for (k, axis) in ['x', 'y'].into_iter().enumerate() {
-        let (mode, own) = (found.modes[k], stiffness[k]);
-        let known =
-            (1.0 + own / springs[k][k] + own * HEIGHT.powi(2) / springs[4 - k][4 - k]).sqrt();
-        println!("{axis}: {:.4} for {known:.4}, {mode:?}", mode.period_ratio());
+        let mode = &computed.modes[k];
+        let expected = series_period_ratio(stiffness[k], springs[k][k], springs[4 - k][4 - k]);
+        println!("{axis}: {:.4} for {expected:.4}, {mode:?}", mode.period_ratio());
         assert_eq!(mode.axis, Some(axis));
-        assert!(known > 1.03 && (mode.period_ratio() / known - 1.0).abs() < 0.02, "{mode:?}");
+        assert!(expected > 1.03 && (mode.period_ratio() / expected - 1.0).abs() < 0.02, "{mode:?}");
         assert!(mode.damping > 0.0 && mode.damping < 0.1, "{mode:?}");
     }
 }
@@ -60,28 +71,28 @@ fn periods_on_a_half_space_are_those_of_its_static_stiffnesses() {
 /// Springs in series, exactly, along both axes.
 #[test]
 fn periods_on_springs_in_plan_are_those_of_springs_in_series() {
-    const CELLS: usize = 8;
-    let stiffness = [0.8, 1.1].map(|period: f64| MASS * (TAU / period).powi(2));
-    let bed = [2.0e7, 1.2e7, 0.9e7];
-    let scene = || {
+    const CELLS_PER_SIDE: usize = 8;
+    let stiffness = [0.8, 1.1].map(|period: f64| FLOOR_MASS * (TAU / period).powi(2));
+    let bed_stiffness = [2.0e7, 1.2e7, 0.9e7];
+    let computed = interaction(1.0, || {
         let building = building(stiffness)?;
-        let half = 0.5 * SIDE;
-        let mat = Plan::rectangle(-half..half, -half..half, CELLS)?.without_overhang()?;
+        let mat = mat_plan(CELLS_PER_SIDE)?.without_overhang()?;
         Ok(Simulation::builder(0.01)
-            .ground(SpringGround::in_plan(mat, bed)?)
+            .ground(SpringGround::in_plan(mat, bed_stiffness)?)
             .structure(building)
             .interface(Coulomb::new(0.6)?)
             .motion(Triaxial { x: Some(el_centro_1940()), y: None, up: None }))
-    };
-    let found = interaction(1.0, scene).unwrap();
-    let turning = bed[0] * SIDE.powi(4) / 12.0 * (1.0 - ((CELLS * CELLS) as f64).recip());
+    })
+    .unwrap();
+    let rocking = bed_stiffness[0] * MAT_SIDE.powi(4) / 12.0
+        * (1.0 - ((CELLS_PER_SIDE * CELLS_PER_SIDE) as f64).recip());
     for k in 0..2 {
-        let (mode, own) = (found.modes[k], stiffness[k]);
-        let along = bed[1 + k] * SIDE * SIDE;
-        let known = (1.0 + own / along + own * HEIGHT.powi(2) / turning).sqrt();
-        println!("{:.5} for {known:.5}", mode.period_ratio());
-        assert!((mode.period_ratio() / known - 1.0).abs() < 1e-3, "{mode:?}");
+        let mode = &computed.modes[k];
+        let horizontal = bed_stiffness[1 + k] * MAT_SIDE * MAT_SIDE;
+        let expected = series_period_ratio(stiffness[k], horizontal, rocking);
+        println!("{:.5} for {expected:.5}", mode.period_ratio());
+        assert!((mode.period_ratio() / expected - 1.0).abs() < 1e-3, "{mode:?}");
     }
-    let held = &found.on_fixed_base.whole;
-    assert!(held.base_rotation.magnitude() < 1e-7 && held.twist.magnitude() < 1e-7);
+    let fixed_base = &computed.on_fixed_base.whole;
+    assert!(fixed_base.base_rotation.magnitude() < 1e-7 && fixed_base.twist.magnitude() < 1e-7);
 }

@@ -10,21 +10,27 @@ use basemat::structure::{
 };
 use basemat::{Error, Result, Simulation};
 
-use super::cells::{BED, Cells, Waves};
+use super::cells::{BED_PROPERTIES, CrossingPulses, SpringCells};
 use super::storeys;
 
-const SIDES: [f64; 3] = [8.0, 6.0, 3.0];
-const DENSITY: f64 = 2000.0;
+const BODY_SIDES: [f64; 3] = [8.0, 6.0, 3.0];
+const BODY_CENTER: [f64; 2] = [3.0, 1.0];
+const BODY_DENSITY: f64 = 2000.0;
 /// Above the middle of the base.
-const MASS: f64 = 1.2e5;
-const HEIGHT: f64 = 11.0;
+const TOP_MASS: f64 = 1.2e5;
+const TOP_HEIGHT: f64 = 11.0;
 /// Along x and y.
-const SPRINGS: [f64; 2] = [9.0e7, 5.0e7];
+const SPRING_STIFFNESS: [f64; 2] = [9.0e7, 5.0e7];
 
+/// The body, with the mass on springs as its seventh and eighth degree of freedom.
 struct Mast(RigidBody);
 
+fn body(density: f64) -> RigidBody {
+    RigidBody::cuboid(BODY_SIDES, density).unwrap().centered_at(BODY_CENTER).unwrap()
+}
+
 fn mast() -> Mast {
-    Mast(RigidBody::cuboid(SIDES, DENSITY).unwrap().centered_at([3.0, 1.0]).unwrap())
+    Mast(body(BODY_DENSITY))
 }
 
 impl Structure for Mast {
@@ -38,28 +44,28 @@ impl Structure for Mast {
         self.0.mass(matrix)?;
         // It rises with the body.
         for i in [2, 6, 7] {
-            matrix.add(i, i, MASS);
+            matrix.add(i, i, TOP_MASS);
         }
         Ok(())
     }
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        let [along, away, _] = self.0.displacement_at([0.0, 0.0, HEIGHT]);
-        for (top, below, spring) in [(6, along, SPRINGS[0]), (7, away, SPRINGS[1])] {
-            let drift = DofCombination::from(top) - below;
-            matrix.add_outer(&drift, spring);
+        let body_motions = self.0.displacement_at([0.0, 0.0, TOP_HEIGHT]);
+        for axis in 0..2 {
+            let drift = DofCombination::from(6 + axis) - body_motions[axis].clone();
+            matrix.add_outer(&drift, SPRING_STIFFNESS[axis]);
         }
         Ok(())
     }
 }
 
 /// Of the free structure: k (1/m + 1/M + (h − c)²/J), the compliance of a free body at the spring.
-fn frequencies() -> [f64; 2] {
-    let [l, b, h] = SIDES;
-    let body = l * b * h * DENSITY;
-    [(SPRINGS[0], l), (SPRINGS[1], b)].map(|(spring, side)| {
-        let inertia = body * (side * side + h * h) / 12.0;
-        let lever = HEIGHT - 0.5 * h;
-        let square = spring * (1.0 / MASS + 1.0 / body + lever * lever / inertia);
+fn free_frequencies() -> [f64; 2] {
+    let [l, b, h] = BODY_SIDES;
+    let body_mass = l * b * h * BODY_DENSITY;
+    [(SPRING_STIFFNESS[0], l), (SPRING_STIFFNESS[1], b)].map(|(spring, side)| {
+        let inertia = body_mass * (side * side + h * h) / 12.0;
+        let lever = TOP_HEIGHT - 0.5 * h;
+        let square = spring * (1.0 / TOP_MASS + 1.0 / body_mass + lever * lever / inertia);
         square.sqrt() / TAU
     })
 }
@@ -67,26 +73,29 @@ fn frequencies() -> [f64; 2] {
 #[test]
 fn rigid_motions_in_plan_have_no_modal_damping() {
     let damped = ModalDamping::new(&[0.05]).unwrap().on(mast()).unwrap();
-    let mut exact = frequencies();
-    exact.sort_by(f64::total_cmp);
+    let mut expected = free_frequencies();
+    expected.sort_by(f64::total_cmp);
     assert_eq!(damped.frequencies().len(), 2, "{:?}", damped.frequencies());
-    for (found, exact) in damped.frequencies().iter().zip(exact) {
-        assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+    for (computed, expected) in damped.frequencies().iter().zip(expected) {
+        assert!((computed / expected - 1.0).abs() < 1e-9, "{computed} {expected}");
     }
     let fixed = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(mast()).unwrap();
-    let exact = [SPRINGS[1], SPRINGS[0]].map(|spring: f64| (spring / MASS).sqrt() / TAU);
+    let expected = [SPRING_STIFFNESS[1], SPRING_STIFFNESS[0]]
+        .map(|spring: f64| (spring / TOP_MASS).sqrt() / TAU);
     assert_eq!(fixed.frequencies().len(), 2, "{:?}", fixed.frequencies());
-    for (found, exact) in fixed.frequencies().iter().zip(exact) {
-        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+    for (computed, expected) in fixed.frequencies().iter().zip(expected) {
+        assert!((computed / expected - 1.0).abs() < 1e-6, "{computed} {expected}");
     }
 }
 
+/// Absolute displacement after 400 steps.
 fn march(structure: impl Structure + 'static, coordinates: Coordinates) -> Vec<f64> {
+    let sides = [BODY_SIDES[0], BODY_SIDES[1]];
     let mut simulation = Simulation::builder(2e-3)
         .structure(structure)
-        .ground(Cells::under([SIDES[0], SIDES[1]], [3.0, 1.0], [5, 4], BED))
+        .ground(SpringCells::under(sides, BODY_CENTER, [5, 4], BED_PROPERTIES))
         .interface(Bonded)
-        .motion(Waves { quarters: 0 })
+        .motion(CrossingPulses { quarter_turns: 0 })
         .coordinates(coordinates)
         .expected_steps(400)
         .build()
@@ -99,77 +108,82 @@ fn march(structure: impl Structure + 'static, coordinates: Coordinates) -> Vec<f
 #[test]
 fn all_coordinates_and_wrappers_march_alike() {
     let damping = ModalDamping::new(&[0.05]).unwrap();
-    let damped = || damping.on(mast()).unwrap();
-    let exact = march(damped(), Coordinates::Physical);
-    let size = exact.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
-    let reduce = |structure: Box<dyn Structure>| CraigBampton::new(2).reduce(structure).unwrap();
-    let before = damping.on(reduce(Box::new(mast()))).unwrap();
-    let after = reduce(Box::new(damped()));
-    let top = [6, 7].map(|i| exact[i]);
-    assert!(top.iter().all(|u| u.abs() > 1e-2 * size));
-    for (found, tolerance) in [
-        (march(damped(), Coordinates::Modes), 1e-9),
-        (march(damped(), Coordinates::Reduced { tolerance: 1e-8 }), 1e-7),
-        (march(WithSprings::new(damped()), Coordinates::Physical), 0.0),
-    ] {
-        for (found, exact) in found.iter().zip(&exact) {
-            assert!((found - exact).abs() <= tolerance * size, "{found} {exact}");
-        }
+    let expected = march(damping.on(mast()).unwrap(), Coordinates::Physical);
+    let size = expected.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
+    assert!([6, 7].iter().all(|dof| expected[*dof].abs() > 1e-2 * size));
+    for (coordinates, tolerance) in
+        [(Coordinates::Modes, 1e-9), (Coordinates::Reduced { tolerance: 1e-8 }, 1e-7)]
+    {
+        let computed = march(damping.on(mast()).unwrap(), coordinates);
+        assert_close(&computed, &expected, tolerance * size);
     }
+    let wrapped = march(WithSprings::new(damping.on(mast()).unwrap()), Coordinates::Physical);
+    assert_close(&wrapped, &expected, 0.0);
     // The base is kept, the top is coordinates of modes.
-    for found in [march(before, Coordinates::Physical), march(after, Coordinates::Physical)] {
-        for (found, exact) in found[..6].iter().zip(&exact) {
-            assert!((found - exact).abs() < 1e-9 * size, "{found} {exact}");
-        }
+    let reduction = CraigBampton::new(2);
+    let damped_after = damping.on(reduction.reduce(mast()).unwrap()).unwrap();
+    let computed = march(damped_after, Coordinates::Physical);
+    assert_close(&computed[..6], &expected[..6], 1e-9 * size);
+    let damped_before = reduction.reduce(damping.on(mast()).unwrap()).unwrap();
+    let computed = march(damped_before, Coordinates::Physical);
+    assert_close(&computed[..6], &expected[..6], 1e-9 * size);
+}
+
+fn assert_close(computed: &[f64], expected: &[f64], tolerance: f64) {
+    for (computed, expected) in computed.iter().zip(expected) {
+        assert!((computed - expected).abs() <= tolerance, "{computed} {expected}");
     }
 }
 
-/// The matrices of a body, and of a building that was reduced before or after, give the structure's own results.
+/// A structure as its matrices.
+fn matrix_model(structure: &dyn Structure) -> MatrixModel {
+    let mut mass = Triplets::new(structure.dofs());
+    structure.mass(&mut mass).unwrap();
+    let mut stiffness = Triplets::new(structure.dofs());
+    structure.stiffness(&mut stiffness).unwrap();
+    let mut damping = Triplets::new(structure.dofs());
+    structure.damping(&mut damping).unwrap();
+    let model = MatrixModel::new(mass, stiffness, structure.base()).unwrap();
+    model.with_damping(damping).unwrap()
+}
+
+/// Displacement relative to the free field after 200 steps.
+fn relative_displacement(structure: impl Structure + 'static) -> Vec<f64> {
+    let sides = [BODY_SIDES[0], BODY_SIDES[1]];
+    let ground = SpringCells::under(sides, BODY_CENTER, [4, 3], BED_PROPERTIES);
+    let simulation = storeys::march(structure, ground, CrossingPulses { quarter_turns: 0 }, 200);
+    simulation.state().displacement().to_vec()
+}
+
+/// The matrices of a body, and of a building that was reduced before or after, give the structure's results.
 #[test]
-fn given_matrices_are_the_structure_that_has_them() {
-    let model = |own: &dyn Structure| {
-        let matrix = |fill: &dyn Fn(&mut Triplets)| {
-            let mut matrix = Triplets::new(own.dofs());
-            fill(&mut matrix);
-            matrix
-        };
-        MatrixModel::new(
-            matrix(&|m| own.mass(m).unwrap()),
-            matrix(&|m| own.stiffness(m).unwrap()),
-            own.base(),
-        )
-        .and_then(|model| model.with_damping(matrix(&|m| own.damping(m).unwrap())))
-        .unwrap()
-    };
-    let ground = || Cells::under([SIDES[0], SIDES[1]], [3.0, 1.0], [4, 3], BED);
-    let run = |structure: Box<dyn Structure>| {
-        storeys::march(structure, ground(), Waves { quarters: 0 }, 200)
-            .state()
-            .displacement()
-            .to_vec()
-    };
-    let body = || RigidBody::cuboid(SIDES, 2400.0).unwrap().centered_at([3.0, 1.0]).unwrap();
-    assert_eq!(run(Box::new(body())), run(Box::new(model(&body()))));
+fn a_matrix_model_moves_like_the_structure_with_its_matrices() {
+    let body = body(2400.0);
+    let model = matrix_model(&body);
+    assert_eq!(relative_displacement(body.clone()), relative_displacement(model));
 
     let storeys = [PlanStorey::new(3.0, 1e5, [9.0; 2], [2e8, 3e8, 4e9]); 4];
-    let tall = StoreyBuilding::new(body(), &storeys).unwrap();
-    let whole = run(Box::new(tall.clone()));
-    assert_eq!(whole, run(Box::new(model(&tall))));
-    let reduced = CraigBampton::new(12).reduce(model(&tall)).unwrap();
+    let building = StoreyBuilding::new(body, &storeys).unwrap();
+    let whole = relative_displacement(building.clone());
+    assert_eq!(whole, relative_displacement(matrix_model(&building)));
+    let reduced = CraigBampton::new(12).reduce(matrix_model(&building)).unwrap();
     let recovery = reduced.recovery();
-    let found = recovery.full(&run(Box::new(reduced))).unwrap();
-    for (found, exact) in found.iter().zip(&whole) {
-        assert!((found - exact).abs() < 1e-12, "{found} {exact}");
+    let recovered = recovery.full(&relative_displacement(reduced)).unwrap();
+    for (computed, expected) in recovered.iter().zip(&whole) {
+        assert!((computed - expected).abs() < 1e-12, "{computed} {expected}");
     }
 }
 
+fn identity(order: usize) -> Triplets {
+    Triplets::from_entries(order, (0..order).map(|k| (k, k, 1.0)))
+}
+
 #[test]
-fn matrices_that_are_none() {
-    let unit = |n: usize| Triplets::from_entries(n, (0..n).map(|k| (k, k, 1.0)));
-    let made = MatrixModel::new(unit(6), Triplets::new(6), Base::Faces(Vec::new()));
-    assert!(matches!(made, Err(Error::Size { .. })));
-    let made = MatrixModel::new(unit(5), Triplets::new(5), mast().base());
-    assert!(matches!(made, Err(Error::Index { index: 5, bound: 5, .. })));
-    let made = MatrixModel::new(unit(6), Triplets::new(5), mast().base());
-    assert!(matches!(made, Err(Error::Size { .. })));
+fn invalid_matrices_are_errors() {
+    let without_faces = MatrixModel::new(identity(6), Triplets::new(6), Base::Faces(Vec::new()));
+    assert!(matches!(without_faces, Err(Error::Size { .. })));
+    let too_small = MatrixModel::new(identity(5), Triplets::new(5), mast().base());
+    assert!(matches!(too_small, Err(Error::Index { index: 5, bound: 5, .. })));
+    let unequal = MatrixModel::new(identity(6), Triplets::new(5), mast().base());
+    assert!(matches!(unequal, Err(Error::Size { .. })));
 }

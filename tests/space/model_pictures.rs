@@ -10,6 +10,9 @@ use basemat::results::{DeformedShape, Recorder, TimeSeries};
 use basemat::structure::FemModel;
 use basemat::{Error, Simulation, plot};
 
+/// Of displacements in the pictures.
+const DISPLACEMENT_FACTOR: f64 = 20.0;
+
 /// A mat of shells at z = 7, a brick on it at its back, and a column with a mass at its front.
 fn model() -> FemModel {
     let concrete = Material::new(30.0e9, 0.2, 2500.0).unwrap();
@@ -18,12 +21,12 @@ fn model() -> FemModel {
     for (_, cell) in mat.cells() {
         mesh.add(Shell::new(cell, concrete, 0.5).unwrap()).unwrap();
     }
-    let below = [9, 10, 14, 13];
-    let above = below.map(|node| {
+    let lower_nodes = [9, 10, 14, 13];
+    let upper_nodes = lower_nodes.map(|node| {
         let [x, y, z] = mesh.nodes()[node];
         mesh.add_node_at([x, y, z + 3.0]).unwrap()
     });
-    let brick = [below, above].concat().try_into().unwrap();
+    let brick = [lower_nodes, upper_nodes].concat().try_into().unwrap();
     mesh.add(Hex8::new(brick, concrete)).unwrap();
     let top = mesh.add_node_at([2.0, 2.0, 11.0]).unwrap();
     let section = BeamSection::new(0.16, [2.1e-3, 2.1e-3], 3.6e-3).unwrap();
@@ -52,16 +55,56 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("model_pictures").join(name)
 }
 
+/// Numbers x and y, separated by a space.
+fn spaced_pair(text: &str) -> [f64; 2] {
+    let numbers: Vec<f64> = text.split_whitespace().map(|number| number.parse().unwrap()).collect();
+    numbers.try_into().unwrap()
+}
+
 /// Corners of each cell of an animation at its start, pixels.
-fn cells(svg: &str) -> Vec<Vec<[f64; 2]>> {
+fn drawn_cells(svg: &str) -> Vec<Vec<[f64; 2]>> {
     let group = svg.split("<g fill=\"#fff\"").nth(1).unwrap();
-    let paths = group.split("<path d=\"M").skip(1).map(|rest| rest.split('"').next().unwrap());
-    let corner = |pair: &str| -> [f64; 2] {
-        let numbers: Vec<f64> = pair.split_whitespace().map(|own| own.parse().unwrap()).collect();
-        numbers.try_into().unwrap()
-    };
-    let corners = |path: &str| path.trim_end_matches('Z').split('L').map(corner).collect();
-    paths.map(corners).collect()
+    group
+        .split("<path d=\"M")
+        .skip(1)
+        .map(|rest| rest.split('"').next().unwrap())
+        .map(|path| path.trim_end_matches('Z').split('L').map(spaced_pair).collect())
+        .collect()
+}
+
+/// Place of a point in the isometric view.
+fn isometric([x, y, z]: [f64; 3]) -> [f64; 2] {
+    let angle = std::f64::consts::PI / 6.0;
+    [(x + y) * angle.cos(), -z - (y - x) * angle.sin()]
+}
+
+/// Distance of a cell's middle towards the viewer.
+fn depth(shape: &DeformedShape, cell: &[usize]) -> f64 {
+    let sum: f64 = cell
+        .iter()
+        .map(|k| &shape.points()[*k])
+        .map(|point| point.position[0] - point.away + point.position[1])
+        .sum();
+    sum / cell.len() as f64
+}
+
+/// Compares the drawn cells with places in the isometric view, up to a common scale and shift.
+fn assert_cells_are_drawn(cells: &[&Vec<usize>], places: &[[f64; 2]], drawn: &[Vec<[f64; 2]>]) {
+    let first = places[cells[0][0]];
+    let second = places[cells[0][1]];
+    let scale = (drawn[0][1][0] - drawn[0][0][0]) / (second[0] - first[0]);
+    for (cell, polygon) in cells.iter().zip(drawn) {
+        assert_eq!(cell.len(), polygon.len());
+        for (&corner, computed) in cell.iter().zip(polygon) {
+            for axis in 0..2 {
+                let expected = drawn[0][0][axis] + scale * (places[corner][axis] - first[axis]);
+                assert!(
+                    (computed[axis] - expected).abs() < 0.3,
+                    "{cell:?}: {computed:?} {expected}"
+                );
+            }
+        }
+    }
 }
 
 /// Far cells are drawn first, and the base lies on the surface of the soil.
@@ -73,47 +116,33 @@ fn near_cells_hide_far_ones() {
     // Nine shells, five sides of the brick beside the shell below it, a line and a point.
     assert_eq!(shape.cells().len(), 9 + 5 + 2);
     let series = recorded(&model);
-    let svg = plot::animation("A model", &shape, &series, 20.0, 1.0).unwrap();
+    let svg = plot::animation("A model", &shape, &series, DISPLACEMENT_FACTOR, 1.0).unwrap();
     svg.save(file("model.svg")).unwrap();
-    let drawn = cells(svg.as_str());
+    let drawn = drawn_cells(svg.as_str());
     assert_eq!(drawn.len(), 16);
     // The same cells by hand: places in the isometric view, and distances towards the viewer.
     let frame = series.motion_frames().next().unwrap();
-    let moved = shape.displacements(frame.displacement).unwrap();
-    let place = |k: usize| {
-        let point = &shape.points()[k];
-        let [x, z] = [0, 1].map(|a| point.position[a] + 20.0 * moved[k][a]);
-        let y = point.away + 20.0 * moved[k][2];
-        let (sin, cos) = (std::f64::consts::PI / 6.0).sin_cos();
-        [(x + y) * cos, -z - (y - x) * sin]
-    };
-    let depth = |cell: &Vec<usize>| {
-        let sum = |k: &usize| {
-            let point = &shape.points()[*k];
-            point.position[0] - point.away + point.position[1]
-        };
-        cell.iter().map(sum).sum::<f64>() / cell.len() as f64
-    };
+    let displacements = shape.displacements(frame.displacement).unwrap();
+    let places: Vec<[f64; 2]> = shape
+        .points()
+        .iter()
+        .zip(&displacements)
+        .map(|(point, u)| {
+            isometric([
+                point.position[0] + DISPLACEMENT_FACTOR * u[0],
+                point.away + DISPLACEMENT_FACTOR * u[2],
+                point.position[1] + DISPLACEMENT_FACTOR * u[1],
+            ])
+        })
+        .collect();
     let mut order: Vec<&Vec<usize>> = shape.cells().iter().collect();
-    order.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+    order.sort_by(|a, b| depth(&shape, a).total_cmp(&depth(&shape, b)));
     // The front corner of the brick's top is near, the shell in the corner at the back left is far.
     assert_eq!(order[0][..], [8, 9, 13, 12]);
-    let (first, scale) = (place(order[0][0]), {
-        let [a, b] = [order[0][0], order[0][1]].map(place);
-        (drawn[0][1][0] - drawn[0][0][0]) / (b[0] - a[0])
-    });
-    for (cell, own) in order.iter().zip(&drawn) {
-        assert_eq!(cell.len(), own.len());
-        for (&corner, found) in cell.iter().zip(own) {
-            let exact = place(corner);
-            for a in 0..2 {
-                let exact = drawn[0][0][a] + scale * (exact[a] - first[a]);
-                assert!((found[a] - exact).abs() < 0.3, "{cell:?}: {found:?} {exact}");
-            }
-        }
-    }
+    assert_cells_are_drawn(&order, &places, &drawn);
     // Elevations: faces of the two instants in both views.
-    let svg = plot::deformed_shapes("A model", &shape, &series, &[1.0], 20.0).unwrap();
+    let svg = plot::deformed_shapes("A model", &shape, &series, &[1.0], DISPLACEMENT_FACTOR);
+    let svg = svg.unwrap();
     svg.save(file("shapes.svg")).unwrap();
     assert_eq!(svg.as_str().matches("<polygon").count(), 2 * 2 * 14);
     let svg = plot::contact_plan("A model", &series, 1.0).unwrap();
@@ -121,22 +150,39 @@ fn near_cells_hide_far_ones() {
     assert_eq!(svg.as_str().matches("<polygon").count(), series.elements().len());
 }
 
-/// Colours and middles (pixels) of the polygons of a picture.
-fn polygons(svg: &str) -> Vec<(&str, [f64; 2])> {
-    let value = |text, name| -> &str {
-        let (_, rest) = str::split_once(text, name).unwrap();
-        rest.split('"').next().unwrap()
-    };
-    let middle = |points: &str| {
-        let pairs: Vec<[f64; 2]> = points
-            .split_whitespace()
-            .map(|pair| pair.split_once(',').unwrap())
-            .map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()])
-            .collect();
-        [0, 1].map(|a| pairs.iter().map(|own| own[a]).sum::<f64>() / pairs.len() as f64)
-    };
-    let polygons = svg.split("<polygon").skip(1);
-    polygons.map(|own| (value(own, "fill=\""), middle(value(own, "points=\"")))).collect()
+/// A polygon of a picture: its colour, and its middle in pixels.
+struct Polygon<'a> {
+    color: &'a str,
+    middle: [f64; 2],
+}
+
+/// Value of an attribute of a tag.
+fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
+    let rest = tag.split_once(&format!("{name}=\"")).unwrap().1;
+    rest.split('"').next().unwrap()
+}
+
+fn polygons(svg: &str) -> Vec<Polygon<'_>> {
+    svg.split("<polygon")
+        .skip(1)
+        .map(|tag| {
+            let corners: Vec<[f64; 2]> = attribute(tag, "points")
+                .split_whitespace()
+                .map(|pair| pair.split_once(',').unwrap())
+                .map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()])
+                .collect();
+            let middle = [0, 1].map(|axis| {
+                corners.iter().map(|corner| corner[axis]).sum::<f64>() / corners.len() as f64
+            });
+            Polygon { color: attribute(tag, "fill"), middle }
+        })
+        .collect()
+}
+
+/// Colours of shells with these values.
+fn colors(mesh: &Mesh, values: &[(usize, f64)]) -> Vec<String> {
+    let svg = plot::shell_plan("M", "m", mesh, values).unwrap();
+    polygons(svg.as_str()).iter().map(|polygon| polygon.color.to_owned()).collect()
 }
 
 /// Shells have the colours of their values, where they lie, and a key.
@@ -150,34 +196,40 @@ fn values_of_shells_are_shown_on_a_plan() {
     let text = svg.as_str();
     let drawn = polygons(text);
     assert_eq!(drawn.len(), 9);
-    assert_eq!([drawn[0].0, drawn[4].0, drawn[8].0], ["#143C8C", "#FAF0DE", "#96141E"]);
-    let side = drawn[1].1[0] - drawn[0].1[0];
-    for (k, (_, [x, y])) in drawn.iter().enumerate() {
-        let (row, column) = ((k / 3) as f64, (k % 3) as f64);
-        let exact = [drawn[0].1[0] + side * column, drawn[0].1[1] - side * row];
-        assert!((x - exact[0]).abs() < 2.5 && (y - exact[1]).abs() < 2.5, "{k}: {x} {y} {exact:?}");
+    let shown = [drawn[0].color, drawn[4].color, drawn[8].color];
+    assert_eq!(shown, ["#143C8C", "#FAF0DE", "#96141E"]);
+    let origin = drawn[0].middle;
+    let side = drawn[1].middle[0] - origin[0];
+    for (k, polygon) in drawn.iter().enumerate() {
+        let row = (k / 3) as f64;
+        let column = (k % 3) as f64;
+        let expected = [origin[0] + side * column, origin[1] - side * row];
+        let error = [0, 1].map(|axis| (polygon.middle[axis] - expected[axis]).abs());
+        assert!(error[0] < 2.5 && error[1] < 2.5, "{k}: {:?} {expected:?}", polygon.middle);
     }
     for word in ["m_x, kNm/m", "-400 to -300", "-100 to 0", "300 to 400", "x, m", "y, m"] {
         assert!(text.contains(word), "{word}");
     }
     // A value has one colour wherever it stands, and zero is pale beside one sign only.
-    let some = |values: &[(usize, f64)]| {
-        let svg = plot::shell_plan("M", "m", &mesh, values).unwrap();
-        polygons(svg.as_str()).iter().map(|own| own.0.to_owned()).collect::<Vec<_>>()
-    };
-    assert_eq!(some(&[(0, 0.0), (1, 700.0)]), ["#FAF0DE", "#96141E"]);
-    assert_eq!(some(&[(0, -700.0), (1, 0.0)])[0], "#143C8C");
-    assert_eq!(some(&[(3, 0.0)]), ["#FAF0DE"]);
+    assert_eq!(colors(&mesh, &[(0, 0.0), (1, 700.0)]), ["#FAF0DE", "#96141E"]);
+    assert_eq!(colors(&mesh, &[(0, -700.0), (1, 0.0)])[0], "#143C8C");
+    assert_eq!(colors(&mesh, &[(3, 0.0)]), ["#FAF0DE"]);
+}
 
-    let fault = |mesh: &Mesh, values: &[(usize, f64)]| {
-        plot::shell_plan("M", "m", mesh, values).unwrap_err()
-    };
-    assert!(matches!(fault(&mesh, &[]), Error::Size { .. }));
-    assert!(matches!(fault(&mesh, &[(12, 0.0)]), Error::Index { index: 12, bound: 12, .. }));
+fn shell_plan_error(mesh: &Mesh, values: &[(usize, f64)]) -> Error {
+    plot::shell_plan("M", "m", mesh, values).unwrap_err()
+}
+
+#[test]
+fn values_without_a_shell_are_errors() {
+    let mesh = model().mesh().clone();
+    assert!(matches!(shell_plan_error(&mesh, &[]), Error::Size { .. }));
+    let beyond = shell_plan_error(&mesh, &[(12, 0.0)]);
+    assert!(matches!(beyond, Error::Index { index: 12, bound: 12, .. }));
     // A brick, and a beam.
     for element in [9, 10] {
-        assert!(matches!(fault(&mesh, &[(element, 0.0)]), Error::Part { .. }));
+        assert!(matches!(shell_plan_error(&mesh, &[(element, 0.0)]), Error::Part { .. }));
     }
-    assert!(matches!(fault(&mesh, &[(0, f64::NAN)]), Error::Input { .. }));
-    assert!(matches!(fault(&Mesh::new(), &[(0, 1.0)]), Error::Scene { .. }));
+    assert!(matches!(shell_plan_error(&mesh, &[(0, f64::NAN)]), Error::Input { .. }));
+    assert!(matches!(shell_plan_error(&Mesh::new(), &[(0, 1.0)]), Error::Scene { .. }));
 }

@@ -2,18 +2,18 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, SpringGround};
-use basemat::coupled::Load;
-use basemat::coupled::StabilityError;
+use basemat::coupled::{Load, StabilityError};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Yielding};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
     Base, BaseNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, Simulation};
+use basemat::{Error, Result, Simulation};
 
-use super::cells::{BED, Cells};
+use super::cells::{BED_PROPERTIES, SpringCells};
 
-fn build(
+/// The error of a scene that cannot be built.
+fn build_error(
     structure: impl Structure + 'static,
     ground: impl Ground + 'static,
     law: impl InterfaceLaw + 'static,
@@ -27,20 +27,25 @@ fn cube() -> RigidBody {
     RigidBody::cuboid([4.0; 3], 2000.0).unwrap()
 }
 
-fn cells() -> Cells {
-    Cells::under([4.0; 2], [0.0; 2], [4, 4], BED)
+/// Cells under the cube.
+fn cells() -> SpringCells {
+    SpringCells::under([4.0; 2], [0.0; 2], [4, 4], BED_PROPERTIES)
 }
 
-fn bed() -> SpringGround {
-    SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap()
+/// A body of 6 m × 6 m × 3 m.
+fn flat_body() -> RigidBody {
+    RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap()
 }
+
+const FLAT_BODY_WEIGHT: f64 = 9.80665 * 2000.0 * 108.0;
 
 #[test]
 fn bases_of_another_dimension() {
-    let error = build(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), cells(), Bonded);
+    let error = build_error(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), cells(), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "structure", .. }), "{error}");
     assert!(error.to_string().contains("faces"), "{error}");
-    let error = build(cube(), bed(), Bonded);
+    let strip_bed = SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap();
+    let error = build_error(cube(), strip_bed, Bonded);
     assert!(matches!(error, Error::Scene { quantity: "structure", .. }), "{error}");
     assert!(error.to_string().contains("contact nodes"), "{error}");
     let group = StructureGroup::new().with(cube(), 0.0).unwrap();
@@ -50,192 +55,219 @@ fn bases_of_another_dimension() {
 
 #[test]
 fn cells_that_no_face_covers() {
-    let error = build(cube(), Cells::under([7.0, 4.0], [0.0; 2], [7, 4], BED), Bonded);
-    let quantity = "distance of a contact element from the faces of the base, m";
+    let wide_cells = SpringCells::under([7.0, 4.0], [0.0; 2], [7, 4], BED_PROPERTIES);
+    let error = build_error(cube(), wide_cells, Bonded);
     let Error::Item { ref item, ref source } = error else { panic!("{error}") };
     assert_eq!(item, "contact element 0");
-    let Error::Input { quantity: found, value, .. } = **source else { panic!("{error}") };
+    let Error::Input { quantity, value, .. } = **source else { panic!("{error}") };
+    assert_eq!(quantity, "distance of a contact element from the faces of the base, m");
     // Gauss points of the outer cells, from the edge at 2 m.
     let pitch = 7.0 / 6.8;
     let expected = pitch * (3.0 + 0.5 / 3.0_f64.sqrt()) - 2.0;
-    assert_eq!(found, quantity);
     assert!((value - expected).abs() < 1e-12, "{value} {expected}");
     // Up to half a cell the base goes on.
-    let ground = Cells::under([4.8, 4.0], [0.0; 2], [4, 4], BED);
-    assert!(
-        Simulation::builder(0.01)
-            .structure(cube())
-            .ground(ground)
-            .interface(Bonded)
-            .build()
-            .is_ok()
-    );
+    let ground = SpringCells::under([4.8, 4.0], [0.0; 2], [4, 4], BED_PROPERTIES);
+    let builder = Simulation::builder(0.01).structure(cube()).ground(ground).interface(Bonded);
+    assert!(builder.build().is_ok());
+}
+
+/// Why a cube falls under a load at its top along an axis.
+fn fall(axis: usize, eccentricity: f64) -> StabilityError {
+    let row = cube().displacement_at([0.0, 0.0, 4.0])[axis].clone();
+    let weight = STANDARD_GRAVITY * cube().total_mass();
+    let plan = Plan::rectangle(-2.0..2.0, -2.0..2.0, 4).unwrap();
+    let error = Simulation::builder(0.01)
+        .structure(cube())
+        .ground(SpringGround::in_plan(plan, [1e7; 3]).unwrap())
+        .interface(Coulomb::new(9.0).unwrap())
+        .load(Load::constant(row, weight * eccentricity / 4.0))
+        .build()
+        .expect_err("no equilibrium");
+    let Error::Stability(cause) = error else { panic!("{error}") };
+    *cause
 }
 
 /// A load at the top, along x or along y, to the front or to the back: what is said of one axis is said of the other.
 #[test]
 fn errors_of_stability_name_the_axis_and_the_edge() {
-    let weight = STANDARD_GRAVITY * cube().total_mass();
-    let fall = |axis: usize, eccentricity: f64| {
-        let [along, across, _] = cube().displacement_at([0.0, 0.0, 4.0]);
-        let row = [along, across][axis].clone();
-        let plan = Plan::rectangle(-2.0..2.0, -2.0..2.0, 4).unwrap();
-        let error = Simulation::builder(0.01)
-            .structure(cube())
-            .ground(SpringGround::in_plan(plan, [1e7; 3]).unwrap())
-            .interface(Coulomb::new(9.0).unwrap())
-            .load(Load::constant(row, weight * eccentricity / 4.0))
-            .build()
-            .expect_err("no equilibrium");
-        let text = error.to_string();
-        let Error::Stability(cause) = error else { panic!("{error}") };
-        (*cause, text)
-    };
     for (axis, name, edges) in [(0, 'x', ["left", "right"]), (1, 'y', ["front", "back"])] {
         for (sign, edge) in [-1.0, 1.0].into_iter().zip(edges) {
-            let (cause, text) = fall(axis, 2.2 * sign);
-            let StabilityError::Overturning { axis: found, eccentricity, ratio, across, .. } =
-                cause
+            let cause = fall(axis, 2.2 * sign);
+            let text = cause.to_string();
+            let StabilityError::Overturning {
+                axis: named_axis, eccentricity, ratio, across, ..
+            } = cause
             else {
                 panic!("{text}")
             };
-            assert_eq!((found, across), (Some(name), Some([-2.0, 2.0])));
+            assert_eq!(named_axis, Some(name));
+            assert_eq!(across, Some([-2.0, 2.0]));
             assert!((eccentricity - 2.2 * sign).abs() < 1e-6 && (ratio - 1.1).abs() < 1e-6);
             assert!(text.contains(&format!("over its {edge} edge")), "{text}");
             assert!(text.contains(&format!("along {name}")) && !text.contains("/m"), "{text}");
             // Beyond the middle of the last row, 1.5 m.
-            let (cause, text) = fall(axis, 1.8 * sign);
-            let StabilityError::Beyond { axis: found, resultant, reach, .. } = cause else {
+            let cause = fall(axis, 1.8 * sign);
+            let text = cause.to_string();
+            let StabilityError::Beyond { axis: named_axis, resultant, reach, .. } = cause else {
                 panic!("{text}")
             };
-            assert_eq!((found, reach), (Some(name), [-1.5, 1.5]));
+            assert_eq!(named_axis, Some(name));
+            assert_eq!(reach, [-1.5, 1.5]);
             assert!((resultant - 1.8 * sign).abs() < 1e-6);
             assert!(text.contains(&format!("passes at {name} = ")), "{text}");
         }
     }
 }
 
-/// Moves the ends of an element to the right and away, m.
-fn stretch(own: &mut ContactElement, [right, front, back]: [f64; 3]) {
-    let [low, high] = own.depth();
-    let along = [own.left(), own.right() + right];
-    *own = ContactElement::in_plan(along, [low + front, high + back]);
+/// The quantity that the error of a cube on these cells names.
+fn invalid_quantity(cells: SpringCells) -> &'static str {
+    match build_error(cube(), cells, Bonded) {
+        Error::Input { quantity, .. } => quantity,
+        error => panic!("{error}"),
+    }
+}
+
+/// The cells of the cube with one of them replaced.
+fn with_element(index: usize, element: ContactElement) -> SpringCells {
+    let mut cells = cells();
+    cells.elements[index] = element;
+    cells
 }
 
 #[test]
 fn elements_that_are_no_cells() {
-    let wrong = |change: fn(&mut Cells)| {
-        let mut cells = cells();
-        change(&mut cells);
-        build(cube(), cells, Bonded)
-    };
-    let quantity = |error: Error| match error {
-        Error::Input { quantity, .. } => quantity,
-        error => panic!("{error}"),
-    };
     // One that has no place in plan, unlike the others.
-    let error = wrong(|own| own.elements[3] = ContactElement::new(-1.0, 1.0));
+    let error = build_error(cube(), with_element(3, ContactElement::new(-1.0, 1.0)), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
-    let flat = |own: &mut Cells| own.elements[3] = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
-    assert_eq!(quantity(wrong(flat)), "depth of a contact element");
-    for (stretched, blamed) in [
-        ([0.0, 0.0, f64::NAN], "back end of a contact element"),
-        ([0.1, 0.0, 0.0], "left end of a contact element"),
-        ([0.0, -0.1, 0.0], "left end of a contact element"),
+    let flat = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
+    assert_eq!(invalid_quantity(with_element(3, flat)), "depth of a contact element");
+    // Ends of an element are moved to the right and away, m.
+    for (right, front, back, expected) in [
+        (0.0, 0.0, f64::NAN, "back end of a contact element"),
+        (0.1, 0.0, 0.0, "left end of a contact element"),
+        (0.0, -0.1, 0.0, "left end of a contact element"),
     ] {
-        let mut cells = cells();
-        stretch(&mut cells.elements[5], stretched);
-        assert_eq!(quantity(build(cube(), cells, Bonded)), blamed);
+        let element = &cells().elements[5];
+        let [low, high] = element.depth();
+        let along = [element.left(), element.right() + right];
+        let stretched = ContactElement::in_plan(along, [low + front, high + back]);
+        assert_eq!(invalid_quantity(with_element(5, stretched)), expected);
     }
     // In the plane these rows lie on one another.
-    let lines = |own: &mut Cells| {
-        own.elements.iter_mut().for_each(|e| *e = ContactElement::new(e.left(), e.right()));
-    };
-    assert_eq!(quantity(wrong(lines)), "left end of a contact element");
-    let inside = |own: &mut Cells| own.elements[0] = own.elements[0].with_fraction_inside(1.5);
-    assert_eq!(quantity(wrong(inside)), "fraction of an element inside the outline");
+    let mut lines = cells();
+    for element in &mut lines.elements {
+        *element = ContactElement::new(element.left(), element.right());
+    }
+    assert_eq!(invalid_quantity(lines), "left end of a contact element");
+    let too_far_inside = cells().elements[0].with_fraction_inside(1.5);
+    assert_eq!(
+        invalid_quantity(with_element(0, too_far_inside)),
+        "fraction of an element inside the outline"
+    );
+}
+
+/// A body of 10 t on an outline.
+fn body_on(outline: &[[f64; 2]], inertia: [[f64; 3]; 3]) -> Result<RigidBody> {
+    RigidBody::from_mass(outline.to_vec(), 1e4, inertia, [0.0, 0.0, 1.0])
 }
 
 #[test]
-fn bodies_that_are_none() {
-    let body = |outline: &[[f64; 2]], inertia| {
-        RigidBody::from_mass(outline.to_vec(), 1e4, inertia, [0.0, 0.0, 1.0])
-    };
+fn invalid_bodies_are_errors() {
     let square = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
     let round = [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0, 0.0, 1e4]];
-    assert!(body(&square, round).is_ok());
-    let mut tensor = round;
-    tensor[0][1] = 1.0;
-    assert!(body(&square, tensor).err().unwrap().to_string().contains("symmetric"));
-    tensor[0][1] = 1e4;
-    tensor[1][0] = 1e4;
-    assert!(body(&square, tensor).err().unwrap().to_string().contains("positive definite"));
-    assert!(matches!(body(&square[..2], round), Err(Error::Size { found: 2, needed: 3, .. })));
+    assert!(body_on(&square, round).is_ok());
+    let mut inertia = round;
+    inertia[0][1] = 1.0;
+    let error = body_on(&square, inertia).err().unwrap();
+    assert!(error.to_string().contains("symmetric"));
+    inertia[0][1] = 1e4;
+    inertia[1][0] = 1e4;
+    let error = body_on(&square, inertia).err().unwrap();
+    assert!(error.to_string().contains("positive definite"));
+    assert!(matches!(body_on(&square[..2], round), Err(Error::Size { found: 2, needed: 3, .. })));
     assert!(RigidBody::cuboid([4.0, 0.0, 4.0], 2000.0).is_err());
     assert!(RigidBody::cylinder(4.0, 4.0, f64::NAN).is_err());
     assert!(RigidBody::from_mass(square.to_vec(), 1e4, round, [0.0, 0.0, -1.0]).is_err());
     let crossed = [square[0], square[2], square[1], square[3]];
-    let error = build(body(&crossed, round).unwrap(), cells(), Bonded);
+    let error = build_error(body_on(&crossed, round).unwrap(), cells(), Bonded);
     let Error::Item { item, source } = &error else { panic!("{error}") };
     assert!(item == "face 0" && matches!(**source, Error::Scene { .. }), "{error}");
+}
+
+/// The flat body on cells under a torque.
+fn build_twisted(torque: f64) -> Result<Simulation> {
+    Simulation::builder(4e-3)
+        .structure(flat_body())
+        .ground(SpringCells::under([6.0; 2], [0.0; 2], [4, 4], BED_PROPERTIES))
+        .interface(Coulomb::new(0.5).unwrap())
+        .load(Load::new(5, move |_| torque))
+        .build()
 }
 
 /// A torque beyond friction is named, with what friction gives under even pressure: µ N times the mean distance of the
 /// cells from the middle.
 #[test]
 fn a_torque_beyond_friction_is_named() {
-    let weight = 9.80665 * 2000.0 * 108.0;
-    let build = |torque: f64| {
-        Simulation::builder(4e-3)
-            .structure(RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap())
-            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
-            .interface(Coulomb::new(0.5).unwrap())
-            .load(Load::new(5, move |_| torque))
-            .build()
-    };
     // Cells of a bed reach a tenth of their side beyond the edge.
     let places = [-1.5_f64, -0.5, 0.5, 1.5].map(|k| k * 6.0 / 3.8);
     let arms = places.iter().flat_map(|x| places.iter().map(move |y| x.hypot(*y)));
-    let most = 0.5 * weight * arms.sum::<f64>() / 16.0;
-    assert!(build(0.9 * most).is_ok());
-    let Error::Stability(cause) = build(1.1 * most).unwrap_err() else { panic!("another error") };
+    let friction_torque = 0.5 * FLAT_BODY_WEIGHT * arms.sum::<f64>() / 16.0;
+    assert!(build_twisted(0.9 * friction_torque).is_ok());
+    let Error::Stability(cause) = build_twisted(1.1 * friction_torque).unwrap_err() else {
+        panic!("another error")
+    };
     let StabilityError::Twisting { torque, resistance, ratio, .. } = *cause else {
         panic!("{cause}")
     };
-    assert!(
-        (ratio - 1.1).abs() < 1e-6 && (resistance / most - 1.0).abs() < 1e-9,
-        "{ratio} {resistance}"
-    );
-    assert!((torque / (1.1 * most) - 1.0).abs() < 1e-9, "{torque}");
+    assert!((ratio - 1.1).abs() < 1e-6, "{ratio}");
+    assert!((resistance / friction_torque - 1.0).abs() < 1e-9, "{resistance}");
+    assert!((torque / (1.1 * friction_torque) - 1.0).abs() < 1e-9, "{torque}");
+}
+
+/// Constant loads on the flat body.
+#[derive(Clone, Copy)]
+struct SmallLoads {
+    /// Along x, N.
+    push: f64,
+    /// Downwards, in weights.
+    down: f64,
+    /// N·m.
+    torque: f64,
+}
+
+impl SmallLoads {
+    /// The flat body on a bed without friction, which bears 1.2 times its weight.
+    fn build(self) -> Result<Simulation> {
+        let body = flat_body();
+        Simulation::builder(4e-3)
+            .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
+            .structure(body)
+            .interface(Yielding::new(1.2 * FLAT_BODY_WEIGHT / 36.0, 0.0).unwrap())
+            .load(Load::new(0, move |_| self.push))
+            .load(Load::new(2, move |_| -self.down * FLAT_BODY_WEIGHT))
+            .load(Load::new(5, move |_| self.torque))
+            .build()
+    }
+
+    fn stability_error(self) -> StabilityError {
+        match self.build() {
+            Err(Error::Stability(cause)) => *cause,
+            other => panic!("{:?}", other.err()),
+        }
+    }
 }
 
 /// Forces of the size of rounding are no reason to refuse a base without friction.
 #[test]
 fn rounding_neither_twists_nor_pushes_off() {
-    let weight = 9.80665 * 2000.0 * 108.0;
-    let build = |[across, down, torque]: [f64; 3]| {
-        let body = RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap();
-        Simulation::builder(4e-3)
-            .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
-            .structure(body)
-            .interface(Yielding::new(1.2 * weight / 36.0, 0.0).unwrap())
-            .load(Load::new(0, move |_| across))
-            .load(Load::new(2, move |_| -down * weight))
-            .load(Load::new(5, move |_| torque))
-            .build()
-    };
-    let cause = |load: [f64; 3]| match build(load) {
-        Err(Error::Stability(cause)) => *cause,
-        other => panic!("{:?}", other.err()),
-    };
-    for (across, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
-        assert!(build([across, 0.1, torque]).is_ok());
-        let cause = cause([across, 0.3, torque]);
+    for (push, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
+        assert!(SmallLoads { push, down: 0.1, torque }.build().is_ok());
+        let cause = SmallLoads { push, down: 0.3, torque }.stability_error();
         assert!(matches!(cause, StabilityError::BearingFailure { .. }), "{cause}");
     }
-    let twisted = cause([0.0, 0.1, 100.0]);
+    let twisted = SmallLoads { push: 0.0, down: 0.1, torque: 100.0 }.stability_error();
     assert!(matches!(twisted, StabilityError::Twisting { .. }), "{twisted}");
-    let pushed = cause([100.0, 0.1, 0.0]);
+    let pushed = SmallLoads { push: 100.0, down: 0.1, torque: 0.0 }.stability_error();
     assert!(matches!(pushed, StabilityError::Sliding { .. }), "{pushed}");
 }
 
@@ -247,53 +279,63 @@ fn on_face(corners: &[[f64; 2]], center: [f64; 2]) -> MatrixModel {
     MatrixModel::new(mass, Triplets::new(6), Base::Faces(vec![face])).unwrap()
 }
 
+/// Static pressures of a square body whose middle is at `center`.
+fn pressures_at(center: [f64; 2], side: f64) -> Vec<f64> {
+    let half = 0.5 * side;
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let body = on_face(&corners, center);
+    let simulation = Simulation::builder(0.01)
+        .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
+        .structure(body)
+        .interface(Coulomb::new(0.5).unwrap())
+        .build();
+    let simulation = simulation.unwrap_or_else(|error| panic!("{center:?}: {error}"));
+    simulation.state().contact.iter().map(|contact| contact.pressure).collect()
+}
+
 /// Site coordinates are as good as others: the static state and its moments are those at the origin.
 #[test]
 fn mats_stand_anywhere() {
     for (side, place) in
         [(2.0, [128.0, -64.0]), (6.0, [500.0, 350.0]), (20.0, [4500.0, 3150.0]), (9.0, [5e5, 4e6])]
     {
-        let half = 0.5 * side;
-        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
-        let pressures = |center: [f64; 2]| {
-            let body = on_face(&corners, center);
-            let simulation = Simulation::builder(0.01)
-                .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
-                .structure(body)
-                .interface(Coulomb::new(0.5).unwrap())
-                .build();
-            let simulation = simulation.unwrap_or_else(|error| panic!("{center:?}: {error}"));
-            simulation.state().contact.iter().map(|own| own.pressure).collect::<Vec<_>>()
-        };
-        let (there, here) = (pressures(place), pressures([0.0; 2]));
-        assert_eq!(there.len(), 16);
-        for (there, here) in there.iter().zip(&here) {
-            assert!((there / here - 1.0).abs() < 1e-6, "{place:?}: {there} {here}");
+        let computed = pressures_at(place, side);
+        let expected = pressures_at([0.0; 2], side);
+        assert_eq!(computed.len(), 16);
+        for (computed, expected) in computed.iter().zip(&expected) {
+            assert!((computed / expected - 1.0).abs() < 1e-6, "{place:?}: {computed} {expected}");
         }
+    }
+}
+
+/// Random numbers in [0, 1) by a linear congruential generator.
+struct Congruential(u64);
+
+impl Congruential {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
 /// Any convex quadrilateral carries a rigid body, whether or not bilinear displacements have a continuation beyond it.
 #[test]
 fn all_convex_quadrilaterals_carry_a_rigid_body() {
-    let mut state = 7_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    let mut built = 0;
+    let mut random = Congruential(7);
+    let mut built_count = 0;
     for _ in 0..300 {
         let square = [[-5.0, -5.0], [5.0, -5.0], [5.0, 5.0], [-5.0, 5.0]];
-        let corners = square.map(|[x, y]| [x + 6.0 * random() - 3.0, y + 6.0 * random() - 3.0]);
+        let corners =
+            square.map(|[x, y]| [x + 6.0 * random.next() - 3.0, y + 6.0 * random.next() - 3.0]);
         let body = on_face(&corners, [0.0; 2]);
         // Narrow corners, and faces that are not convex, are refused for other reasons.
         let Ok(ground) = SpringGround::under(&body, 8, 4e7, 3e7) else { continue };
         let simulation =
             Simulation::builder(0.01).ground(ground).structure(body).interface(Bonded).build();
         match simulation {
-            Ok(_) => built += 1,
+            Ok(_) => built_count += 1,
             Err(error) => assert!(!error.to_string().contains("distance"), "{corners:?}: {error}"),
         }
     }
-    assert!(built > 150, "{built}");
+    assert!(built_count > 150, "{built_count}");
 }

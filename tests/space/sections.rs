@@ -13,10 +13,10 @@ use basemat::structure::{FemModel, RayleighDamping, SectionRows};
 fn block() -> FemModel {
     let concrete = Material::new(2.0e8, 0.2, 2400.0).unwrap();
     let mut mesh = Mesh::in_space();
-    let place =
-        |row: usize, column: usize| [2.0 * column as f64 - 2.0, 1.5 * row as f64 - 1.5, 0.0];
-    let foot = mesh.add_grid(3, 3, place).unwrap();
-    for brick in foot.extrude(&mut mesh, &[2.0, 5.0]).unwrap() {
+    let base_grid = mesh
+        .add_grid(3, 3, |row, column| [2.0 * column as f64 - 2.0, 1.5 * row as f64 - 1.5, 0.0])
+        .unwrap();
+    for brick in base_grid.extrude(&mut mesh, &[2.0, 5.0]).unwrap() {
         mesh.add(Hex8::new(brick, concrete)).unwrap();
     }
     let corner = mesh.node_at_point([2.0, 1.5, 5.0]).unwrap();
@@ -25,55 +25,75 @@ fn block() -> FemModel {
     FemModel::on_base(mesh).unwrap().with_rayleigh(damping)
 }
 
+/// The block on springs, shaken along x, y and upwards.
+fn simulation(model: FemModel) -> Simulation {
+    let plan = Plan::rectangle(-2.0..2.0, -1.5..1.5, 4).unwrap();
+    let ground = SpringGround::in_plan(plan, [4.0e7, 2.0e7, 2.0e7]).unwrap();
+    let record = el_centro_1940().scaled(1.5).unwrap();
+    let y = Some(record.padded(0.3, 0.0).unwrap());
+    let motion = Triaxial { x: Some(record.clone()), y, up: Some(record.scaled(0.5).unwrap()) };
+    Simulation::builder(0.01)
+        .structure(model)
+        .ground(ground)
+        .interface(Coulomb::new(0.3).unwrap())
+        .motion(motion)
+        .build()
+        .unwrap()
+}
+
 /// Forces along x and y, pressure, moments about x and y, and torque of the only foundation.
-fn contact(state: &State) -> [f64; 6] {
-    let own = &state.foundations[0];
-    let forces = [own.base_shear, own.shear_across, own.normal_force];
-    let moments = [own.moment_across, own.base_moment, own.torque];
-    [forces, moments].concat().try_into().unwrap()
+fn contact_resultants(state: &State) -> [f64; 6] {
+    let foundation = &state.foundations[0];
+    [
+        foundation.base_shear,
+        foundation.shear_across,
+        foundation.normal_force,
+        foundation.moment_across,
+        foundation.base_moment,
+        foundation.torque,
+    ]
+}
+
+/// Mean of two vectors of degrees of freedom.
+fn midpoint(start: &[f64], end: &[f64]) -> Vec<f64> {
+    start.iter().zip(end).map(|(start, end)| 0.5 * (start + end)).collect()
 }
 
 #[test]
 fn a_section_at_the_base_is_the_contact_force() {
     let model = block();
     let section = model.section_in_space(0.0, [0.0; 2]).unwrap();
-    let [along, across] = &section.shear;
-    let [about_x, about_y] = &section.moments;
-    let rows: [&SectionRows; 6] =
-        [along, across, &section.compression, about_x, about_y, &section.torque];
-    let plan = Plan::rectangle(-2.0..2.0, -1.5..1.5, 4).unwrap();
-    let ground = SpringGround::in_plan(plan, [4.0e7, 2.0e7, 2.0e7]).unwrap();
-    let record = el_centro_1940().scaled(1.5).unwrap();
-    let y = Some(record.padded(0.3, 0.0).unwrap());
-    let motion = Triaxial { x: Some(record.clone()), y, up: Some(record.scaled(0.5).unwrap()) };
-    let mut simulation = Simulation::builder(0.01)
-        .structure(model)
-        .ground(ground)
-        .interface(Coulomb::new(0.3).unwrap())
-        .motion(motion)
-        .build()
-        .unwrap();
-    let rest = contact(simulation.state());
+    let section_rows: [&SectionRows; 6] = [
+        &section.shear[0],
+        &section.shear[1],
+        &section.compression,
+        &section.moments[0],
+        &section.moments[1],
+        &section.torque,
+    ];
+    let mut simulation = simulation(model);
+    let at_rest = contact_resultants(simulation.state());
     let weight = (4.0 * 3.0 * 5.0 * 2400.0 + 3.0e4) * STANDARD_GRAVITY;
-    assert!((rest[2] / weight - 1.0).abs() < 1e-9, "{} {weight}", rest[2]);
-    let mut before =
-        [simulation.state().displacement(), simulation.state().velocity()].map(<[f64]>::to_vec);
-    let (mut slip, mut uplift, mut most) = (0.0_f64, 0.0_f64, [0.0_f64; 6]);
+    assert!((at_rest[2] / weight - 1.0).abs() < 1e-9, "{} {weight}", at_rest[2]);
+    let mut max_slip = 0.0_f64;
+    let mut max_uplift = 0.0_f64;
+    let mut max_resultants = [0.0_f64; 6];
     for _ in 0..250 {
+        let start_displacement = simulation.state().displacement().to_vec();
+        let start_velocity = simulation.state().velocity().to_vec();
         let state = simulation.step().unwrap();
-        let now = [state.displacement(), state.velocity()].map(<[f64]>::to_vec);
         // Tractions and accelerations act in the middle of the step.
-        let [u, v] = [0, 1].map(|k| {
-            let pairs = before[k].iter().zip(&now[k]);
-            pairs.map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>()
-        });
-        for (k, (own, contact)) in rows.iter().zip(contact(state)).enumerate() {
-            let (found, exact) = (own.value(&u, &v, state.acceleration()), contact - rest[k]);
-            assert!((found - exact).abs() < 1e-8 * weight, "{k} {found} {exact}");
-            most[k] = most[k].max(exact.abs());
+        let u = midpoint(&start_displacement, state.displacement());
+        let v = midpoint(&start_velocity, state.velocity());
+        for (k, contact) in contact_resultants(state).into_iter().enumerate() {
+            let computed = section_rows[k].value(&u, &v, state.acceleration());
+            let expected = contact - at_rest[k];
+            assert!((computed - expected).abs() < 1e-8 * weight, "{k} {computed} {expected}");
+            max_resultants[k] = max_resultants[k].max(expected.abs());
         }
-        (slip, uplift) = (slip.max(state.mean_slip.abs()), uplift.max(state.uplifted_fraction));
-        before = now;
+        max_slip = max_slip.max(state.mean_slip.abs());
+        max_uplift = max_uplift.max(state.uplifted_fraction);
     }
-    assert!(slip > 1e-3 && uplift > 0.1 && most.iter().all(|own| *own > 0.01 * weight));
+    assert!(max_slip > 1e-3 && max_uplift > 0.1);
+    assert!(max_resultants.iter().all(|resultant| *resultant > 0.01 * weight));
 }

@@ -11,41 +11,67 @@ use basemat::results::Run;
 use basemat::structure::{PlanStorey, RigidBlock, RigidBody, StoreyBuilding};
 use basemat::{Simulation, Soil};
 
-use super::cells::{BED, Cells};
+use super::cells::{BED_PROPERTIES, SpringCells};
 
-fn motion(record: Record, along_y: bool) -> Triaxial {
-    let [x, y] = if along_y { [None, Some(record)] } else { [Some(record), None] };
-    Triaxial { x, y, ..Triaxial::default() }
+fn motion_along_x(record: Record) -> Triaxial {
+    Triaxial { x: Some(record), ..Triaxial::default() }
 }
 
-/// Five seconds of a bonded body, its largest rotation about an axis on the surface and its largest base shear.
-fn run(sides: [f64; 3], speed: f64, motion: Triaxial, cells: usize, step: f64) -> (Run, f64, f64) {
-    let body = RigidBody::cuboid(sides, 2000.0).unwrap();
-    let soil = Soil::from_shear_wave_speed(speed, 1.0 / 3.0, 1900.0).unwrap();
-    let mut simulation = Simulation::builder(step)
-        .ground(ElasticGround::under(soil, &body, cells).unwrap())
-        .structure(body)
-        .interface(Bonded)
-        .motion(motion)
-        .build()
-        .unwrap();
-    let (mut rotation, mut shear) = (0.0_f64, 0.0_f64);
-    let mut run = simulation
-        .run(simulation.steps_for(5.0), |state| {
-            let u = state.displacement();
-            rotation = rotation.max(u[3].hypot(u[4]));
-            let own = &state.foundations[0];
-            shear = shear.max(own.base_shear.hypot(own.shear_across));
-        })
-        .unwrap();
-    // They end before their record; here is looked at resolution.
-    let other = |own: &Warning| matches!(own, Warning::Tension { .. } | Warning::EndsEarly { .. });
-    run.warnings.retain(|warning| !other(warning));
-    (run, rotation, shear)
+fn motion_along_y(record: Record) -> Triaxial {
+    Triaxial { y: Some(record), ..Triaxial::default() }
+}
+
+/// A bonded body on a half-space, shaken for five seconds.
+struct ShakenBody {
+    sides: [f64; 3],
+    /// Speed of shear waves in the soil, m/s.
+    soil_speed: f64,
+    motion: Triaxial,
+    /// Along the shorter side.
+    cells: usize,
+    time_step: f64,
+}
+
+/// What [`ShakenBody`] did.
+struct ShakenResult {
+    /// Without warnings that do not concern resolution.
+    run: Run,
+    /// Largest about an axis on the surface.
+    max_rotation: f64,
+    max_base_shear: f64,
+}
+
+impl ShakenBody {
+    fn run(self) -> ShakenResult {
+        let body = RigidBody::cuboid(self.sides, 2000.0).unwrap();
+        let soil = Soil::from_shear_wave_speed(self.soil_speed, 1.0 / 3.0, 1900.0).unwrap();
+        let mut simulation = Simulation::builder(self.time_step)
+            .ground(ElasticGround::under(soil, &body, self.cells).unwrap())
+            .structure(body)
+            .interface(Bonded)
+            .motion(self.motion)
+            .build()
+            .unwrap();
+        let mut max_rotation = 0.0_f64;
+        let mut max_base_shear = 0.0_f64;
+        let mut run = simulation
+            .run(simulation.steps_for(5.0), |state| {
+                let u = state.displacement();
+                max_rotation = max_rotation.max(u[3].hypot(u[4]));
+                let foundation = &state.foundations[0];
+                let base_shear = foundation.base_shear.hypot(foundation.shear_across);
+                max_base_shear = max_base_shear.max(base_shear);
+            })
+            .unwrap();
+        run.warnings.retain(|warning| {
+            !matches!(warning, Warning::Tension { .. } | Warning::EndsEarly { .. })
+        });
+        ShakenResult { run, max_rotation, max_base_shear }
+    }
 }
 
 /// The one warning of a run.
-fn only(run: &Run) -> Warning {
+fn only_warning(run: &Run) -> Warning {
     let [warning] = run.warnings[..] else { panic!("{:?}", run.warnings) };
     assert!(run.to_string().contains(&format!("warning: {warning}")));
     warning
@@ -54,49 +80,64 @@ fn only(run: &Run) -> Warning {
 /// The same along x and along y.
 #[test]
 fn cells_longer_than_a_twelfth_of_waves() {
-    let sides = [20.0, 20.0, 8.0];
-    let shake = |along_y, cells| run(sides, 60.0, motion(el_centro_1940(), along_y), cells, 5e-3);
-    for along_y in [false, true] {
-        let [(coarse, angle, _), (fine, wanted, _)] = [4, 9].map(|cells| shake(along_y, cells));
-        assert_eq!(fine.warnings, []);
-        let Warning::LongElements { element_length, wavelength, needed } = only(&coarse) else {
-            panic!("{:?}", coarse.warnings)
+    for motion in [motion_along_x(el_centro_1940()), motion_along_y(el_centro_1940())] {
+        let [coarse, fine] = [4, 9].map(|cells| {
+            let sides = [20.0, 20.0, 8.0];
+            let motion = motion.clone();
+            ShakenBody { sides, soil_speed: 60.0, motion, cells, time_step: 5e-3 }.run()
+        });
+        assert_eq!(fine.run.warnings, []);
+        let Warning::LongElements { element_length, wavelength, needed } =
+            only_warning(&coarse.run)
+        else {
+            panic!("{:?}", coarse.run.warnings)
         };
         assert!((element_length - 20.0 / 3.79).abs() < 1e-12, "{element_length}");
         assert!((needed - wavelength / 12.0).abs() < 1e-12 && needed < element_length);
-        assert!((angle / wanted - 1.0).abs() > 0.005, "{angle} {wanted}");
+        let error = coarse.max_rotation / fine.max_rotation - 1.0;
+        assert!(error.abs() > 0.005, "{} {}", coarse.max_rotation, fine.max_rotation);
     }
 }
 
 /// Of a mat twice as long as wide, the side with the fewer cells counts; unions of many cells do not.
 #[test]
 fn rows_and_columns_are_counted() {
-    let tall = [8.0, 4.0, 12.0];
-    let (few, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 2, 2e-3);
-    let wanted = Warning::FewElements { foundation: 0, elements: 2, needed: 4, axis: Some('y') };
-    assert_eq!(only(&few), wanted);
-    let (enough, _, _) = run(tall, 250.0, motion(el_centro_1940(), true), 4, 2e-3);
-    assert_eq!(enough.warnings, []);
+    let [coarse, fine] = [2, 4].map(|cells| {
+        let sides = [8.0, 4.0, 12.0];
+        let motion = motion_along_y(el_centro_1940());
+        ShakenBody { sides, soil_speed: 250.0, motion, cells, time_step: 2e-3 }.run()
+    });
+    let expected = Warning::FewElements { foundation: 0, elements: 2, needed: 4, axis: Some('y') };
+    assert_eq!(only_warning(&coarse.run), expected);
+    assert_eq!(fine.run.warnings, []);
+}
+
+/// A square body of this height on stiff soil, shaken along y.
+fn run_of_height(height: f64, time_step: f64) -> ShakenResult {
+    let sides = [10.0, 10.0, height];
+    let motion = motion_along_y(el_centro_1940());
+    ShakenBody { sides, soil_speed: 400.0, motion, cells: 4, time_step }.run()
 }
 
 /// A tower that rocks along y: steps that waves cross its base in damp it; a flat block follows the ground.
 #[test]
 fn steps_as_long_as_waves_take_across() {
-    let shake =
-        |height, step| run([10.0, 10.0, height], 400.0, motion(el_centro_1940(), true), 4, step);
-    let (fine, _, wanted) = shake(20.0, 2.5e-3);
-    assert_eq!(fine.warnings, []);
-    let (coarse, _, found) = shake(20.0, 1e-2);
-    let Warning::UnresolvedRadiation { crossing, time_step, needed } = only(&coarse) else {
-        panic!("{:?}", coarse.warnings)
+    let fine = run_of_height(20.0, 2.5e-3);
+    assert_eq!(fine.run.warnings, []);
+    let coarse = run_of_height(20.0, 1e-2);
+    let Warning::UnresolvedRadiation { crossing, time_step, needed } = only_warning(&coarse.run)
+    else {
+        panic!("{:?}", coarse.run.warnings)
     };
     assert!((crossing - 10.0 / 400.0).abs() < 0.1 * crossing && time_step == 1e-2);
     assert!((needed - crossing / 8.0).abs() < 1e-15);
-    assert!((found / wanted - 1.0).abs() > 0.05, "{found} {wanted}");
-    let (flat, _, found) = shake(1.5, 1e-2);
-    assert_eq!(flat.warnings, []);
-    let (_, _, wanted) = shake(1.5, 2.5e-3);
-    assert!((found / wanted - 1.0).abs() < 0.02, "{found} {wanted}");
+    let ratio = coarse.max_base_shear / fine.max_base_shear;
+    assert!((ratio - 1.0).abs() > 0.05, "{ratio}");
+    let flat_coarse = run_of_height(1.5, 1e-2);
+    assert_eq!(flat_coarse.run.warnings, []);
+    let flat_fine = run_of_height(1.5, 2.5e-3);
+    let ratio = flat_coarse.max_base_shear / flat_fine.max_base_shear;
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
 }
 
 /// Steps that miss a motion along y alone.
@@ -104,156 +145,198 @@ fn steps_as_long_as_waves_take_across() {
 fn motions_along_y_are_judged() {
     let slow = el_centro_1940().scaled(0.1).unwrap();
     let fast = Record::new(0.002, slow.accelerations().to_vec()).unwrap();
-    let (run, _, _) = run([20.0, 20.0, 4.0], 2000.0, motion(fast, true), 4, 2e-2);
-    let found = |warning: &Warning| matches!(warning, Warning::UnresolvedMotion { .. });
-    assert!(run.warnings.iter().any(found), "{:?}", run.warnings);
+    let body = ShakenBody {
+        sides: [20.0, 20.0, 4.0],
+        soil_speed: 2000.0,
+        motion: motion_along_y(fast),
+        cells: 4,
+        time_step: 2e-2,
+    };
+    let run = body.run().run;
+    let is_unresolved = |warning: &Warning| matches!(warning, Warning::UnresolvedMotion { .. });
+    assert!(run.warnings.iter().any(is_unresolved), "{:?}", run.warnings);
+}
+
+/// A pair listed along x first, for the axis it is about.
+fn along_axis(axis: usize, pair: [f64; 2]) -> [f64; 2] {
+    if axis == 0 { pair } else { [pair[1], pair[0]] }
+}
+
+/// Warnings of a base that reaches beyond its cells along an axis, under a storey that is all but a mechanism.
+fn soft_storey_warnings(axis: usize) -> Vec<Warning> {
+    let half = along_axis(axis, [2.0, 4.0]);
+    let plan = Plan::rectangle(-half[0]..half[0], -half[1]..half[1], 4).unwrap();
+    let stiffness = along_axis(axis, [1e4, 1e8]);
+    let mat = RigidBody::cuboid([8.0, 8.0, 1.0], 2400.0).unwrap();
+    let storey = PlanStorey::new(4.0, 1e5, [8.0; 2], [stiffness[0], stiffness[1], 1e9]);
+    let building = StoreyBuilding::new(mat, &[storey]).unwrap();
+    let mut simulation = Simulation::builder(1e-3)
+        .structure(building)
+        .ground(SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap())
+        .interface(Bonded)
+        // About y, or about x.
+        .load(Load::new(4 - axis, |time| if time > 0.0 { 2e8 } else { 0.0 }))
+        .build()
+        .unwrap();
+    simulation.run(100, |_| {}).unwrap().warnings
 }
 
 /// Along y as along x: a base that reaches beyond its cells, a storey that is all but a mechanism, a base that turns far.
 #[test]
 fn what_is_said_of_x_is_said_of_y() {
+    let expected_period = TAU * (1e5 / 1e4_f64).sqrt();
     for (axis, name) in [(0, 'x'), (1, 'y')] {
-        let swapped = |pair: [f64; 2]| if axis == 0 { pair } else { [pair[1], pair[0]] };
-        let [x, y] = swapped([2.0, 4.0]);
-        let plan = Plan::rectangle(-x..x, -y..y, 4).unwrap();
-        let [kx, ky] = swapped([1e4, 1e8]);
-        let mat = RigidBody::cuboid([8.0, 8.0, 1.0], 2400.0).unwrap();
-        let storey = PlanStorey::new(4.0, 1e5, [8.0; 2], [kx, ky, 1e9]);
-        let building = StoreyBuilding::new(mat, &[storey]).unwrap();
-        let mut simulation = Simulation::builder(1e-3)
-            .structure(building)
-            .ground(SpringGround::in_plan(plan, [4e7, 3e7, 3e7]).unwrap())
-            .interface(Bonded)
-            // About y, or about x.
-            .load(Load::new(4 - axis, |time| if time > 0.0 { 2e8 } else { 0.0 }))
-            .build()
-            .unwrap();
-        let warnings = simulation.run(100, |_| {}).unwrap().warnings;
-        let has = |of: &dyn Fn(&Warning) -> bool| assert!(warnings.iter().any(of), "{warnings:?}");
-        let long = TAU * (1e5 / 1e4_f64).sqrt();
-        has(
-            &|own| matches!(own, Warning::Mistake(Mistake::LongPeriod { period }) if (period / long - 1.0).abs() < 0.02),
-        );
-        has(&|own| matches!(own, Warning::LargeRotation { rotation } if *rotation > 0.11));
-        has(&|own| match own {
+        let warnings = soft_storey_warnings(axis);
+        let has_long_period = warnings.iter().any(|warning| match warning {
+            Warning::Mistake(Mistake::LongPeriod { period }) => {
+                (period / expected_period - 1.0).abs() < 0.02
+            }
+            _ => false,
+        });
+        assert!(has_long_period, "{warnings:?}");
+        let has_large_rotation = warnings.iter().any(|warning| match warning {
+            Warning::LargeRotation { rotation } => *rotation > 0.11,
+            _ => false,
+        });
+        assert!(has_large_rotation, "{warnings:?}");
+        let uncovered = warnings.iter().find(|warning| match warning {
             Warning::UncoveredBase { axis, reach, .. } => {
                 *axis == Some(name) && (reach - 2.0).abs() < 1e-12
             }
             _ => false,
         });
-        let uncovered = warnings.iter().find(|own| matches!(own, Warning::UncoveredBase { .. }));
-        assert!(uncovered.unwrap().to_string().contains(&format!("2.00 m along {name} beyond")));
-        let tension = warnings.iter().find(|own| matches!(own, Warning::Tension { .. }));
+        let text = uncovered.expect("a warning of the base").to_string();
+        assert!(text.contains(&format!("2.00 m along {name} beyond")), "{text}");
+        let tension = warnings.iter().find(|warning| matches!(warning, Warning::Tension { .. }));
         assert!(tension.unwrap().to_string().contains(" m, y = "), "{warnings:?}");
     }
 }
 
-/// More than 512 cells are too many for the gate; a ground of one's own may say so too.
-#[test]
-fn samples_of_the_passivity_gate_are_told() {
-    let ground = |cells| {
-        let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
-        ElasticGround::in_plan(Soil::new(8e7, 0.3, 1900.0).unwrap(), plan).unwrap()
-    };
-    assert_eq!(ground(22).description().sampled_cells, None);
-    assert_eq!(ground(23).description().sampled_cells, Some([256, 529]));
-    let build = |sample| {
-        let mut cells = Cells::under([4.0; 2], [0.0; 2], [4, 4], BED);
-        cells.sampled = sample;
-        let body = RigidBody::cuboid([4.0; 3], 2000.0).unwrap();
-        let builder = Simulation::builder(0.01).structure(body).ground(cells);
-        builder.interface(Bonded).build().unwrap().run(2, |_| {}).unwrap().warnings
-    };
-    assert_eq!(build(None), []);
-    assert_eq!(build(Some([9, 16])), [Warning::SampledPassivity { checked: 9, cells: 16 }]);
+/// An elastic ground of `cells` × `cells`.
+fn square_ground(cells: usize) -> ElasticGround {
+    let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
+    ElasticGround::in_plan(Soil::new(8e7, 0.3, 1900.0).unwrap(), plan).unwrap()
 }
 
-/// Beside a bond, endless friction is a finite one where it slides: that is said, and nowhere else.
+/// Warnings of a ground that samples so many of its cells.
+fn sampling_warnings(sampled_cells: Option<[usize; 2]>) -> Vec<Warning> {
+    let mut cells = SpringCells::under([4.0; 2], [0.0; 2], [4, 4], BED_PROPERTIES);
+    cells.sampled_cells = sampled_cells;
+    let body = RigidBody::cuboid([4.0; 3], 2000.0).unwrap();
+    let builder = Simulation::builder(0.01).structure(body).ground(cells);
+    builder.interface(Bonded).build().unwrap().run(2, |_| {}).unwrap().warnings
+}
+
+/// More than 512 cells are too many for the gate; a user's ground may say so too.
 #[test]
-fn friction_that_was_less_is_told() {
-    let shake = |law: Cohesive| {
-        let motion = || Some(el_centro_1940().scaled(2.0).unwrap());
-        let mut simulation = Simulation::builder(4e-3)
-            .structure(RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap())
-            .ground(Cells::under([6.0; 2], [0.0; 2], [4, 4], BED))
-            .interface(law)
-            .motion(Triaxial { x: motion(), y: motion(), ..Triaxial::default() })
-            .build()
-            .unwrap();
-        simulation.run(600, |_| {}).unwrap()
-    };
-    let bond = |friction| Cohesive::new(1e6, 1.0, friction).unwrap();
-    let [endless, finite] = [f64::INFINITY, 5.0].map(|friction| shake(bond(friction)));
-    println!("{:?} {:?}", endless.warnings, finite.warnings);
-    let found = |run: &Run| {
-        let less = run.warnings.iter().find(|w| matches!(w, Warning::LessFriction { .. }));
-        less.map(ToString::to_string)
-    };
-    assert!(found(&endless).unwrap().contains("friction 10000 "));
-    assert_eq!(found(&finite), None);
+fn samples_of_the_passivity_gate_are_told() {
+    assert_eq!(square_ground(22).description().sampled_cells, None);
+    assert_eq!(square_ground(23).description().sampled_cells, Some([256, 529]));
+    assert_eq!(sampling_warnings(None), []);
+    let expected = Warning::SampledPassivity { checked: 9, cells: 16 };
+    assert_eq!(sampling_warnings(Some([9, 16])), [expected]);
+}
+
+/// Text of the warning of substituted friction beside a bond.
+fn substituted_friction(friction: f64) -> Option<String> {
+    let record = el_centro_1940().scaled(2.0).unwrap();
+    let motion = Triaxial { x: Some(record.clone()), y: Some(record), up: None };
+    let mut simulation = Simulation::builder(4e-3)
+        .structure(RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap())
+        .ground(SpringCells::under([6.0; 2], [0.0; 2], [4, 4], BED_PROPERTIES))
+        .interface(Cohesive::new(1e6, 1.0, friction).unwrap())
+        .motion(motion)
+        .build()
+        .unwrap();
+    let run = simulation.run(600, |_| {}).unwrap();
+    println!("{:?}", run.warnings);
+    let mut warnings = run.warnings.iter();
+    let found = warnings.find(|warning| matches!(warning, Warning::LessFriction { .. }));
+    found.map(ToString::to_string)
+}
+
+/// Beside a bond, infinite friction is replaced by a finite one where it slides: that is said, and nowhere else.
+#[test]
+fn substituted_friction_is_told() {
+    assert!(substituted_friction(f64::INFINITY).unwrap().contains("friction 10000 "));
+    assert_eq!(substituted_friction(5.0), None);
+}
+
+/// Whether a run in the plane warns that its ground leaves out a motion along y.
+fn warns_of_motion_across(motion: impl FreeField + 'static) -> bool {
+    let soil = Soil::from_shear_wave_speed(250.0, 0.3, 1900.0).unwrap();
+    let block = RigidBlock::new(6.0, 6.0, 2000.0).unwrap();
+    let mut simulation = Simulation::builder(0.01)
+        .ground(ElasticGround::under(soil, &block, 8).unwrap())
+        .structure(block)
+        .interface(Bonded)
+        .motion(motion)
+        .build()
+        .unwrap();
+    let run = simulation.run(10, |_| {}).unwrap();
+    let warns = run.warnings.contains(&Warning::MotionAcross);
+    assert_eq!(warns, run.to_string().contains("along y"));
+    warns
+}
+
+/// El Centro, travelling along x.
+fn travelling_wave() -> TravellingWave {
+    TravellingWave::new(el_centro_1940(), 800.0, -3.0).unwrap()
 }
 
 /// A ground in the plane says so if it leaves out what moves along y.
 #[test]
 fn motion_along_y_has_no_place_in_the_plane() {
     let record = el_centro_1940();
-    let warns = |motion: Box<dyn FreeField>| {
-        let soil = Soil::from_shear_wave_speed(250.0, 0.3, 1900.0).unwrap();
-        let block = RigidBlock::new(6.0, 6.0, 2000.0).unwrap();
-        let mut simulation = Simulation::builder(0.01)
-            .ground(ElasticGround::under(soil, &block, 8).unwrap())
-            .structure(block)
-            .interface(Bonded)
-            .motion(motion)
-            .build()
-            .unwrap();
-        let run = simulation.run(10, |_| {}).unwrap();
-        assert_eq!(
-            run.warnings.contains(&Warning::MotionAcross),
-            run.to_string().contains("along y")
-        );
-        run.warnings.contains(&Warning::MotionAcross)
-    };
-    let wave = || TravellingWave::new(record.clone(), 800.0, -3.0).unwrap();
-    assert!(!warns(Box::new(record.clone())));
-    assert!(!warns(Box::new(wave())));
-    assert!(!warns(Box::new(Triaxial { x: Some(record.clone()), ..Triaxial::default() })));
-    assert!(warns(Box::new(motion(record.clone(), true))));
-    assert!(warns(Box::new(wave().with_azimuth(0.3).unwrap())));
-    assert!(!warns(Box::new(wave().with_azimuth(std::f64::consts::PI).unwrap())));
+    assert!(!warns_of_motion_across(record.clone()));
+    assert!(!warns_of_motion_across(travelling_wave()));
+    assert!(!warns_of_motion_across(motion_along_x(record.clone())));
+    assert!(warns_of_motion_across(motion_along_y(record)));
+    assert!(warns_of_motion_across(travelling_wave().with_azimuth(0.3).unwrap()));
+    assert!(!warns_of_motion_across(travelling_wave().with_azimuth(std::f64::consts::PI).unwrap()));
+}
+
+/// Warnings of a base of 6 × 6 m on columns and rows of cells within a rectangle.
+fn cell_warnings(half_sides: [f64; 2], counts: [usize; 2], friction: f64) -> Vec<Warning> {
+    let pitch = [0, 1].map(|axis| 2.0 * half_sides[axis] / counts[axis] as f64);
+    let mask = vec![true; counts[0] * counts[1]];
+    let origin = [-half_sides[0], -half_sides[1]];
+    let plan = Plan::masked(origin, pitch, counts[0], &mask).unwrap();
+    let mut simulation = Simulation::builder(5e-3)
+        .ground(SpringGround::in_plan(plan, [4e8, 3e8, 3e8]).unwrap())
+        .structure(RigidBody::cuboid([6.0, 6.0, 1.0], 2400.0).unwrap())
+        .interface(Coulomb::new(friction).unwrap())
+        .motion(motion_along_x(el_centro_1940().scaled(0.1).unwrap()))
+        .build()
+        .unwrap();
+    simulation.run(100, |_| {}).unwrap().warnings
+}
+
+fn is_uncovered_by_a_metre(warning: &Warning) -> bool {
+    matches!(warning, Warning::UncoveredBase { reach, .. } if *reach == 1.0)
+}
+
+fn is_single_row(warning: &Warning) -> bool {
+    matches!(warning, Warning::FewElements { elements: 1, needed: 2, axis: Some('y'), .. })
+}
+
+fn is_high_friction(warning: &Warning) -> bool {
+    matches!(warning, Warning::HighFriction { .. })
 }
 
 /// A base of 6 × 6 m on cells of 4 × 4 m; one row of cells on springs; friction with several solutions.
 #[test]
 fn a_base_beyond_few_cells_a_single_row_and_high_friction_are_told() {
-    let found = |half: [f64; 2], counts: [usize; 2], law: Coulomb| {
-        let [columns, rows] = counts;
-        let pitch = [2.0 * half[0] / columns as f64, 2.0 * half[1] / rows as f64];
-        let mask = vec![true; columns * rows];
-        let plan = Plan::masked([-half[0], -half[1]], pitch, columns, &mask).unwrap();
-        let mut simulation = Simulation::builder(5e-3)
-            .ground(SpringGround::in_plan(plan, [4e8, 3e8, 3e8]).unwrap())
-            .structure(RigidBody::cuboid([6.0, 6.0, 1.0], 2400.0).unwrap())
-            .interface(law)
-            .motion(motion(el_centro_1940().scaled(0.1).unwrap(), false))
-            .build()
-            .unwrap();
-        simulation.run(100, |_| {}).unwrap().warnings
-    };
-    let law = |friction| Coulomb::new(friction).unwrap();
-    let has = |warnings: &[Warning], of: &dyn Fn(&Warning) -> bool| warnings.iter().any(of);
-    let uncovered =
-        |own: &Warning| matches!(own, Warning::UncoveredBase { reach, .. } if *reach == 1.0);
-    let few = |own: &Warning| {
-        matches!(own, Warning::FewElements { elements: 1, needed: 2, axis: Some('y'), .. })
-    };
-    let high = |own: &Warning| matches!(own, Warning::HighFriction { .. });
-    assert!(has(&found([2.0; 2], [3, 3], law(0.5)), &uncovered));
+    let warnings = cell_warnings([2.0; 2], [3, 3], 0.5);
+    assert!(warnings.iter().any(is_uncovered_by_a_metre), "{warnings:?}");
     for friction in [3.0, 99.0, f64::INFINITY] {
-        assert!(has(&found([3.0; 2], [4, 4], law(friction)), &high), "{friction}");
+        let warnings = cell_warnings([3.0; 2], [4, 4], friction);
+        assert!(warnings.iter().any(is_high_friction), "{friction}");
     }
-    let warnings = found([3.0; 2], [4, 4], law(2.9));
-    assert!(!has(&warnings, &|own| uncovered(own) || few(own) || high(own)), "{warnings:?}");
-    let row = found([3.0, 3.0], [6, 1], law(0.5));
-    assert!(has(&row, &few), "{row:?}");
+    let warnings = cell_warnings([3.0; 2], [4, 4], 2.9);
+    for is_told in [is_uncovered_by_a_metre, is_single_row, is_high_friction] {
+        assert!(!warnings.iter().any(is_told), "{warnings:?}");
+    }
+    let warnings = cell_warnings([3.0, 3.0], [6, 1], 0.5);
+    assert!(warnings.iter().any(is_single_row), "{warnings:?}");
 }

@@ -1,8 +1,8 @@
 //! GOAL: several structures on one ground.
-//! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
+//! SCENE: far apart on the half-plane; twins; nonlinear members.
 //! REFERENCE: each alone, or its mirror image.
 
-use basemat::bem::{ElasticGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::CheckpointError;
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::history::HistoryMethod;
@@ -16,30 +16,30 @@ use basemat::{Error, Result, Simulation, Soil};
 
 use basemat_problems::{needed_from, own_force};
 
-const STEP: f64 = 0.002;
+const TIME_STEP: f64 = 0.002;
 
 fn soil() -> Soil {
     Soil::new(60.0e6, 0.3, 1900.0).unwrap()
 }
 
-fn tower() -> ShearBuilding {
+pub(super) fn tower() -> ShearBuilding {
     let storeys = [Storey::new(3.0, 15.0e3, 25.0e6); 4];
     let tower = ShearBuilding::new(4.0, 30.0e3, 8.0e4, &storeys).unwrap();
     tower.with_stiffness_damping(0.04).unwrap()
 }
 
-fn block() -> RigidBlock {
+pub(super) fn block() -> RigidBlock {
     RigidBlock::new(3.0, 7.0, 1800.0).unwrap()
 }
 
-fn base() -> SimulationBuilder {
-    Simulation::builder(STEP)
+pub(super) fn base_scene() -> SimulationBuilder {
+    Simulation::builder(TIME_STEP)
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)
 }
 
-fn strip(center: f64, width: f64) -> Strip {
+pub(super) fn strip(center: f64, width: f64) -> Strip {
     Strip::uniform(center - 0.5 * width..center + 0.5 * width, 6).unwrap()
 }
 
@@ -47,19 +47,22 @@ fn half_plane(strips: &[Strip]) -> ElasticGround {
     ElasticGround::new(soil(), strips).unwrap()
 }
 
-fn states(mut simulation: Simulation, steps: usize) -> Vec<State> {
-    let mut all = Vec::new();
-    simulation.run(steps, |state| all.push(state.clone())).unwrap();
-    all
+pub(super) fn states(mut simulation: Simulation, steps: usize) -> Vec<State> {
+    let mut states = Vec::new();
+    simulation.run(steps, |state| states.push(state.clone())).unwrap();
+    states
 }
 
-/// Largest difference of the tractions of two lists of elements over the largest of the first.
-fn apart(whole: &[State], part: &[State], first: usize) -> f64 {
-    let (mut difference, mut scale) = (0.0_f64, 0.0_f64);
+/// Largest difference of the tractions of two runs over the largest traction of the part.
+///
+/// The part's elements begin at `first` among those of the whole.
+pub(super) fn traction_difference(whole: &[State], part: &[State], first: usize) -> f64 {
+    let mut difference = 0.0_f64;
+    let mut scale = 0.0_f64;
     for (whole, part) in whole.iter().zip(part) {
-        for (k, own) in part.contact.iter().enumerate() {
+        for (k, contact) in part.contact.iter().enumerate() {
             let other = &whole.contact[first + k];
-            for (a, b) in [(own.pressure, other.pressure), (own.shear, other.shear)] {
+            for (a, b) in [(contact.pressure, other.pressure), (contact.shear, other.shear)] {
                 scale = scale.max(a.abs());
                 difference = difference.max((a - b).abs());
             }
@@ -68,142 +71,34 @@ fn apart(whole: &[State], part: &[State], first: usize) -> f64 {
     difference / scale
 }
 
+/// A bonded run without weight in physical coordinates.
+fn weightless_run(builder: SimulationBuilder, steps: usize) -> Vec<State> {
+    let bonded = builder.gravity(0.0).interface(Bonded);
+    states(bonded.coordinates(Coordinates::Physical).build().unwrap(), steps)
+}
+
 /// GOAL: until waves have gone from one to the other, each moves as if it were alone.
 /// CONFIG: half-plane without weight (statics act at any distance), 20 m apart, both bonded.
 #[test]
 fn two_far_apart_are_two_alone_until_waves_arrive() {
-    let run = |builder: SimulationBuilder, steps| {
-        let bonded = builder.gravity(0.0).interface(Bonded);
-        states(bonded.coordinates(Coordinates::Physical).build().unwrap(), steps)
-    };
     let distance = 20.0;
     let travel = (distance - 3.5) / soil().pressure_wave_speed();
-    let before = (1_u32..1000).take_while(|&n| f64::from(n) * STEP <= travel).count();
+    let before = (1_u32..1000).take_while(|&n| f64::from(n) * TIME_STEP <= travel).count();
     let steps = 8 * before;
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), distance).unwrap();
     let strips = [strip(0.0, 4.0), strip(distance, 3.0)];
-    let both = run(base().structure(group).ground(half_plane(&strips)), steps);
-    let first = run(base().structure(tower()).ground(half_plane(&strips[..1])), steps);
+    let both = weightless_run(base_scene().structure(group).ground(half_plane(&strips)), steps);
+    let first =
+        weightless_run(base_scene().structure(tower()).ground(half_plane(&strips[..1])), steps);
     let block = block().centered_at(distance).unwrap();
-    let second = run(base().structure(block).ground(half_plane(&strips[1..])), steps);
-    let quiet = |all: &[State]| all[..before].to_vec();
+    let second =
+        weightless_run(base_scene().structure(block).ground(half_plane(&strips[1..])), steps);
     assert!(before > 20 && first[before - 1].contact[0].shear != 0.0);
     for (alone, from) in [(&first, 0), (&second, 6)] {
-        assert!(apart(&quiet(&both), &quiet(alone), from) < 1e-12);
+        assert!(traction_difference(&both[..before], &alone[..before], from) < 1e-12);
         // Later they do hear of each other.
-        let late = apart(&both, alone, from);
+        let late = traction_difference(&both, alone, from);
         assert!(late > 1e-6, "{late}");
-    }
-}
-
-/// GOAL: without a soil between them, two structures are two single runs: modes, weight, uplift,
-/// sliding and all.
-/// CONFIG: spring beds, in degrees of freedom and in modes.
-#[test]
-fn on_springs_each_is_alone() {
-    let bed = |center: f64, width: f64| -> SpringGround {
-        let range = center - 0.5 * width..center + 0.5 * width;
-        SpringGround::new(range, 6, 60.0e6, 40.0e6).unwrap().with_dashpots(3.0e5, 2.0e5).unwrap()
-    };
-    for coordinates in [Coordinates::Physical, Coordinates::Modes] {
-        // Elements of one bed from −2 to 2 carry the first, of its continuation the second.
-        let first = base().structure(tower()).ground(bed(0.0, 4.0)).coordinates(coordinates);
-        let first = states(first.build().unwrap(), 2000);
-        let moved = block().centered_at(4.5).unwrap();
-        let second = base().structure(moved).ground(bed(4.5, 3.0)).coordinates(coordinates);
-        let second = states(second.build().unwrap(), 2000);
-        let mixed = TwoBeds { beds: [bed(0.0, 4.0), bed(4.5, 3.0)], elements: Vec::new() };
-        let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 4.5).unwrap();
-        let both = base().structure(group).ground(mixed.joined()).coordinates(coordinates);
-        let both = states(both.build().unwrap(), 2000);
-        for (alone, from, which) in [(&first, 0, 0), (&second, 6, 1)] {
-            let difference = apart(&both, alone, from);
-            assert!(difference < 1e-7, "{coordinates:?}: {difference:e}");
-            let opened = alone.iter().any(|state| state.uplifted_fraction > 0.3);
-            assert!(opened || which == 0);
-            let (state, own) = (&both[1999], &alone[1999]);
-            let foundation = &state.foundations[which];
-            let scale = own.normal_force;
-            assert!((foundation.base_shear - own.base_shear).abs() < 1e-6 * scale);
-            assert!((foundation.base_moment - own.base_moment).abs() < 1e-6 * scale);
-            assert!((foundation.normal_force - own.normal_force).abs() < 1e-6 * scale);
-            assert!((foundation.base_rotation - own.base_rotation).abs() < 1e-9);
-            assert!((foundation.mean_slip - own.mean_slip).abs() < 1e-9);
-            assert_eq!(foundation.uplifted_fraction, own.uplifted_fraction);
-        }
-        assert!(both.iter().all(|state| state.energy_balance.residual() < 1e-9));
-    }
-}
-
-/// Two spring beds as one ground.
-struct TwoBeds {
-    beds: [SpringGround; 2],
-    elements: Vec<basemat::bem::ContactElement>,
-}
-
-impl TwoBeds {
-    fn joined(mut self) -> Self {
-        use basemat::bem::Ground;
-        self.elements = self.beds.iter().flat_map(|bed| bed.elements().to_vec()).collect();
-        self
-    }
-
-    /// Contact components of bed `k` of 2, six elements each.
-    fn own(k: usize) -> impl Iterator<Item = usize> {
-        (6 * k..6 * k + 6).chain(12 + 6 * k..18 + 6 * k)
-    }
-
-    fn spread(matrix: &mut [f64], blocks: impl Fn(usize, &mut [f64]) -> Result<()>) -> Result<()> {
-        matrix.fill(0.0);
-        for k in 0..2 {
-            let mut block = [0.0; 144];
-            blocks(k, &mut block)?;
-            for (a, row) in Self::own(k).enumerate() {
-                for (b, column) in Self::own(k).enumerate() {
-                    matrix[row * 24 + column] = block[a * 12 + b];
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-impl basemat::bem::Ground for TwoBeds {
-    fn elements(&self) -> &[basemat::bem::ContactElement] {
-        &self.elements
-    }
-
-    fn prepare(
-        &mut self,
-        time_step: f64,
-        steps: Option<usize>,
-        observer: &mut basemat::Observer<'_>,
-    ) -> Result<()> {
-        self.beds.iter_mut().try_for_each(|bed| bed.prepare(time_step, steps, observer))
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        Self::spread(matrix, |k, block| self.beds[k].step_compliance(block))
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        for k in 0..2 {
-            let mut own = [0.0; 12];
-            self.beds[k].history(&mut own)?;
-            Self::own(k).zip(own).for_each(|(i, value)| displacement[i] = value);
-        }
-        Ok(())
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        for k in 0..2 {
-            let own: Vec<f64> = Self::own(k).map(|i| traction[i]).collect();
-            self.beds[k].commit(&own);
-        }
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        Self::spread(matrix, |k, block| self.beds[k].static_compliance(block))
     }
 }
 
@@ -214,11 +109,13 @@ fn twins_mirror_each_other_under_a_vertical_pulse() {
     let pulse = RickerDisplacement::new(0.05, 0.05, 0.3).unwrap().vertical();
     let group = StructureGroup::new().with(block(), -2.5).unwrap().with(block(), 2.5).unwrap();
     let strips = [strip(-2.5, 3.0), strip(2.5, 3.0)];
-    let simulation = base().structure(group).motion(pulse).ground(half_plane(&strips)).build();
-    let all = states(simulation.unwrap(), 400);
-    let peak = all.iter().fold(0.0_f64, |m, s| m.max(s.foundations[0].base_rotation.abs()));
+    let simulation =
+        base_scene().structure(group).motion(pulse).ground(half_plane(&strips)).build();
+    let states_of_twins = states(simulation.unwrap(), 400);
+    let peak =
+        states_of_twins.iter().fold(0.0_f64, |m, s| m.max(s.foundations[0].base_rotation.abs()));
     assert!(peak > 1e-6);
-    for state in &all {
+    for state in &states_of_twins {
         let [left, right] = &state.foundations[..] else { panic!() };
         assert!((left.base_rotation + right.base_rotation).abs() < 1e-8 * peak.max(1e-3));
         assert!(
@@ -268,30 +165,38 @@ impl NonlinearForce for Softening {
     }
 }
 
+fn softening_pair() -> StructureGroup {
+    let softening = Softening { block: block(), memory: 0.0 };
+    StructureGroup::new().with(block(), 0.0).unwrap().with(softening, 5.0).unwrap()
+}
+
+fn softening_scene(strips: &[Strip]) -> Simulation {
+    let ground = half_plane(strips).with_history(HistoryMethod::Direct).unwrap();
+    base_scene().structure(softening_pair()).ground(ground).build().unwrap()
+}
+
 #[test]
 fn nonlinear_members_keep_to_their_places() {
-    let soft = || Softening { block: block(), memory: 0.0 };
-    let group = || StructureGroup::new().with(block(), 0.0).unwrap().with(soft(), 5.0).unwrap();
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
-    let build = || {
-        let ground = half_plane(&strips).with_history(HistoryMethod::Direct).unwrap();
-        base().structure(group()).ground(ground).build().unwrap()
-    };
-    let mut simulation = build();
+    let mut simulation = softening_scene(&strips);
     simulation.run(100, |_| {}).unwrap();
     let saved = simulation.checkpoint().unwrap();
     let then = states(simulation, 50);
-    let mut other = build();
+    let mut other = softening_scene(&strips);
     other.resume(&saved).unwrap();
     let again = states(other, 50);
     assert_eq!(then[49].absolute_displacement(), again[49].absolute_displacement());
     // The P–Δ of the second, linear: the same motion.
     let linear = block().with_p_delta(2.0e5 / (block().total_mass() * 3.5)).unwrap();
     let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(linear, 5.0).unwrap();
-    let reference = base().structure(pair).ground(half_plane(&strips));
+    let reference = base_scene().structure(pair).ground(half_plane(&strips));
     let reference = states(reference.build().unwrap(), 150);
-    let difference = apart(&reference[100..], &then, 0);
+    let difference = traction_difference(&reference[100..], &then, 0);
     assert!(difference < 1e-6, "{difference:e}");
+}
+
+fn block_pair() -> StructureGroup {
+    StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 5.0).unwrap()
 }
 
 #[test]
@@ -300,14 +205,14 @@ fn groups_that_make_no_sense_are_refused() {
     assert!(matches!(two.with(block(), 2.9), Err(Error::Input { .. })));
     let two = StructureGroup::new().with(block(), 0.0).unwrap();
     assert!(matches!(two.with(block(), f64::NAN), Err(Error::Input { .. })));
-    let pair = || StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 5.0).unwrap();
     // An element between the two, and a foundation without any.
     let across = [strip(0.0, 3.0), Strip::uniform(1.7..2.3, 1).unwrap(), strip(5.0, 3.0)];
-    let built = base().structure(pair()).ground(half_plane(&across)).build();
+    let built = base_scene().structure(block_pair()).ground(half_plane(&across)).build();
     assert!(matches!(built, Err(Error::Part { .. })), "{:?}", built.err());
-    let built = base().structure(pair()).ground(half_plane(&across[..1])).build();
+    let built = base_scene().structure(block_pair()).ground(half_plane(&across[..1])).build();
     assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
-    let empty = base().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
+    let empty =
+        base_scene().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
     assert!(empty.is_err());
 }
 
@@ -324,9 +229,9 @@ impl Structure for Replacing {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        let mut own = Triplets::new(self.0.dofs());
-        self.0.mass(&mut own)?;
-        *matrix = own;
+        let mut replacement = Triplets::new(self.0.dofs());
+        self.0.mass(&mut replacement)?;
+        *matrix = replacement;
         Ok(())
     }
 
@@ -338,29 +243,34 @@ impl Structure for Replacing {
 /// Replaced by a member alone it is the whole matrix; in a group it would lose all other members.
 #[test]
 fn members_that_replace_the_matrix_of_their_group_are_refused() {
-    let alone = base().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
+    let alone = base_scene().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
     assert!(alone.build().is_ok());
     let pair = StructureGroup::new().with(block(), 0.0).unwrap();
     let pair = pair.with(Replacing(block()), 5.0).unwrap();
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
-    let built = base().structure(pair).ground(half_plane(&strips)).build();
+    let built = base_scene().structure(pair).ground(half_plane(&strips)).build();
     assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
+}
+
+fn tower_and_block() -> StructureGroup {
+    StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap()
 }
 
 #[test]
 fn foundations_stay_apart_in_every_wrapper() {
-    let pair = || StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
     let wrapped: [Box<dyn Structure>; 3] = [
-        Box::new(WithSprings::new(pair())),
-        Box::new(ModalDamping::new(&[0.05]).unwrap().on(pair()).unwrap()),
-        Box::new(CraigBampton::new(2).reduce(pair()).unwrap()),
+        Box::new(WithSprings::new(tower_and_block())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(tower_and_block()).unwrap()),
+        Box::new(CraigBampton::new(2).reduce(tower_and_block()).unwrap()),
     ];
-    for structure in wrapped.into_iter().chain([Box::new(pair()) as Box<dyn Structure>]) {
+    let plain: Box<dyn Structure> = Box::new(tower_and_block());
+    for structure in wrapped.into_iter().chain([plain]) {
         let Base::Lines(lines) = structure.base() else { panic!("a base in the plane") };
         assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
     let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];
-    let simulation = base().structure(WithSprings::new(pair())).ground(half_plane(&strips));
+    let wrapped = WithSprings::new(tower_and_block());
+    let simulation = base_scene().structure(wrapped).ground(half_plane(&strips));
     assert_eq!(simulation.build().unwrap().state().foundations.len(), 2);
 }
 
@@ -389,7 +299,7 @@ impl Structure for Stilts {
 fn foundations_of_one_node_are_refused() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(Stilts(block()), 5.0);
-    let built = base().structure(pair.unwrap()).ground(half_plane(&strips)).build();
+    let built = base_scene().structure(pair.unwrap()).ground(half_plane(&strips)).build();
     let Err(Error::Size { quantity, found: 1, needed: 2 }) = built else {
         panic!("{:?}", built.err())
     };

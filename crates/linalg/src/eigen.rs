@@ -27,28 +27,40 @@ pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
 /// `None` if M is not positive definite or the iteration fails.
 ///
 /// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
-pub fn generalised_modes(
-    stiffness: &SparseMatrix,
-    mass: &SparseMatrix,
-) -> Option<(Vec<f64>, Vec<f64>)> {
+pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Option<Eigenpairs> {
     let factor = dense(mass).llt(Side::Lower).ok()?;
     let mut reduced = dense(stiffness);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
-    let (values, mut vectors) = symmetric_eigen(&reduced)?;
+    let SymmetricEigen { values, mut vectors } = symmetric_eigen(&reduced)?;
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     let vectors = by_rows(&vectors);
     let finite = values.iter().chain(&vectors).all(|x| x.is_finite());
-    finite.then_some((values, vectors))
+    finite.then_some(Eigenpairs { values, vectors })
 }
 
 /// Eigenvalues, ascending, and eigenvectors of a symmetric row-major matrix.
 ///
 /// Eigenvectors are columns of the row-major matrix returned. `None` if the iteration fails.
-pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<Eigenpairs> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order).to_owned();
-    let (values, vectors) = symmetric_eigen(&matrix)?;
-    Some((values, by_rows(&vectors)))
+    let SymmetricEigen { values, vectors } = symmetric_eigen(&matrix)?;
+    Some(Eigenpairs { values, vectors: by_rows(&vectors) })
+}
+
+/// Eigenvalues and eigenvectors.
+#[derive(Debug, Clone)]
+pub struct Eigenpairs {
+    /// Eigenvalues, ascending.
+    pub values: Vec<f64>,
+    /// Matrix of the eigenvectors; the function that returns it says whether they are rows or columns.
+    pub vectors: Vec<f64>,
+}
+
+/// Eigenvalues, ascending, and eigenvectors by columns.
+struct SymmetricEigen {
+    values: Vec<f64>,
+    vectors: Mat<f64>,
 }
 
 fn dense(matrix: &SparseMatrix) -> Mat<f64> {
@@ -65,11 +77,11 @@ fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
     (0..matrix.nrows()).flat_map(|i| (0..n).map(move |j| matrix[(i, j)])).collect()
 }
 
-fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
+fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
     let n = matrix.nrows();
     // faer does not accept an empty matrix.
     if n == 0 {
-        return Some((Vec::new(), Mat::zeros(0, 0)));
+        return Some(SymmetricEigen { values: Vec::new(), vectors: Mat::zeros(0, 0) });
     }
     let mut values = Diag::<f64>::zeros(n);
     let mut vectors = Mat::<f64>::zeros(n, n);
@@ -89,5 +101,6 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
         parameters,
     )
     .ok()?;
-    Some(((0..n).map(|j| values.column_vector()[j]).collect(), vectors))
+    let values = (0..n).map(|j| values.column_vector()[j]).collect();
+    Some(SymmetricEigen { values, vectors })
 }

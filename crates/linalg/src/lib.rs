@@ -49,7 +49,7 @@ pub use block::ComplexBlock;
 pub use complex::Complex;
 pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
 pub use dense::DenseFactor;
-pub use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
 pub use hermitian::hermitian_range;
 pub use lanes::Lanes;

@@ -9,7 +9,7 @@
 //! Every new vector is made orthogonal to all earlier ones, twice unless the residual may be large (Parlett 1998,
 //! § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it has vectors.
 
-use super::eigen::symmetric_modes;
+use super::eigen::{Eigenpairs, symmetric_modes};
 use super::orthonormal::{MinRemainder, OrthonormalRows};
 use super::product::{add_combined_rows, row_products};
 use super::sparse::SparseFactor;
@@ -33,9 +33,6 @@ const MAX_LIMITED_BASIS_SIZE: usize = 800;
 /// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
 const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
-/// Eigenvalues and eigenvectors.
-type Pairs = (Vec<f64>, Vec<f64>);
-
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
 /// `limit`: an eigenvalue, and the residual's tolerance relative to θ. The search ends at the first eigenvalue above
@@ -50,7 +47,7 @@ pub fn lowest_modes(
     mass: &SparseMatrix,
     count: usize,
     limit: Option<(f64, f64)>,
-) -> Option<Pairs> {
+) -> Option<Eigenpairs> {
     let tolerance = limit.map_or(DEFAULT_RESIDUAL_TOLERANCE, |(_, tolerance)| tolerance);
     let limit = limit.map_or(f64::INFINITY, |(eigenvalue, _)| eigenvalue);
     let basis = OrthonormalRows::new(mass, BASIS_ROUNDING_FACTOR * tolerance);
@@ -133,7 +130,7 @@ impl KrylovSpace<'_> {
         let places = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
         // Each column has all entries down to the diagonal.
         let matrix: Vec<f64> = places.map(|(i, j)| entry(i.min(j), i.max(j))).collect();
-        let (values, vectors) = symmetric_modes(&matrix, m)?;
+        let Eigenpairs { values, vectors } = symmetric_modes(&matrix, m)?;
         let largest = values.last().copied().unwrap_or(0.0);
         let mut found = Approximations { theta: vec![], coordinates: vec![], residual: 0.0 };
         for k in (0..m).rev().take(count) {
@@ -156,7 +153,7 @@ impl KrylovSpace<'_> {
     }
 
     /// λ and φ of the approximations.
-    fn modes(&self, found: &Approximations) -> Option<Pairs> {
+    fn modes(&self, found: &Approximations) -> Option<Eigenpairs> {
         let n = self.order;
         let m = self.columns.len();
         let mut modes = vec![0.0; found.theta.len() * n];
@@ -164,7 +161,8 @@ impl KrylovSpace<'_> {
             (0..m).flat_map(|i| found.coordinates.iter().map(move |y| y[i])).collect();
         add_combined_rows(&weights, &self.basis.vectors()[..m * n], n, 1.0, &mut modes);
         let finite = modes.iter().all(|x| x.is_finite());
-        finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))
+        let values = found.theta.iter().map(|theta| 1.0 / theta).collect();
+        finite.then_some(Eigenpairs { values, vectors: modes })
     }
 }
 
@@ -191,7 +189,7 @@ mod tests {
     impl Chains {
         /// The lowest `count` eigenvalues, up to the first one above a limit.
         fn lowest_values(&self, count: usize, limit: Option<(f64, f64)>) -> Vec<f64> {
-            lowest_modes(&self.factor, &self.mass, count, limit).unwrap().0
+            lowest_modes(&self.factor, &self.mass, count, limit).unwrap().values
         }
     }
 
@@ -234,7 +232,8 @@ mod tests {
     fn chains_have_their_frequencies_each_as_often_as_it_comes() {
         for (length, copies, count) in [(300, 1, 20), (100, 2, 12), (60, 5, 23), (40, 12, 30)] {
             let Chains { stiffness, mass, factor } = chains(length, copies, 0);
-            let (values, modes) = lowest_modes(&factor, &mass, count, None).unwrap();
+            let Eigenpairs { values, vectors: modes } =
+                lowest_modes(&factor, &mass, count, None).unwrap();
             assert_eq!(values.len(), count);
             let n = mass.order();
             for (k, value) in values.iter().enumerate() {

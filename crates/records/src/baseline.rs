@@ -243,7 +243,8 @@ const GAUSS_POINTS: [(f64, f64); 4] = [
 
 impl FitIntegrals {
     fn new(step: f64, samples: &[f64], minimized: FitQuantity) -> Self {
-        let (velocity, displacement) = super::integral::integrate(step, samples);
+        let super::integral::Integrals { velocity, displacement } =
+            super::integral::integrate(step, samples);
         let last = samples.len() - 1;
         let mut values = Vec::with_capacity(GAUSS_POINTS.len() * last);
         for index in 0..last {

@@ -26,8 +26,14 @@ impl Motion {
     }
 }
 
+/// Integrals of an acceleration at its samples, from rest.
+pub(super) struct Integrals {
+    pub(super) velocity: Vec<f64>,
+    pub(super) displacement: Vec<f64>,
+}
+
 /// Velocity and displacement at the samples of an acceleration, from rest.
-pub(super) fn integrate(step: f64, acceleration: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn integrate(step: f64, acceleration: &[f64]) -> Integrals {
     let mut velocity = Vec::with_capacity(acceleration.len());
     let mut displacement = Vec::with_capacity(acceleration.len());
     let mut v = 0.0;
@@ -40,7 +46,7 @@ pub(super) fn integrate(step: f64, acceleration: &[f64]) -> (Vec<f64>, Vec<f64>)
         velocity.push(v);
         displacement.push(u);
     }
-    (velocity, displacement)
+    Integrals { velocity, displacement }
 }
 
 /// Roots of c₀ + c₁ s + c₂ s² in the open interval (0, `end`), ascending.

@@ -1,7 +1,7 @@
 //! Records of ground acceleration at equal time steps.
 
 use super::Baseline;
-use super::integral::{Motion, integrate};
+use super::integral::{Integrals, Motion, integrate};
 use crate::error::{MemoryError, Result, all_finite, at_least, finite, memory, positive, require};
 use crate::text::column::{NumberCell, cell_line};
 use crate::text::csv::Csv;
@@ -55,7 +55,7 @@ impl Record {
         positive("time step of the record", time_step)?;
         at_least("samples of the record", acceleration.len(), 2)?;
         all_finite("acceleration of the record", &acceleration)?;
-        let (velocity, displacement) = integrate(time_step, &acceleration);
+        let Integrals { velocity, displacement } = integrate(time_step, &acceleration);
         for pair in acceleration.windows(2) {
             let rate = (pair[1] - pair[0]) / time_step;
             finite("rate of change of the record's acceleration", rate)?;

@@ -3783,14 +3783,12 @@ class Limits:
     def __eq__(self, value: object, /) -> bool: ...
 
 def memory_limit() -> int:
-    """Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take; 4 GiB unless `set_memory_limit` was
-    called.
+    """Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take: 8 GiB. Sizes are compared with it
+    before anything is allocated; an error states the memory that they would take.
     """
 
 def set_memory_limit(bytes: int) -> None:
-    """Sets the memory limit of this process: ``bytes``, the memory of the machine less that of its other programs.
-    Sizes are compared with it before anything is allocated; an error states the memory that they would take.
-    """
+    """Does nothing, with a `DeprecationWarning`: the limit of one part is fixed (`memory_limit`)."""
 
 def _case_numbers(grid: Sequence[tuple[str, Any]], shard: tuple[int, int] | None = None) -> list[int]: ...
 

@@ -177,8 +177,8 @@ mod tests {
     /// Two layers of 2 m and more, ρ = 1000 and 2000: the thrust by hand, ∫K₀ m dz.
     #[test]
     fn thrust_of_two_layers() {
-        let [upper, lower] = [1000.0, 2000.0]
-            .map(|density| Soil::from_shear_wave_speed(200.0, 0.25, density).unwrap());
+        let upper = Soil::from_shear_wave_speed(200.0, 0.25, 1000.0).unwrap();
+        let lower = Soil::from_shear_wave_speed(200.0, 0.25, 2000.0).unwrap();
         let profile = SoilProfile::on_half_plane(lower).with_layer(upper, 2.0).unwrap();
         let elements = Trench::new(-3.0..3.0, 5.0).unwrap().elements(4, 3).unwrap();
         let lengths: Vec<f64> = elements.elements().iter().map(ContactElement::length).collect();

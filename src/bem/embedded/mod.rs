@@ -11,7 +11,6 @@
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance | a rigid body in the trench |
 
-mod bottom;
 mod classes;
 mod compliance;
 mod earth_pressure;

@@ -2,7 +2,7 @@
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::bottom::Bottom;
+use super::compliance::Bottom;
 use super::compliance::{HalfCompliances, TrenchModel};
 use super::free_field::{ProfilePiece, VerticalField};
 use super::grid::{GridLayer, TrenchGrid};

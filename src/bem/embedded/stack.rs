@@ -222,10 +222,9 @@ impl Elements {
         soils: &[Moduli],
         loads: EdgeLoads,
     ) -> Result<ElementColumn> {
-        let [symmetric, antisymmetric] = &self.parities;
         Ok(ElementColumn {
-            symmetric: self.side_matrix(symmetric, width, stack, soils, loads)?,
-            antisymmetric: self.side_matrix(antisymmetric, width, stack, soils, loads)?,
+            symmetric: self.side_matrix(&self.parities[0], width, stack, soils, loads)?,
+            antisymmetric: self.side_matrix(&self.parities[1], width, stack, soils, loads)?,
         })
     }
 

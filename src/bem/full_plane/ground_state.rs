@@ -104,9 +104,10 @@ fn fill_scattering(
 ) {
     let layout = boundary.layout();
     for (element, segment) in boundary.segments().iter().enumerate() {
-        let [xx, zz, xz] = field.stress(segment.center(), time);
+        // σ_xx, σ_zz, σ_xz.
+        let stress = field.stress(segment.center(), time);
         let n = segment.normal();
-        tractions[layout.place(0, element)] = -(xx * n[0] + xz * n[1]);
-        tractions[layout.place(1, element)] = -(xz * n[0] + zz * n[1]);
+        tractions[layout.place(0, element)] = -(stress[0] * n[0] + stress[2] * n[1]);
+        tractions[layout.place(1, element)] = -(stress[2] * n[0] + stress[1] * n[1]);
     }
 }

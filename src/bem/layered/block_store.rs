@@ -20,8 +20,8 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
+use super::block_file::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use super::block_file::{read, write};
-use super::lag_block::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use crate::error::{Error, Result, Watch, require, same_length};
 
 /// Time between two checks whether another thread has finished.

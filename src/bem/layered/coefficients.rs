@@ -22,11 +22,11 @@ use std::sync::Arc;
 
 use basemat_fourier::RealPlanner;
 
+use super::block_file::LagBlock;
 use super::contour::{
     CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, evaluate, panel_factor,
     self_pair_classes,
 };
-use super::lag_block::LagBlock;
 use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};

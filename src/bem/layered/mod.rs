@@ -19,7 +19,6 @@ mod contour;
 mod form_factors;
 mod halving;
 mod impedance;
-mod lag_block;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;

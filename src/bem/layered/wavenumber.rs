@@ -285,8 +285,9 @@ impl Wavenumbers {
         let mut power = top.modulus.inverse();
         let mut coefficients = [[0.0; 6]; TAIL_TERMS];
         for (j, coefficient) in coefficients.iter_mut().enumerate() {
-            let [xx, zz, xz] = series.each_ref().map(|series| power.scale(series[j]));
-            *coefficient = weighted_parts(&SurfaceCompliance { xx, zz, xz }, 1.0);
+            let term = |component: usize| power.scale(series[component][j]);
+            let compliance = SurfaceCompliance { xx: term(0), zz: term(1), xz: term(2) };
+            *coefficient = weighted_parts(&compliance, 1.0);
             power = power * ratio;
         }
         accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use super::block_file::LagBlock;
 use super::block_store::{BlockStore, copy_lags, last_block};
 use super::coefficients::{Quadrature, Samples};
-use super::lag_block::LagBlock;
 use super::passivity;
 use super::runge_kutta::Stages;
 use super::threads::threads;

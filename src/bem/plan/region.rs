@@ -45,10 +45,10 @@ impl Region {
         for corners in lines {
             for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
                 let edge = [a, b].map(|p| grid.place(*p));
-                let [low, high] = span(edge.iter().map(|p| p[1]));
+                let rows_of_edge = span(edge.iter().map(|p| p[1]));
                 for (row, edges) in rows.iter_mut().enumerate() {
                     let row = row as f64;
-                    if low <= row + 1.0 && high >= row {
+                    if rows_of_edge[0] <= row + 1.0 && rows_of_edge[1] >= row {
                         edges.push(edge.map(|[x, y]| [x, y - row]));
                     }
                 }
@@ -115,8 +115,8 @@ impl CellPart {
 /// Heights in the unit cell at which edges end, cross its sides or each other, ascending, with its lower and upper end.
 fn levels(edges: &[CellEdge]) -> Vec<f64> {
     let beside = |edge: &CellEdge| {
-        let [low, high] = span(edge.iter().map(|p| p[0]));
-        high >= 0.0 && low <= 1.0
+        let columns = span(edge.iter().map(|p| p[0]));
+        columns[1] >= 0.0 && columns[0] <= 1.0
     };
     let near: Vec<&CellEdge> = edges.iter().filter(|edge| beside(edge)).collect();
     let mut levels = vec![0.0, 1.0];

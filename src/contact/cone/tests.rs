@@ -156,10 +156,9 @@ fn all_solutions(problem: &ConeProblem) -> Vec<Vec<f64>> {
         let across = |angles: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
             let r = forces(problem, &kinds, angles)?;
             let y = motions_of(problem, &r);
-            let residuals = sliding.iter().map(|&e| {
-                let (s, c) = angles[e].sin_cos();
-                c * y[2 * count + e] - s * y[count + e]
-            });
+            let residuals = sliding
+                .iter()
+                .map(|&e| angles[e].cos() * y[2 * count + e] - angles[e].sin() * y[count + e]);
             Some((residuals.collect(), r))
         };
         // Newton's method with finite differences, from a grid of angles.
@@ -199,22 +198,23 @@ fn all_solutions(problem: &ConeProblem) -> Vec<Vec<f64>> {
             let y = motions_of(problem, &r);
             let admissible = (0..count).all(|e| {
                 let bounds = &problem.bounds[e];
-                let [n, i, j] = problem.places(e);
+                let force = problem.places(e).map(|place| r[place]);
+                let motion = problem.places(e).map(|place| y[place]);
+                let shear = force[1].hypot(force[2]);
                 let radius = match kinds[e] {
-                    (NormalState::Closed, true) if bounds.has_infinite_friction() => {
-                        r[i].hypot(r[j])
-                    }
+                    (NormalState::Closed, true) if bounds.has_infinite_friction() => shear,
                     (NormalState::Open, _) if bounds.has_infinite_friction() => 0.0,
-                    _ => bounds.radius(r[n]),
+                    _ => bounds.radius(force[0]),
                 };
-                let gap = y[n] - bounds.offset;
+                let gap = motion[0] - bounds.offset;
                 let normal = match kinds[e].0 {
                     NormalState::Open => gap >= -1e-9,
-                    NormalState::Closed => r[n] >= -1e-9 && r[n] <= bounds.interval[1] + 1e-9,
+                    NormalState::Closed => {
+                        force[0] >= -1e-9 && force[0] <= bounds.interval[1] + 1e-9
+                    }
                     NormalState::Capped => gap <= 1e-9,
                 };
-                let shear = r[i].hypot(r[j]);
-                let along = r[i] * y[i] + r[j] * y[j];
+                let along = force[1] * motion[1] + force[2] * motion[2];
                 let slides = (shear - radius).abs() < 1e-9 && along <= 1e-9;
                 normal && if kinds[e].1 { slides } else { shear <= radius + 1e-9 }
             });
@@ -340,12 +340,14 @@ fn friction_takes_energy_only() {
         }
         problem.update_motions();
         for e in 0..count {
-            let [n, x, y] = problem.places(e);
-            let work = -(problem.force(x) * problem.y[x] + problem.force(y) * problem.y[y]);
+            let places = problem.places(e);
+            let force = places.map(|place| problem.force(place));
+            let slip = places.map(|place| problem.y[place]);
+            let work = -(force[1] * slip[1] + force[2] * slip[2]);
             assert!(work > -1e-9, "case {case}: {work:e}");
             let bounds = &problem.bounds[e];
-            let shear = problem.force(x).hypot(problem.force(y));
-            assert!(shear <= bounds.radius(problem.force(n)) * (1.0 + 1e-9) + 1e-9, "case {case}");
+            let shear = force[1].hypot(force[2]);
+            assert!(shear <= bounds.radius(force[0]) * (1.0 + 1e-9) + 1e-9, "case {case}");
         }
     }
     assert!(failed < 12, "{failed} without a solution");

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::backfilled;
 use super::static_stages::{loaded, placed};
-use crate::coupled::base::held::holds;
+use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::bed_compliance;
 use crate::coupled::gravity_stage::GravityStage;
@@ -34,12 +34,12 @@ pub(crate) fn solve(
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
     let mut soil = CompressedMatrix::full(Vec::new());
-    if parts.given.is_static() {
+    if parts.builder.is_static() {
         soil = compliance(parts)?;
         let loads = loads(parts, assembled)?;
         let weight = &loads.weight;
         let load = &loads.load;
-        let laws = &parts.given.laws;
+        let laws = &parts.builder.laws;
         let on_soil = (&soil, shared);
         let on_base = condensed.as_ref().and_then(|condensed| {
             let loads = condensed.loads.each_ref().map(Vec::as_slice);
@@ -61,14 +61,14 @@ pub(crate) fn solve(
         soil = compliance(parts)?;
     }
     // The build has checked a fixed base before.
-    if has_p_delta && !holds(parts.ground.as_ref()) {
+    if has_p_delta && !is_fixed_base(parts.ground.as_ref()) {
         let structure = parts.structure.as_ref();
-        let laws = &parts.given.laws;
+        let laws = &parts.builder.laws;
         let grounded = Grounded { assembled, structure, soil: &soil, laws };
         let on_base = condensed.as_ref().map(|condensed| &condensed.assembled);
         buckling::check(grounded, on_base, &state)?;
     }
-    if parts.given.is_static()
+    if parts.builder.is_static()
         && let Some(force) = parts.structure.nonlinear_mut()
     {
         force.commit(&state.displacement);
@@ -100,7 +100,7 @@ pub(crate) fn compliance(parts: &Parts) -> Result<CompressedMatrix> {
 
 /// Weight and loads at t = 0; empty without a static state.
 pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
-    if !parts.given.is_static() {
+    if !parts.builder.is_static() {
         return Ok([vec![], vec![]]);
     }
     loads(parts, assembled).map(|loads| [loads.weight, loads.load])
@@ -118,7 +118,7 @@ struct Loads {
 
 /// The forces at t = 0.
 fn loads(parts: &Parts, assembled: &Assembled) -> Result<Loads> {
-    let Parts { structure, given, .. } = parts;
+    let Parts { structure, builder, .. } = parts;
     let n = assembled.dofs();
     let mut of_structure = vec![0.0; n];
     structure.load(0.0, &mut of_structure)?;
@@ -126,8 +126,8 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<Loads> {
     let mut load = of_structure.clone();
     let mut weight = vec![0.0; n];
     let up = assembled.influence.of(UPWARD_DIRECTION, n);
-    assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
-    for external in &given.loads {
+    assembled.mass.multiply_add(-builder.gravity, &up, &mut weight);
+    for external in &builder.loads {
         let force = external.value(0.0);
         let total = if external.is_weight() { &mut weight } else { &mut load };
         external.row().iter().for_each(|&(i, factor)| total[i] += force * factor);
@@ -147,7 +147,7 @@ pub(crate) fn under_loads(
     laws: &[Box<dyn InterfaceLaw>],
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let Parts { structure, given, .. } = parts;
+    let Parts { structure, builder, .. } = parts;
     let stage = Standing {
         assembled,
         structure: structure.as_ref(),
@@ -156,8 +156,8 @@ pub(crate) fn under_loads(
         offset: &[],
         shared,
     };
-    let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
-    if walls && given.gravity_stage != GravityStage::WishedInPlace {
+    let walls = parts.elements.has_walls() && !is_fixed_base(parts.ground.as_ref());
+    if walls && builder.gravity_stage != GravityStage::WishedInPlace {
         backfilled::state(parts, &stage, laws, [weight, load])
     } else {
         let mut offset = vec![];
@@ -168,7 +168,7 @@ pub(crate) fn under_loads(
             dense_multiply_add(soil, -1.0, &traction, &mut offset);
         }
         let stage = Standing { offset: &offset, ..stage };
-        let placed = placed(&stage, laws, given.gravity_stage, weight)?;
+        let placed = placed(&stage, laws, builder.gravity_stage, weight)?;
         loaded(&stage, laws, placed, [weight, load])
     }
 }

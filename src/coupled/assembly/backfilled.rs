@@ -46,7 +46,7 @@ pub(super) fn state(
     let mut total = weight.to_vec();
     base.add_forces(-1.0, &traction, &mut total);
     let floor_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
-    let (found, contact) = placed(&on_floor, floor_laws, parts.given.gravity_stage, &total)?;
+    let (found, contact) = placed(&on_floor, floor_laws, parts.builder.gravity_stage, &total)?;
 
     places.iter().zip(&found.traction).for_each(|(place, value)| traction[*place] = *value);
     let mut state = StaticState::weightless(layout, weight.len());
@@ -67,7 +67,7 @@ pub(super) fn state(
     state.state_variables = vec![Vec::new(); layout.elements()];
     state.state_variables[floor.clone()].clone_from_slice(&found.state_variables);
     state.displacement = found.displacement;
-    state.stand_in = found.stand_in;
+    state.substituted_friction = found.substituted_friction;
     states[floor].copy_from_slice(&contact);
 
     // Jumps count from the placed state.
@@ -103,7 +103,7 @@ pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec
     let floor = elements.floor();
     let parts_of_element = elements.len() / parts.elements.len();
     for e in (0..pressures.len() * parts_of_element).filter(|e| base || !floor.contains(e)) {
-        traction[layout.place(0, e)] = parts.given.gravity * pressures[e / parts_of_element];
+        traction[layout.place(0, e)] = parts.builder.gravity * pressures[e / parts_of_element];
     }
     Ok(traction)
 }

@@ -20,7 +20,7 @@ use std::rc::Rc;
 use super::at_rest;
 use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::held::holds;
+use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
@@ -59,7 +59,7 @@ pub(super) fn check(
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
-    if !assembled.base.is_flexible() || holds(parts.ground.as_ref()) {
+    if !assembled.base.is_flexible() || is_fixed_base(parts.ground.as_ref()) {
         return Ok(None);
     }
     let Some(condensed) = condensed else {
@@ -101,13 +101,13 @@ fn check_on(
         let halved = (&soil, &compliance);
         let refined = UnseenShape::softest(assembled, &finer, halved, None);
         power = refined.map_or(REFINEMENT_POWER_RANGE[1], |next| (next.ratio / ratio).log2());
-        if parts.given.is_static() {
+        if parts.builder.is_static() {
             // With a law for each element, the first law is used in both states.
-            let law = &parts.given.laws[..1];
+            let law = &parts.builder.laws[..1];
             let under = |assembled: &Assembled, soil| {
                 at_rest::under_loads(parts, assembled, soil, law, [weight, load]).ok()
             };
-            let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, on_soil));
+            let with_first = (parts.builder.laws.len() > 1).then(|| under(assembled, on_soil));
             let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
             let fine = under(&assembled.on(finer), halved);
             let both = coarse.zip(fine.as_ref());
@@ -275,7 +275,7 @@ mod tests {
     use super::*;
     use crate::bem::ElasticGround;
     use crate::bem::plan::Plan;
-    use crate::coupled::assembly::held_responses::OfHeldBase;
+    use crate::coupled::assembly::fixed_base_results::FixedBaseResults;
     use crate::error::Error;
     use crate::fem::{Hex8, Material, Mesh};
     use crate::interface::Coulomb;
@@ -304,8 +304,8 @@ mod tests {
     #[test]
     fn a_condensed_structure_has_the_same_static_state_and_check() -> Result<()> {
         let mut parts = parts()?;
-        let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let on_base = OfHeldBase::new(&parts, &assembled, held)?.condensed;
+        let (assembled, fixed_factor) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let on_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensed;
         assert!(on_base.is_some());
         let results = [on_base, None].map(|mut condensed| {
             let shared = RefCell::default();

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::settled::settle;
-use crate::coupled::model::load_factor::LoadedStiffness;
+use crate::coupled::model::assembled::LoadedStiffness;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StabilityError};

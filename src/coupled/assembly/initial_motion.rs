@@ -1,6 +1,6 @@
 //! Motion at t = 0 relative to the static state, and the contact state that follows.
 
-use crate::coupled::parts::SimulationBuilder;
+use crate::coupled::builder::SimulationBuilder;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Result, require, require_part};
@@ -16,14 +16,14 @@ const CLOSED_GAP_TOLERANCE: f64 = 1e-12;
 ///
 /// `mass`: mass matrix of the degrees of freedom.
 pub(crate) fn set_in_motion(
-    given: &SimulationBuilder,
+    builder: &SimulationBuilder,
     mass: &SparseMatrix,
     scene: &Scene,
     structure: &mut dyn Structure,
     state: &mut State,
 ) -> Result<()> {
-    let SimulationBuilder { displacement, velocity, .. } = given;
-    if given.is_static() && displacement.is_empty() && velocity.is_empty() {
+    let SimulationBuilder { displacement, velocity, .. } = builder;
+    if builder.is_static() && displacement.is_empty() && velocity.is_empty() {
         return Ok(());
     }
     let motion = &mut state.kinematics;
@@ -33,9 +33,9 @@ pub(crate) fn set_in_motion(
     if !velocity.is_empty() {
         motion.velocity = scene.model.transformation.coordinates(velocity, mass);
     }
-    set_contact(given, scene, state)?;
+    set_contact(builder, scene, state)?;
     if let Some(force) = structure.nonlinear_mut() {
-        force.commit(&scene.seen_at(&state.kinematics));
+        force.commit(&scene.force_displacement_of(&state.kinematics));
     }
     let c = &scene.coefficients;
     if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
@@ -50,14 +50,14 @@ pub(crate) fn set_in_motion(
 }
 
 /// Sets gaps, slips and modes of the displaced base.
-fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
+fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
     let layout = scene.layout();
     let mut displacement = vec![0.0; layout.len()];
     scene.base.means(&state.kinematics.displacement, &mut displacement);
     let mut velocity = vec![0.0; layout.len()];
     scene.base.means(&state.kinematics.velocity, &mut velocity);
-    let closed = CLOSED_GAP_TOLERANCE * largest(&given.displacement);
-    if given.is_static() {
+    let closed = CLOSED_GAP_TOLERANCE * largest(&builder.displacement);
+    if builder.is_static() {
         let needed = "zero where weight holds it on the ground (begin with \
                       `GravityStage::Unloaded`, or with a load that is released)";
         for value in displacement {
@@ -104,7 +104,8 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     model.stiffness.multiply_add(-1.0, &displacement, &mut force);
     model.damping.multiply_add(-1.0, &state.kinematics.velocity, &mut force);
     if !model.linear {
-        let (nonlinear, _) = nonlinear_state(structure, &scene.seen_at(&state.kinematics))?;
+        let (nonlinear, _) =
+            nonlinear_state(structure, &scene.force_displacement_of(&state.kinematics))?;
         for (force, (now, at_rest)) in force.iter_mut().zip(nonlinear.iter().zip(&at_rest.force)) {
             *force -= now - at_rest;
         }

@@ -16,7 +16,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
@@ -66,7 +66,7 @@ pub(crate) struct Reduction<'a> {
     pub(super) coefficients: &'a SchemeCoefficients,
     /// Factors K_eff.
     pub(super) factored: &'a Factored<'a>,
-    pub(super) held: HeldResponses,
+    pub(super) fixed_base: FixedBaseResponses,
     /// Factored K + εM, until it is used.
     pub(super) floating: Cell<Option<Rc<Floating>>>,
     /// β and α of a damping in proportion to mass and to the stiffness without P–Δ.
@@ -86,7 +86,11 @@ impl<'a> Reduction<'a> {
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
+        (fixed_base, floating, factored): (
+            FixedBaseResponses,
+            Option<Rc<Floating>>,
+            &'a Factored<'a>,
+        ),
         steps: usize,
     ) -> Result<Self> {
         let mut rows = ResponseRows::default();
@@ -107,7 +111,7 @@ impl<'a> Reduction<'a> {
             assembled,
             coefficients: &parts.coefficients,
             factored,
-            held,
+            fixed_base,
             floating,
             without_p_delta,
             steps,
@@ -145,7 +149,7 @@ impl<'a> Reduction<'a> {
         if let Some(proportional) = self.without_p_delta {
             space = space.with_proportional_damping(proportional);
         }
-        space.extend(self.held.rotations.clone(), FINAL_MIN_NEW_FRACTION);
+        space.extend(self.fixed_base.rotations.clone(), FINAL_MIN_NEW_FRACTION);
         space
     }
 
@@ -261,7 +265,7 @@ impl<'a> Reduction<'a> {
         let c = self.coefficients;
         let scheme_shift =
             (c.acceleration[0] / c.displacement[0]).sqrt().min(SHIFT_RATIO * max_shift);
-        let lowest = self.held.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
+        let lowest = self.fixed_base.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
         let first_below = scheme_shift / SHIFT_RATIO;
         let below = std::iter::successors(Some(first_below), |shift| Some(shift / SHIFT_RATIO))
             .take_while(move |shift| *shift > lowest);
@@ -280,10 +284,10 @@ impl<'a> Reduction<'a> {
 
 /// Adds the loads of a scene, and samples of the structure's own load.
 fn collect_loads(rows: &mut ResponseRows, parts: &Parts, dofs: usize, steps: usize) -> Result<()> {
-    for load in &parts.given.loads {
+    for load in &parts.builder.loads {
         push_nonzero(&mut rows.all, spread(load.row(), dofs));
     }
-    let duration = steps as f64 * parts.given.time_step;
+    let duration = steps as f64 * parts.builder.time_step;
     for sample in 0..=LOAD_SAMPLE_COUNT {
         let time = duration * f64::from(sample) / f64::from(LOAD_SAMPLE_COUNT);
         let mut load = vec![0.0; dofs];
@@ -319,7 +323,7 @@ fn collect_tractions(rows: &mut ResponseRows, assembled: &Assembled) {
 fn collect_motions(rows: &mut ResponseRows, parts: &Parts, assembled: &Assembled) -> Vec<f64> {
     let dofs = assembled.dofs();
     let mut motions = Vec::new();
-    for motion in [&parts.given.displacement, &parts.given.velocity] {
+    for motion in [&parts.builder.displacement, &parts.builder.velocity] {
         for motion in motion.chunks_exact(dofs) {
             let mut force = vec![0.0; dofs];
             assembled.mass.multiply_add(1.0, motion, &mut force);
@@ -333,7 +337,7 @@ fn collect_motions(rows: &mut ResponseRows, parts: &Parts, assembled: &Assembled
 
 /// Adds the rows of the probes: of displacements, velocities and accelerations.
 fn collect_probes(rows: &mut ResponseRows, parts: &Parts, dofs: usize) {
-    let probes = &parts.given.probes;
+    let probes = &parts.builder.probes;
     rows.probes = vec![[None; 3]; probes.len()];
     for kind in 0..3 {
         if kind == 2 {

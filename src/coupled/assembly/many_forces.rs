@@ -187,10 +187,10 @@ impl Reduction<'_> {
         let upto =
             Some((limit * limit + floating.springs, MODE_RESIDUAL_FACTOR * tolerance.sqrt()));
         let found = lowest_modes(&floating.factor, &self.assembled.mass, MAX_VIBRATION_MODES, upto);
-        let found = found.filter(|(squares, _)| squares.len() < MAX_VIBRATION_MODES);
-        Ok(found.map(|(_, modes)| {
+        let found = found.filter(|modes| modes.values.len() < MAX_VIBRATION_MODES);
+        Ok(found.map(|modes| {
             // A small new component is the error of a mode already in the basis, not a new direction: skip it.
-            space.extend(modes, MIN_NEW_FRACTION);
+            space.extend(modes.vectors, MIN_NEW_FRACTION);
             floating
         }))
     }
@@ -210,7 +210,7 @@ impl Reduction<'_> {
         }
         let min_shift = STATIC_SHIFT_RANGE[0] * scheme_shift;
         let max_shift = STATIC_SHIFT_RANGE[1] * scheme_shift;
-        let shift = self.held.lowest.clamp(min_shift, max_shift);
+        let shift = self.fixed_base.lowest.clamp(min_shift, max_shift);
         Floating::new(self.assembled, &SparseMatrix::default(), shift * shift).map(Rc::new)
     }
 }

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::vibration_modes::vibration_modes;
-use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
 use crate::coupled::assembly::krylov::{Factored, Reduction};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::ModalBasis;
@@ -59,19 +59,19 @@ impl Stepped {
     pub(crate) fn choose(
         parts: &Parts,
         assembled: &Assembled,
-        reduction: Option<(HeldResponses, Option<Rc<Floating>>)>,
+        reduction: Option<(FixedBaseResponses, Option<Rc<Floating>>)>,
         at_rest: &StaticState,
     ) -> Result<Self> {
-        let Parts { given, coefficients, .. } = parts;
+        let Parts { builder, coefficients, .. } = parts;
         let structure = parts.structure.as_ref();
         let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
-        let steps = if given.steps > 0 { given.steps } else { DEFAULT_EXPECTED_STEPS };
+        let steps = if builder.steps > 0 { builder.steps } else { DEFAULT_EXPECTED_STEPS };
         let physical = Model::new(assembled);
         let factored = || {
             let factor = Factor::of_dofs(&physical, coefficients, &tangent);
             factor.map_err(|error| cause(assembled, structure, &tangent, error))
         };
-        let chosen = match given.coordinates {
+        let chosen = match builder.coordinates {
             Coordinates::Physical => Chosen::Physical(factored()?),
             Coordinates::Auto => {
                 let factor = factored()?;
@@ -90,8 +90,8 @@ impl Stepped {
                 Chosen::Modes(modes)
             }
             Coordinates::Reduced { tolerance } => {
-                let (held, floating) = reduction.unwrap_or_default();
-                let responses = (held, floating, &factored as &Factored<'_>);
+                let (fixed_base, floating) = reduction.unwrap_or_default();
+                let responses = (fixed_base, floating, &factored as &Factored<'_>);
                 let reduction = Reduction::new(parts, assembled, responses, steps)?;
                 let max_dofs = if reduction.has_many_forces() {
                     MAX_FALLBACK_DOFS_OF_MANY_FORCES

@@ -16,7 +16,8 @@ use crate::linalg::orthonormal::{
     MinRemainder, OrthonormalRows, independent_combinations, transpose,
 };
 use crate::linalg::{
-    SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes, symmetric_products,
+    Eigenpairs, SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes,
+    symmetric_products,
 };
 use crate::structure::combination;
 
@@ -217,8 +218,8 @@ impl<'a> Subspace<'a> {
         let fixed = self.translations;
         let free = count - fixed;
         let rows = (fixed..count).flat_map(|i| &stiffness[i * count + fixed..(i + 1) * count]);
-        let rows: Vec<f64> = rows.copied().collect();
-        let Some((mut values, free_modes)) = symmetric_modes(&rows, free) else {
+        let found = symmetric_modes(&rows.copied().collect::<Vec<f64>>(), free);
+        let Some(Eigenpairs { mut values, vectors: free_modes }) = found else {
             let needed = "it must be finite in the subspace";
             let error = Error::Scene { quantity: "stiffness matrix", needed };
             return Err(error.within(REDUCED_COORDINATES_NAME));

@@ -12,7 +12,7 @@ use crate::coupled::assembly::subspace::MAX_MODE_COUPLING;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::linalg::orthonormal::transpose;
-use crate::linalg::{Partition, SparseMatrix, dot, generalised_modes, largest};
+use crate::linalg::{Eigenpairs, Partition, SparseMatrix, dot, generalised_modes, largest};
 
 /// Eigenvalues below this, relative to the largest, count as zero.
 const ZERO_EIGENVALUE_RATIO: f64 = 1e-11;
@@ -30,7 +30,7 @@ pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let mass: &SparseMatrix = &assembled.mass;
     let stiffness: &SparseMatrix = &assembled.stiffness;
     let n = mass.order();
-    let (values, vectors) = generalised_modes(stiffness, mass)?;
+    let Eigenpairs { values, vectors } = generalised_modes(stiffness, mass)?;
     let top = largest(&values);
     let noise = ZERO_EIGENVALUE_RATIO * top;
     let rigid = values.iter().filter(|value| value.abs() <= noise).count();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::shares::{Point, bilinear, distance, outside, shares};
+use super::corner_weights::{Point, bilinear, corner_weights, distance, outside};
 use super::transformation::{Terms, Weights, accumulate};
 use super::{BasePoint, Outline, PlacedBase, check_covered};
 use crate::bem::plan::faces::{MatFace, side};
@@ -152,22 +152,22 @@ impl<'a> Faces<'a> {
     fn mean_weights(&self, element: usize, patch: &Patch, reach: f64) -> Result<Vec<(usize, f64)>> {
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
-            let (shares, value) = self.shares(point);
+            let (corner_weights, value) = self.corner_weights(point);
             if value.is_nan() || value > reach {
                 let quantity = "distance of a contact element from the faces of the base, m";
                 let needed = "half an element or less: all lie under the structure's base";
                 let fault = Error::Input { quantity, value, needed };
                 return Err(fault.within(format!("contact element {element}")));
             }
-            weights.extend(shares.into_iter().map(|(node, share)| (node, 0.25 * share)));
+            weights.extend(corner_weights.into_iter().map(|(node, weight)| (node, 0.25 * weight)));
         }
         Ok(weights)
     }
 
     /// (node, weight) of the displacement of a point, and its distance from the faces, m.
-    fn shares(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
+    fn corner_weights(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
         let (piece, corners, distance) = self.nearest(point);
-        (piece.iter().copied().zip(shares(&corners, point)).collect(), distance)
+        (piece.iter().copied().zip(corner_weights(&corners, point)).collect(), distance)
     }
 
     /// Points for integrals over the elements of a mat.
@@ -177,25 +177,31 @@ impl<'a> Faces<'a> {
         let mut found = vec![Vec::new(); mat.elements.len()];
         for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
             let corners = self.corners(piece);
-            for shares in face_points(corners.len()) {
+            for corner_weights in face_points(corners.len()) {
                 let place = [0, 1].map(|k| {
-                    let terms =
-                        corners.iter().zip(&shares).map(|(corner, share)| share * corner[k]);
+                    let terms = corners
+                        .iter()
+                        .zip(&corner_weights)
+                        .map(|(corner, weight)| weight * corner[k]);
                     terms.sum::<f64>()
                 });
                 if let Some(e) = mat.elements.clone().find(|e| is_on(&patch[*e], place)) {
                     found[e - mat.elements.start]
-                        .push(piece.iter().copied().zip(shares).collect::<Vec<_>>());
+                        .push(piece.iter().copied().zip(corner_weights).collect::<Vec<_>>());
                 }
             }
         }
         let mut points = Vec::new();
         for (e, mut weights) in mat.elements.clone().zip(found) {
             if weights.len() < 4 {
-                weights = gauss_points(e, patch).map(|point| self.shares(point).0).into();
+                weights = gauss_points(e, patch).map(|point| self.corner_weights(point).0).into();
             }
             let area = patch.areas()[e] / weights.len() as f64;
-            points.extend(weights.into_iter().map(|shares| BasePoint { element: e, area, shares }));
+            points.extend(weights.into_iter().map(|corner_weights| BasePoint {
+                element: e,
+                area,
+                corner_weights,
+            }));
         }
         points
     }

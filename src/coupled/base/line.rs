@@ -56,8 +56,12 @@ impl PlacedBase {
                 if !is_flexible {
                     continue;
                 }
-                for (area, shares) in run.gauss_points() {
-                    points.push(BasePoint { element: e, area, shares: numbered(shares) });
+                for (area, corner_weights) in run.gauss_points() {
+                    points.push(BasePoint {
+                        element: e,
+                        area,
+                        corner_weights: numbered(corner_weights),
+                    });
                 }
             }
         }

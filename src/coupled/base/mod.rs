@@ -1,10 +1,10 @@
 //! The base's element means of displacement, and their transpose.
 
+mod corner_weights;
 pub(crate) mod faces;
-pub(crate) mod held;
+pub(crate) mod fixed_base;
 pub(crate) mod influence;
 mod line;
-mod shares;
 mod tears;
 pub(crate) mod transformation;
 
@@ -44,7 +44,7 @@ pub(crate) struct BasePoint {
     /// Area of the point in integrals, m²; in the plane a length.
     pub(crate) area: f64,
     /// Nodes, and their weights in the point's displacement.
-    pub(crate) shares: Vec<(usize, f64)>,
+    pub(crate) corner_weights: Vec<(usize, f64)>,
 }
 
 /// Foundation: its nodes, elements, settlement, rotations and outline.
@@ -109,7 +109,8 @@ impl PlacedBase {
     pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
-            let mut rows = components(&self.nodes, &point.shares, &self.elements[point.element]);
+            let mut rows =
+                components(&self.nodes, &point.corner_weights, &self.elements[point.element]);
             for (component, terms) in rows.iter_mut().enumerate() {
                 accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
             }

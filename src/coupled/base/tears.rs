@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::shares::Point;
+use super::corner_weights::Point;
 use crate::bem::plan::faces::MatFace;
 use crate::bem::plan::points::{PointIndex, without_pairs};
 use crate::error::Result;

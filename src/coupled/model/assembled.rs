@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
-use crate::coupled::model::load_factor::LoadedStiffness;
 use crate::coupled::model::mechanism::StructureAtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
@@ -89,12 +88,13 @@ impl Assembled {
         let stiffness = assembled.stiffness_at_rest();
         check_attached(structure, stiffness, &assembled.mass, &assembled.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
-        let (influence, held) = assembled.find_influence().map_err(|error| match error {
-            Error::Indefinite { .. } => assembled.buckling(structure).unwrap_or(error),
-            _ => assembled.at_rest(structure).behind(error),
-        })?;
+        let (influence, fixed_factor) =
+            assembled.find_influence().map_err(|error| match error {
+                Error::Indefinite { .. } => assembled.buckling(structure).unwrap_or(error),
+                _ => assembled.at_rest(structure).behind(error),
+            })?;
         assembled.influence = Arc::new(influence);
-        Ok((assembled, held))
+        Ok((assembled, fixed_factor))
     }
 
     /// Error with the load factor at which the structure buckles with its base held; `None` if it does not.
@@ -168,18 +168,18 @@ impl Assembled {
     /// Rayleigh's quotient of the deflection under the weight along x, in plan the longer one of x and y. `held`:
     /// factored stiffness with springs at the base; their part in the work of the weight is neglected (an error of
     /// 1 %).
-    pub(crate) fn period_on_fixed_base(&self, held: &mut SparseFactor) -> f64 {
+    pub(crate) fn period_on_fixed_base(&self, fixed_factor: &mut SparseFactor) -> f64 {
         // Directions to the right, and in plan away.
         let directions = self.base.layout().axes().map(|axis| 2 * axis);
-        directions.map(|k| self.period(k, held)).fold(f64::NAN, f64::max)
+        directions.map(|k| self.period(k, fixed_factor)).fold(f64::NAN, f64::max)
     }
 
-    fn period(&self, direction: usize, held: &mut SparseFactor) -> f64 {
+    fn period(&self, direction: usize, fixed_factor: &mut SparseFactor) -> f64 {
         let to_the_side = self.influence.of(direction, self.dofs());
         let mut weight = vec![0.0; self.dofs()];
         self.mass.multiply_add(1.0, &to_the_side, &mut weight);
         let mut deflection = weight.clone();
-        held.solve(&mut deflection);
+        fixed_factor.solve(&mut deflection);
         let form = |matrix: &SparseMatrix| matrix.form(&deflection, &deflection);
         let work = dot(&deflection, &weight);
         TAU * (form(&self.mass) * form(self.stiffness_at_rest())).sqrt() / work
@@ -237,8 +237,8 @@ impl Assembled {
         let n = self.dofs();
         let stiffest = stiffest(stiffness);
         let spring = self.spring();
-        let held = HeldBase::new(self.base.nodes(), stiffness, spring);
-        let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &held.matrix)?;
+        let springs = HeldBase::new(self.base.nodes(), stiffness, spring);
+        let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &springs.matrix)?;
         let is_condensed =
             self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
         let ending =
@@ -248,7 +248,7 @@ impl Assembled {
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
-        let pulls = held.pulls().concat();
+        let pulls = springs.pulls().concat();
         let mut solution = vec![0.0; pulls.len()];
         for _ in 0..=INFLUENCE_REFINEMENT_COUNT {
             let mut residual = matrix.times(&solution);
@@ -276,5 +276,52 @@ impl Assembled {
         let influence = Influence::split(&self.base, &translations, &roots);
         supports::check_parts(&influence, &self.base, n)?;
         Ok((influence, factor))
+    }
+}
+
+/// Relative accuracy of a load factor.
+const LOAD_FACTOR_ACCURACY: f64 = 1e-6;
+
+/// A stiffness and the part of it that comes from the forces at rest.
+pub(crate) struct LoadedStiffness<'a> {
+    stiffness: &'a SparseMatrix,
+    geometric: SparseMatrix,
+}
+
+impl<'a> LoadedStiffness<'a> {
+    /// Parts of a structure's `stiffness`; `None` without P–Δ.
+    pub(crate) fn new(structure: &dyn Structure, stiffness: &'a SparseMatrix) -> Option<Self> {
+        let mut geometric = Triplets::new(structure.dofs());
+        structure.geometric_stiffness(&mut geometric).ok()?;
+        let geometric = SparseMatrix::new("geometric stiffness matrix", &geometric).ok()?;
+        (!geometric.is_empty()).then_some(Self { stiffness, geometric })
+    }
+
+    /// Stiffness under `factor` times the forces at rest.
+    pub(crate) fn at(&self, factor: f64) -> Result<SparseMatrix> {
+        let terms = [(1.0, self.stiffness), (factor - 1.0, &self.geometric)];
+        SparseMatrix::sum("stiffness matrix", self.stiffness.order(), &terms)
+    }
+
+    /// Smallest factor at which the structure does not stand, between 0 and `limit`.
+    ///
+    /// `stands` tells whether it does with a stiffness. `None` if it stands under `limit` times its forces at rest, or not
+    /// even without them.
+    pub(crate) fn factor(&self, limit: f64, stands: impl Fn(&SparseMatrix) -> bool) -> Option<f64> {
+        let stands_at = |factor: f64| self.at(factor).is_ok_and(|stiffness| stands(&stiffness));
+        if !stands_at(0.0) || stands_at(limit) {
+            return None;
+        }
+        let mut low = 0.0;
+        let mut high = limit;
+        while high - low > LOAD_FACTOR_ACCURACY * high && high > f64::MIN_POSITIVE {
+            let middle = 0.5 * (low + high);
+            if stands_at(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(0.5 * (low + high))
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct Condensed {
     /// Degrees of freedom of the base, ascending.
     dofs: Vec<usize>,
     /// Factored K + γ NᵀN.
-    held: SparseFactor,
+    fixed_factor: SparseFactor,
 }
 
 impl Condensed {
@@ -38,17 +38,17 @@ impl Condensed {
     /// state returns again.
     pub(crate) fn new(
         whole: &Assembled,
-        held: SparseFactor,
+        fixed_factor: SparseFactor,
         loads: impl FnOnce() -> Result<[Vec<f64>; 2]>,
     ) -> Result<Option<Self>> {
         let dofs = whole.base.dofs();
-        let Some(mut stiffness) = held.condensed(&dofs) else { return Ok(None) };
+        let Some(mut stiffness) = fixed_factor.condensed(&dofs) else { return Ok(None) };
         let Ok(loads) = loads() else { return Ok(None) };
         let order = dofs.len();
         let n = whole.dofs();
         let spring = whole.spring();
         let mut solved = loads.concat();
-        held.solve_many(&mut solved);
+        fixed_factor.solve_many(&mut solved);
         let mut responses = solved.chunks_exact(n);
         let loads = std::array::from_fn(|_| {
             let mut load = vec![0.0; order];
@@ -83,7 +83,7 @@ impl Condensed {
             base,
             elimination: Elimination::default(),
         };
-        Ok(Some(Self { assembled, loads, dofs, held }))
+        Ok(Some(Self { assembled, loads, dofs, fixed_factor }))
     }
 
     /// A base of the whole structure in the condensed degrees of freedom.
@@ -106,7 +106,7 @@ impl Condensed {
         for _ in 0..2 {
             let mut correction = force.to_vec();
             whole.stiffness.multiply_add(-1.0, &displacement, &mut correction);
-            self.held.solve_many(&mut correction);
+            self.fixed_factor.solve_many(&mut correction);
             displacement.iter_mut().zip(&correction).for_each(|(u, d)| *u += d);
         }
         displacement
@@ -117,7 +117,7 @@ impl Condensed {
         let order = on_base.order();
         let mut dense = vec![0.0; order * order];
         on_base.entries().for_each(|(row, column, value)| dense[row * order + column] = value);
-        self.held.with_condensed(&self.dofs, &dense)
+        self.fixed_factor.with_condensed(&self.dofs, &dense)
     }
 }
 

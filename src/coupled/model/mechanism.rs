@@ -35,9 +35,9 @@ impl StructureAtRest<'_> {
     /// Error for a mechanism, even if the loads do not set it in motion.
     ///
     /// `held`: factored stiffness with the base held, which suffices for most structures.
-    pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
-        let regular = Regular::held(self).1;
-        let softest = regular.softest(held, &[]);
+    pub(crate) fn check(&self, fixed_factor: &mut SparseFactor) -> Result<()> {
+        let regular = Regular::on_firm_springs(self).1;
+        let softest = regular.softest(fixed_factor, &[]);
         if softest.is_some_and(|motion| regular.relative_work(&motion) > FIRM_WORK_RATIO) {
             return Ok(());
         }
@@ -60,7 +60,7 @@ impl StructureAtRest<'_> {
         if self.base.dofs().is_empty() {
             return None;
         }
-        let dofs = Regular::held(self).1.free_dofs(free)?;
+        let dofs = Regular::on_firm_springs(self).1.free_dofs(free)?;
         let place = place(self.structure, &dofs);
         Some(StabilityError::Mechanism { dofs, place, massless: false })
     }
@@ -100,18 +100,21 @@ pub(crate) struct Regular {
 
 impl Regular {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(crate) fn held<'a>(at_rest: &StructureAtRest<'a>) -> (HeldBase<'a>, Self) {
-        Self::held_by(at_rest, 1.0)
+    pub(crate) fn on_firm_springs<'a>(at_rest: &StructureAtRest<'a>) -> (HeldBase<'a>, Self) {
+        Self::on_springs(at_rest, 1.0)
     }
 
     /// The stiffness at rest with springs under the contact nodes, `factor` times as stiff as its largest entry.
-    pub(crate) fn held_by<'a>(at_rest: &StructureAtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
+    pub(crate) fn on_springs<'a>(
+        at_rest: &StructureAtRest<'a>,
+        factor: f64,
+    ) -> (HeldBase<'a>, Self) {
         let StructureAtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = factor * if stiffest > 0.0 { stiffest } else { 1.0 };
-        let held = HeldBase::new(base.nodes(), stiffness, spring);
-        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal());
-        (held, regular)
+        let springs = HeldBase::new(base.nodes(), stiffness, spring);
+        let regular = Self::new(springs.matrix.clone(), spring, &mass.diagonal());
+        (springs, regular)
     }
 
     /// A matrix with a largest entry of about `spring`, kept regular by `mass`.

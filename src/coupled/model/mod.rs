@@ -4,7 +4,6 @@ pub(crate) mod assembled;
 pub(crate) mod condensed;
 pub(crate) mod kinematics;
 pub(crate) mod load;
-pub(crate) mod load_factor;
 pub(crate) mod mechanism;
 pub(crate) mod operators;
 pub(crate) mod signs;

@@ -18,12 +18,12 @@ pub(crate) fn check_signs(
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
     let tie = stiffest(stiffness);
-    let held = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * tie);
-    let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &held.matrix)?;
+    let springs = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * tie);
+    let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &springs.matrix)?;
     if matrix.asymmetry() > SIGN_ROUNDING_TOLERANCE {
         return Ok(());
     }
-    let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), held.spring)?;
+    let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), springs.spring)?;
     match indefinite_row(
         &constrained,
         SIGN_ROUNDING_TOLERANCE,

@@ -76,7 +76,7 @@ pub(crate) fn check(
         let square = stiffness.form(translation, translation).abs();
         let inertia = mass.form(translation, translation);
         let is_noticed = square > NEGLIGIBLE_SQUARED_FREQUENCY * inertia;
-        if is_noticed && resistance.holds(lag, firmer) {
+        if is_noticed && resistance.is_fixed_base(lag, firmer) {
             let Resistance { force, dof, ratio, .. } = resistance;
             return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
@@ -228,7 +228,7 @@ impl Resistance {
     /// Whether a support holds the structure.
     ///
     /// The contact nodes stay behind by `lag` when pulled by springs `firmer` times as stiff as the largest stiffness.
-    fn holds(&self, lag: f64, firmer: f64) -> bool {
+    fn is_fixed_base(&self, lag: f64, firmer: f64) -> bool {
         let is_rounding = self.reaction <= MAX_IGNORED_REACTION
             || firmer * self.bent <= BENDING_TOLERANCE
             || self.is_free;

@@ -70,7 +70,7 @@ impl Warning {
         } else if motion.moves_across() {
             warnings.push(Self::MotionAcross);
         }
-        if let Some(substituted) = scene.static_state.stand_in {
+        if let Some(substituted) = scene.static_state.substituted_friction {
             Self::count_friction(&mut warnings, substituted);
         }
         if let Some([checked, cells]) = sampled_cells {

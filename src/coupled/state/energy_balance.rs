@@ -182,8 +182,11 @@ impl EnergyBalance {
 
     /// The parts relative to the input; `None` if the input is not positive.
     pub fn fractions(&self) -> Option<Vec<(&'static str, f64)>> {
-        let fraction = |(name, energy)| (name, energy / self.input);
-        (self.input > 0.0).then(|| self.parts().into_iter().map(fraction).collect())
+        if self.input <= 0.0 || self.input.is_nan() {
+            return None;
+        }
+        let parts = self.parts().into_iter();
+        Some(parts.map(|(name, energy)| (name, energy / self.input)).collect())
     }
 
     /// A term relative to the input; `None` if the input is not positive.
@@ -218,8 +221,8 @@ impl EnergyBalance {
 /// Terms that are NaN in both are equal.
 impl PartialEq for EnergyBalance {
     fn eq(&self, other: &Self) -> bool {
-        let same = |(a, b): (f64, f64)| a == b || (a.is_nan() && b.is_nan());
-        self.terms().into_iter().zip(other.terms()).all(same)
+        let mut pairs = self.terms().into_iter().zip(other.terms());
+        pairs.all(|(a, b)| a == b || (a.is_nan() && b.is_nan()))
     }
 }
 
@@ -249,7 +252,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_add_up_as_the_energy_balance_does() {
+    fn fractions_add_up_as_the_energy_balance_does() {
         let energy_balance = EnergyBalance {
             kinetic: 1.0,
             strain: 2.0,

@@ -9,7 +9,7 @@
 //! The structure stands if K + BᵀA S⁻¹ B is positive definite.
 
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::model::load_factor::LoadedStiffness;
+use crate::coupled::model::assembled::LoadedStiffness;
 use crate::coupled::model::signs::{FIRM_SPRING_FACTOR, with_constraints};
 use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::statics::strength::compliance_at_rest;
@@ -68,13 +68,14 @@ pub(crate) fn check(
     let on_base = condensed.unwrap_or(assembled);
     let ground_of_base =
         GroundStiffness::new(Grounded { assembled: on_base, ..grounded }, is_closed);
-    if ground_of_base.is_none_or(|ground| ground.holds(on_base.stiffness_at_rest())) {
+    if ground_of_base.is_none_or(|ground| ground.is_fixed_base(on_base.stiffness_at_rest())) {
         return Ok(());
     }
     let Some(ground) = GroundStiffness::new(grounded, is_closed) else { return Ok(()) };
     // Without a factor between 0 and 1 the cause is not P–Δ, such as a mechanism, which has its own error.
-    let factor_on =
-        |ground: &GroundStiffness<'_>| loaded.factor(1.0, |stiffness| ground.holds(stiffness));
+    let factor_on = |ground: &GroundStiffness<'_>| {
+        loaded.factor(1.0, |stiffness| ground.is_fixed_base(stiffness))
+    };
     let bonded = GroundStiffness::new(grounded, |_| true);
     let factor = bonded.as_ref().and_then(factor_on).or_else(|| factor_on(&ground));
     let Some(factor) = factor else { return Ok(()) };
@@ -96,7 +97,7 @@ fn stands_with_tangent(
             let terms = [(1.0, &*assembled.stiffness), (1.0, &tangent.matrix)];
             SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, assembled.dofs(), &terms)
         })
-        .is_ok_and(|stiffness| ground.holds(&stiffness))
+        .is_ok_and(|stiffness| ground.is_fixed_base(&stiffness))
 }
 
 /// Load factor up to 1 at which a structure with P–Δ buckles or falls over, with all elements bonded to the ground.
@@ -110,7 +111,7 @@ pub(super) fn load_factor(grounded: Grounded<'_>) -> Option<f64> {
     }
     let loaded = LoadedStiffness::new(structure, assembled.stiffness_at_rest())?;
     let ground = GroundStiffness::new(grounded, |_| true)?;
-    loaded.factor(1.0, |stiffness| ground.holds(stiffness))
+    loaded.factor(1.0, |stiffness| ground.is_fixed_base(stiffness))
 }
 
 impl<'a> GroundStiffness<'a> {
@@ -147,7 +148,7 @@ impl<'a> GroundStiffness<'a> {
     }
 
     /// Whether a structure of this stiffness stands on the ground.
-    fn holds(&self, stiffness: &SparseMatrix) -> bool {
+    fn is_fixed_base(&self, stiffness: &SparseMatrix) -> bool {
         let terms = [(1.0, stiffness), (1.0, &self.matrix)];
         let matrices = self.assembled.matrices();
         let penalty = FIRM_SPRING_FACTOR * stiffest(stiffness);

@@ -23,9 +23,8 @@ const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 const MAX_PROXIMAL_ITERATIONS: usize = 500;
 /// Softest springs, as a fraction of their initial stiffness.
 const MIN_SPRING_FRACTION: f64 = 1e-9;
-/// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
-/// than `SPRING_FORCE_ROUNDING` of the load: a structure far softer than the ground deforms only slowly against springs that
-/// are stiffer than itself.
+/// Decrease of their force in an iteration above which they are softened tenfold while it exceeds `SPRING_FORCE_ROUNDING`:
+/// a structure far softer than the ground deforms only slowly against springs that are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
 /// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
@@ -94,7 +93,8 @@ impl Standing<'_> {
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
                     self.share(compliance, initial_stiffness);
-                    state.stand_in = solver.substituted_friction().or(state.stand_in);
+                    state.substituted_friction =
+                        solver.substituted_friction().or(state.substituted_friction);
                     let states = &solver.response().states;
                     state.close_gaps(laws, start, states)?;
                     return Ok((state, states.clone()));

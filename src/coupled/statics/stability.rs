@@ -54,14 +54,15 @@ fn resultants(
     let assembled = stage.assembled;
     let base = &assembled.base;
     // On springs as stiff as itself, a structure with P–Δ rotates further than the springs are displaced.
-    let (held, regular) = Regular::held_by(&assembled.at_rest(stage.structure), FIRM_SPRING_FACTOR);
+    let (springs, regular) =
+        Regular::on_springs(&assembled.at_rest(stage.structure), FIRM_SPRING_FACTOR);
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [along, upward, away] = part.resultants(load);
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         let mut moments = [0.0; 3];
-        let turns = held.turns(nodes.iter().copied(), bounds.map(middle));
+        let turns = springs.turns(nodes.iter().copied(), bounds.map(middle));
         for (moment, turn) in moments.iter_mut().zip(turns) {
             *moment = work(&mut factor, turn, load);
         }

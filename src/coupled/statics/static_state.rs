@@ -22,7 +22,7 @@ pub(crate) struct StaticState {
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
     /// Friction coefficient used instead of a larger one where an element slides; `None` if there was none.
-    pub(crate) stand_in: Option<f64>,
+    pub(crate) substituted_friction: Option<f64>,
 }
 
 impl StaticState {
@@ -39,7 +39,7 @@ impl StaticState {
             state_variables: Vec::new(),
             force: Vec::new(),
             energy: None,
-            stand_in: None,
+            substituted_friction: None,
         }
     }
 

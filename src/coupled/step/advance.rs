@@ -19,9 +19,11 @@ impl State {
         let at = &scene.static_state;
         let contact: Vec<_> = (0..count)
             .map(|e| {
-                let jump = |component| if component == 0 { at.gap[e] } else { -0.0 };
-                let traction = |component| at.traction[scene.layout().place(component, e)];
-                ContactState::from_components(jump, traction, scene.layout().is_plan())
+                ContactState::from_components(
+                    |component| if component == 0 { at.gap[e] } else { -0.0 },
+                    |component| at.traction[scene.layout().place(component, e)],
+                    scene.layout().is_plan(),
+                )
             })
             .collect();
         let modes = at.modes_with(&scene.laws);
@@ -138,9 +140,11 @@ impl State {
         let translations = &state.kinematics.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;
-            let carried = probe.carried.iter().zip(translations);
-            let by = |r: &[f64; 3], y: [f64; 3]| r[0] * y[0] + r[1] * y[1] + r[2] * y[2];
-            let carried: f64 = carried.map(|(r, y)| by(r, y.displacement)).sum();
+            let carried = probe.carried.iter().zip(translations).map(|(r, translation)| {
+                let y = translation.displacement;
+                r[0] * y[0] + r[1] * y[1] + r[2] * y[2]
+            });
+            let carried: f64 = carried.sum();
             *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
         }
     }

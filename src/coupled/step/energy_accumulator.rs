@@ -18,7 +18,6 @@ use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
 use crate::error::LawError;
-use crate::interface::Mode;
 use crate::linalg::matrix::spread;
 use crate::linalg::{LatticeScratch, dot};
 use crate::structure::Structure;
@@ -72,9 +71,12 @@ impl EnergyAccumulator {
         for (jump, displacement) in jump.iter_mut().zip(&means) {
             *jump -= displacement;
         }
-        let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
-        let compliant = if compliant { state.modes.as_slice() } else { &[] };
-        let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
+        let mut compliance = Vec::new();
+        if compliant {
+            for (e, &mode) in state.modes.iter().enumerate() {
+                compliance.push(scene.compliance(e, mode, &state.start)?);
+            }
+        }
         let parts = scene.model.influence.parts();
         let mut inertia = Vec::new();
         let mut mass = Vec::new();
@@ -120,8 +122,8 @@ impl EnergyAccumulator {
         let energy_balance = &mut self.energy_balance;
         energy_balance.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
-            let seen = scene.seen_at(&state.kinematics);
-            if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
+            let force_displacement = scene.force_displacement_of(&state.kinematics);
+            if let Some((stored, dissipated)) = energies(scene, structure, &force_displacement) {
                 self.nonlinear_work = stored;
                 energy_balance.hysteresis = dissipated;
             }
@@ -141,13 +143,12 @@ impl EnergyAccumulator {
     fn static_energy(&self, scene: &Scene) -> f64 {
         let at_rest = &scene.static_state;
         let layout = scene.layout();
-        let energy = |(i, traction): (usize, &f64)| {
+        let interfaces = at_rest.traction.iter().enumerate().map(|(i, traction)| {
             let [component, e] = layout.origin(i);
             let compliance = self.compliance.get(e).map_or(0.0, |c| c[component.min(1)]);
             0.5 * scene.base.area(i) * compliance * traction * traction
-        };
-        let interfaces: f64 = at_rest.traction.iter().enumerate().map(energy).sum();
-        interfaces + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
+        });
+        interfaces.sum::<f64>() + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
     }
 
     /// All numbers that a step passes to the next, for `directions` directions, always in this order.
@@ -163,7 +164,12 @@ impl EnergyAccumulator {
     }
 
     /// Adds the step that leads from its state to its end.
-    pub(crate) fn book(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
+    pub(crate) fn accumulate(
+        &mut self,
+        data: StepData<'_>,
+        ground: &dyn Ground,
+        increment: &Increment,
+    ) {
         let StepData { scene, forcing, .. } = data;
         if forcing.loaded {
             self.energy_balance.input += dot(&forcing.load, &increment.total);
@@ -183,8 +189,9 @@ impl EnergyAccumulator {
     /// The latter counts for a structure that the ground leaves behind, whose own energy is only rounding.
     fn update_largest(&mut self, time_step: f64) {
         let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
-            let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
-            energy(0) + energy(1) + energy(2)
+            let [along, up, away] =
+                [0, 1, 2].map(|k| 0.5 * mass[k] * (increment[k] / time_step).powi(2));
+            along + up + away
         });
         self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
     }
@@ -193,7 +200,8 @@ impl EnergyAccumulator {
     fn add_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
         let work = dot(&increment.force, &increment.total);
-        let Some((stored, dissipated)) = energies(scene, structure, &increment.seen) else {
+        let Some((stored, dissipated)) = energies(scene, structure, &increment.force_displacement)
+        else {
             self.nonlinear_work += work;
             return;
         };
@@ -334,11 +342,15 @@ impl EnergyAccumulator {
 /// Stored energy and dissipation of the nonlinear force since the static state; `None` if unknown.
 ///
 /// Forces count from their static values, and so does the energy that they store.
-fn energies(scene: &Scene, structure: &dyn Structure, seen: &[f64]) -> Option<(f64, f64)> {
+fn energies(
+    scene: &Scene,
+    structure: &dyn Structure,
+    force_displacement: &[f64],
+) -> Option<(f64, f64)> {
     let at_rest = &scene.static_state;
     let start = at_rest.energy?;
-    let energy = structure.nonlinear()?.energy(seen)?;
-    let moved = seen.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
+    let energy = structure.nonlinear()?.energy(force_displacement)?;
+    let moved = force_displacement.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
     let against: f64 = at_rest.force.iter().zip(moved).map(|(f, moved)| f * moved).sum();
     Some((energy.stored - start.stored - against, energy.dissipated - start.dissipated))
 }

@@ -36,18 +36,19 @@ pub(crate) struct Increment {
     pub(crate) trials: usize,
     pub(crate) method: SearchMethod,
     /// Friction used instead of a larger one on a sliding element; `None` if there was none.
-    pub(crate) stand_in: Option<f64>,
+    pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state, and the displacement at the end of the step that f receives.
     ///
     /// Empty for a linear structure.
     pub(crate) force: Vec<f64>,
-    pub(crate) seen: Vec<f64>,
+    pub(crate) force_displacement: Vec<f64>,
 }
 
 impl Increment {
     /// Memory for a step, and for compliances if `compliant`.
     pub(crate) fn new(scene: &Scene, state: &State, compliant: bool) -> Self {
-        let (n, count) = (scene.model.coordinates, scene.count());
+        let n = scene.model.coordinates;
+        let count = scene.count();
         let compliant = if compliant { count } else { 0 };
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {
@@ -64,9 +65,9 @@ impl Increment {
             state_variables: state.start.state_variables().to_vec(),
             trials: 0,
             method: SearchMethod::ActiveSet,
-            stand_in: None,
+            substituted_friction: None,
             force: vec![0.0; nonlinear],
-            seen: vec![0.0; nonlinear],
+            force_displacement: vec![0.0; nonlinear],
         }
     }
 

@@ -25,7 +25,7 @@ pub(crate) struct LinearStep {
     pub(crate) operators: Operators,
     pub(crate) contact: ContactSolver,
     /// Right-hand side of K_eff Δu = …, without contact and nonlinear force.
-    pub(crate) known: Vec<f64>,
+    pub(crate) right_side: Vec<f64>,
     free_jump: Vec<f64>,
     pub(crate) means: Vec<f64>,
     vector: Vec<f64>,
@@ -42,7 +42,7 @@ impl LinearStep {
                 scene.model.linear,
                 search,
             ),
-            known: vec![0.0; n],
+            right_side: vec![0.0; n],
             free_jump: vec![0.0; scene.layout().len()],
             means: vec![0.0; scene.layout().len()],
             vector: vec![0.0; n],
@@ -57,20 +57,20 @@ impl LinearStep {
         let model = &scene.model;
         let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
         let carried = &forcing.carried;
-        let Self { known, vector, means, .. } = self;
-        known.copy_from_slice(&forcing.load);
+        let Self { right_side, vector, means, .. } = self;
+        right_side.copy_from_slice(&forcing.load);
         SchemeCoefficients::combine(c.acceleration, carried, v, a, vector);
-        model.mass.multiply_add(-1.0, vector, known);
+        model.mass.multiply_add(-1.0, vector, right_side);
         if model.damped {
             SchemeCoefficients::combine(c.velocity, carried, v, a, vector);
             vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
-            model.damping.multiply_add(-1.0, vector, known);
+            model.damping.multiply_add(-1.0, vector, right_side);
         }
         for (x, ((u, v), a)) in vector.iter_mut().zip(u.iter().zip(v).zip(a)) {
             *x = u + SchemeCoefficients::apply(c.displacement, 0.0, *v, *a);
         }
         scene.subtract_base(vector, means);
-        model.stiffness.multiply_add(-1.0, vector, known);
+        model.stiffness.multiply_add(-1.0, vector, right_side);
     }
 
     /// Computes the increment of a linear structure, and the motion at its end.
@@ -84,7 +84,7 @@ impl LinearStep {
         let kinematics = &state.kinematics;
         let Some(matrices) = scene.model.diagonals() else {
             self.predict(data);
-            increment.displacement.copy_from_slice(&self.known);
+            increment.displacement.copy_from_slice(&self.right_side);
             self.solve_contact(data, increment)?;
             increment.follow(data);
             return Ok(());
@@ -161,7 +161,7 @@ impl LinearStep {
         };
         increment.modes.copy_from_slice(&state.modes);
         (increment.trials, increment.method) = contact.solve(&input, &mut increment.modes)?;
-        increment.stand_in = contact.substituted_friction();
+        increment.substituted_friction = contact.substituted_friction();
         let response = contact.response();
         increment.traction.copy_from_slice(&response.traction);
         increment.contact.copy_from_slice(&response.states);

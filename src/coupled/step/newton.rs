@@ -36,7 +36,7 @@ pub(crate) struct NewtonIteration {
     guess: Vec<f64>,
     linearised: Vec<f64>,
     /// Displacement at u* that the force receives.
-    seen: Vec<f64>,
+    force_displacement: Vec<f64>,
     /// Increment at the end of the last stage of the continuation.
     reached: Vec<f64>,
     /// Out-of-balance force at the start of the continuation.
@@ -56,7 +56,7 @@ impl NewtonIteration {
             tangent: Tangent::new(dofs),
             guess: zeros.clone(),
             linearised: zeros.clone(),
-            seen: zeros.clone(),
+            force_displacement: zeros.clone(),
             reached: zeros.clone(),
             open: zeros,
             scale: 0.0,
@@ -105,11 +105,15 @@ impl NewtonIteration {
         }
         (increment.trials, increment.method) = (self.trials, self.method);
         let u = &state.kinematics.displacement;
-        for (i, seen) in increment.seen.iter_mut().enumerate() {
-            *seen = u[i] + increment.displacement[i];
+        for (i, entry) in increment.force_displacement.iter_mut().enumerate() {
+            *entry = u[i] + increment.displacement[i];
         }
         let translations = forcing.translations.iter().map(|translation| translation.displacement);
-        scene.seen_by_force(&mut increment.seen, &mut linear.means, translations);
+        scene.to_force_displacement(
+            &mut increment.force_displacement,
+            &mut linear.means,
+            translations,
+        );
         Ok(())
     }
 
@@ -119,7 +123,7 @@ impl NewtonIteration {
     /// stiffness is not small relative to forces that vanish.
     fn rounding(&self, linear: &LinearStep) -> f64 {
         let entries = linear.operators.tangent.entries();
-        let forces = entries.map(|(_, j, stiffness)| stiffness * self.seen[j]);
+        let forces = entries.map(|(_, j, stiffness)| stiffness * self.force_displacement[j]);
         DISPLACEMENT_ROUNDINGS
             * f64::EPSILON
             * forces.fold(0.0_f64, |largest, f| largest.max(f.abs()))
@@ -188,7 +192,7 @@ impl NewtonIteration {
         self.iterations += 1;
         let weight = scene.coefficients.displacement[0];
         self.tangent
-            .refill(structure, &self.seen)
+            .refill(structure, &self.force_displacement)
             .map_err(StepError::part("tangent of the structure"))?;
         let tangent = &self.tangent.matrix;
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
@@ -207,7 +211,7 @@ impl NewtonIteration {
         let tangent = &linear.operators.tangent;
         tangent.multiply_add(-weight, &self.guess, &mut self.linearised);
         for (i, du) in increment.displacement.iter_mut().enumerate() {
-            *du = linear.known[i] - self.linearised[i];
+            *du = linear.right_side[i] - self.linearised[i];
         }
         if remaining > 0.0 {
             let open = self.open.iter();
@@ -224,7 +228,7 @@ impl NewtonIteration {
         tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
         self.guess.copy_from_slice(&increment.displacement);
         self.evaluate(linear, data, increment)?;
-        self.scale = largest(&linear.known).max(largest(&increment.force));
+        self.scale = largest(&linear.right_side).max(largest(&increment.force));
         let open = self
             .linearised
             .iter()
@@ -243,18 +247,18 @@ impl NewtonIteration {
         let StepData { scene, structure, state, forcing } = data;
         let c = scene.coefficients.displacement;
         let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
-        for (i, seen) in self.seen.iter_mut().enumerate() {
-            *seen = u[i] + SchemeCoefficients::apply(c, self.guess[i], v[i], a[i]);
+        for (i, entry) in self.force_displacement.iter_mut().enumerate() {
+            *entry = u[i] + SchemeCoefficients::apply(c, self.guess[i], v[i], a[i]);
         }
         let translations = forcing
             .translations
             .iter()
             .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
-        scene.seen_by_force(&mut self.seen, &mut linear.means, translations);
+        scene.to_force_displacement(&mut self.force_displacement, &mut linear.means, translations);
         increment.force.fill(0.0);
         if let Some(nonlinear) = structure.nonlinear() {
             nonlinear
-                .force(&self.seen, &mut increment.force)
+                .force(&self.force_displacement, &mut increment.force)
                 .map_err(StepError::part("nonlinear force of the structure"))?;
         }
         for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {

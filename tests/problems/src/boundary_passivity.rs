@@ -11,54 +11,88 @@ use basemat::bem::full_plane::BoundaryKernel;
 
 use crate::dense::inverse;
 
-/// Angles on the half circle, and around the angles of extremes.
-const ANGLES: usize = 192;
-const AROUND: usize = 24;
-/// Order of the differences, and number of lags: the last terms are 1e-5 of the first at the smallest angle.
-const PARTS: i32 = 4;
-const LAGS: usize = 4000;
-/// Halvings of an interval that holds an eigenvalue.
-const HALVINGS: usize = 40;
+/// Angles on the half circle.
+const ANGLE_COUNT: usize = 192;
+/// Angles around an extreme in each refinement.
+const REFINED_ANGLE_COUNT: usize = 24;
+/// Order of the differences of the coefficients.
+const DIFFERENCE_ORDER: i32 = 4;
+/// Number of lags: the last terms are 1e-5 of the first at the smallest angle.
+const LAG_COUNT: usize = 4000;
+/// Halvings of an interval that contains an eigenvalue.
+const BISECTION_COUNT: usize = 40;
 
 /// Smallest eigenvalue over the circle, relative to the largest magnitude of any eigenvalue, and its angle (rad).
 ///
 /// Waves must pass the elements within some hundred lags.
 pub fn boundary_passivity(kernel: &dyn BoundaryKernel) -> [f64; 2] {
-    let series = Series::new(kernel);
-    let (mut least, mut largest) = (f64::INFINITY, 0.0);
-    // Angles of both.
-    let mut places = [0.0; 2];
-    let mut see = |angle: f64| {
-        let matrix = series.work(angle);
-        let order = 2 * series.order;
+    let symbol = BoundarySymbol::new(kernel);
+    let mut extremes = EigenvalueExtremes::default();
+    let mut width = std::f64::consts::PI / ANGLE_COUNT as f64;
+    let min_angle = 0.5 * width;
+    for k in 0..ANGLE_COUNT {
+        extremes.add(&symbol, width * (k as f64 + 0.5));
+    }
+    for _ in 0..2 {
+        let first_angles = [extremes.smallest_angle - width, extremes.largest_angle - width];
+        width *= 2.0 / REFINED_ANGLE_COUNT as f64;
+        for k in 0..=REFINED_ANGLE_COUNT {
+            for first in first_angles {
+                let angle = first + width * k as f64;
+                if angle >= min_angle {
+                    extremes.add(&symbol, angle);
+                }
+            }
+        }
+    }
+    [extremes.smallest / extremes.largest, extremes.smallest_angle]
+}
+
+/// Extreme eigenvalues over the angles so far.
+struct EigenvalueExtremes {
+    smallest: f64,
+    smallest_angle: f64,
+    /// Of magnitudes.
+    largest: f64,
+    largest_angle: f64,
+}
+
+impl Default for EigenvalueExtremes {
+    fn default() -> Self {
+        Self { smallest: f64::INFINITY, smallest_angle: 0.0, largest: 0.0, largest_angle: 0.0 }
+    }
+}
+
+impl EigenvalueExtremes {
+    fn add(&mut self, symbol: &BoundarySymbol<'_>, angle: f64) {
+        let matrix = symbol.work(angle);
+        let order = 2 * symbol.order;
         let rows = matrix.chunks_exact(order);
         let bound = rows.map(|row| row.iter().map(|x| x.abs()).sum::<f64>()).fold(0.0, f64::max);
-        let below = |shift: f64| eigenvalues_below(&matrix, order, shift);
-        if least > bound || below(least) > 0 {
-            (least, places[0]) = (edge(-bound, least.min(bound), |x| below(x) > 0), angle);
+        let count_below = |shift: f64| eigenvalues_below(&matrix, order, shift);
+        if self.smallest > bound || count_below(self.smallest) > 0 {
+            self.smallest = bisect(-bound, self.smallest.min(bound), |x| count_below(x) > 0);
+            self.smallest_angle = angle;
         }
-        if below(largest) < order {
-            (largest, places[1]) = (edge(largest, bound, |x| below(x) == order), angle);
+        if count_below(self.largest) < order {
+            self.largest = bisect(self.largest, bound, |x| count_below(x) == order);
+            self.largest_angle = angle;
         }
-        if below(-largest) > 0 {
-            (largest, places[1]) = (-edge(-bound, -largest, |x| below(x) > 0), angle);
+        if count_below(-self.largest) > 0 {
+            self.largest = -bisect(-bound, -self.largest, |x| count_below(x) > 0);
+            self.largest_angle = angle;
         }
-        places
-    };
-    let mut width = std::f64::consts::PI / ANGLES as f64;
-    let smallest = 0.5 * width;
-    let mut found = (0..ANGLES).fold([0.0; 2], |_, k| see(width * (k as f64 + 0.5)));
-    for _ in 0..2 {
-        let around = found.map(|place| place - width);
-        width *= 2.0 / AROUND as f64;
-        let angles = (0..=AROUND).flat_map(|k| around.map(|first| first + width * k as f64));
-        found = angles.filter(|angle| *angle >= smallest).fold(found, |_, angle| see(angle));
     }
-    [least / largest, found[0]]
+}
+
+/// Values of G and H on the unit circle, complex numbers as pairs.
+struct ComplexMatrices {
+    g: Vec<f64>,
+    h: Vec<f64>,
 }
 
 /// Power series of G and H.
-struct Series<'a> {
+struct BoundarySymbol<'a> {
     kernel: &'a dyn BoundaryKernel,
     /// Number of components.
     order: usize,
@@ -66,19 +100,20 @@ struct Series<'a> {
     differences: Vec<f64>,
 }
 
-impl<'a> Series<'a> {
+impl<'a> BoundarySymbol<'a> {
     fn new(kernel: &'a dyn BoundaryKernel) -> Self {
         let order = 2 * kernel.segments().len();
         let size = order * order;
-        let (mut g, mut h) = (vec![0.0; 2 * size], vec![0.0; 2 * size]);
+        let mut g = vec![0.0; 2 * size];
+        let mut h = vec![0.0; 2 * size];
         let mut differences = vec![];
         if kernel.symbol([-1.0, 0.0], &mut g, &mut h).unwrap().is_none() {
-            differences = vec![0.0; 2 * size * LAGS];
+            differences = vec![0.0; 2 * size * LAG_COUNT];
             for (lag, both) in differences.chunks_exact_mut(2 * size).enumerate() {
                 let (g, h) = both.split_at_mut(size);
                 kernel.coefficients(lag, g, h).unwrap();
             }
-            for _ in 0..PARTS {
+            for _ in 0..DIFFERENCE_ORDER {
                 for i in (2 * size..differences.len()).rev() {
                     differences[i] -= differences[i - 2 * size];
                 }
@@ -87,70 +122,82 @@ impl<'a> Series<'a> {
         Self { kernel, order, differences }
     }
 
-    /// G and H at ζ = e^{iθ}: real and imaginary part alternate.
-    fn at(&self, angle: f64) -> [Vec<f64>; 2] {
+    /// G and H at ζ = e^{iθ}.
+    fn at(&self, angle: f64) -> ComplexMatrices {
         let size = self.order * self.order;
-        let (mut g, mut h) = (vec![0.0; 2 * size], vec![0.0; 2 * size]);
-        let [re, im] = [angle.cos(), angle.sin()];
-        if self.kernel.symbol([re, im], &mut g, &mut h).unwrap().is_none() {
+        let mut g = vec![0.0; 2 * size];
+        let mut h = vec![0.0; 2 * size];
+        let zeta = [angle.cos(), angle.sin()];
+        if self.kernel.symbol(zeta, &mut g, &mut h).unwrap().is_none() {
             let distance = 2.0 * (0.5 * angle).sin();
             for (lag, both) in self.differences.chunks_exact(2 * size).enumerate() {
                 // ζⁿ/(1−ζ)⁴, 1 − ζ = 2 sin(θ/2) e^{i(θ−π)/2}.
-                let turned =
-                    angle * lag as f64 - 0.5 * f64::from(PARTS) * (angle - std::f64::consts::PI);
-                let factor = distance.powi(-PARTS);
-                let [re, im] = [factor * turned.cos(), factor * turned.sin()];
-                let (of_g, of_h) = both.split_at(size);
-                for (sum, own) in [(&mut g, of_g), (&mut h, of_h)] {
-                    for (sum, own) in sum.chunks_exact_mut(2).zip(own) {
-                        sum[0] += re * own;
-                        sum[1] += im * own;
-                    }
-                }
+                let phase = angle * lag as f64
+                    - 0.5 * f64::from(DIFFERENCE_ORDER) * (angle - std::f64::consts::PI);
+                let modulus = distance.powi(-DIFFERENCE_ORDER);
+                let factor = [modulus * phase.cos(), modulus * phase.sin()];
+                add_multiple(&mut g, &both[..size], factor);
+                add_multiple(&mut h, &both[size..], factor);
             }
         }
-        [g, h]
+        ComplexMatrices { g, h }
     }
 
     /// Hermitian part of (1−ζ) L C as a symmetric real matrix, in which each eigenvalue is twice.
     fn work(&self, angle: f64) -> Vec<f64> {
-        let (n, order) = (self.order, 2 * self.order);
-        // A complex matrix as a real one: [[Re, −Im], [Im, Re]].
-        let real = |own: &[f64]| {
-            let mut matrix = vec![0.0; order * order];
-            for (place, pair) in own.chunks_exact(2).enumerate() {
-                let (i, j) = (place / n, place % n);
-                (matrix[i * order + j], matrix[(n + i) * order + n + j]) = (pair[0], pair[0]);
-                (matrix[i * order + n + j], matrix[(n + i) * order + j]) = (-pair[1], pair[1]);
-            }
-            matrix
-        };
-        let [g, h] = self.at(angle).map(|own| real(&own));
-        let solved = product(&inverse(&h, order), &g, order);
+        let n = self.order;
+        let order = 2 * n;
+        let matrices = self.at(angle);
+        let h_inverse = inverse(&real_form(&matrices.h, n), order);
+        let compliance = product(&h_inverse, &real_form(&matrices.g, n), order);
         let segments = self.kernel.segments();
-        let [re, im] = [1.0 - angle.cos(), -angle.sin()];
-        let mut own = vec![0.0; order * order];
+        let re = 1.0 - angle.cos();
+        let im = -angle.sin();
+        let mut work = vec![0.0; order * order];
         for i in 0..n {
             let length = segments[i % segments.len()].length();
             for j in 0..order {
-                let [a, b] = [solved[i * order + j], solved[(n + i) * order + j]];
-                own[i * order + j] = length * (re * a - im * b);
-                own[(n + i) * order + j] = length * (re * b + im * a);
+                let a = compliance[i * order + j];
+                let b = compliance[(n + i) * order + j];
+                work[i * order + j] = length * (re * a - im * b);
+                work[(n + i) * order + j] = length * (re * b + im * a);
             }
         }
-        let entry = |k: usize| 0.5 * (own[k] + own[k % order * order + k / order]);
-        (0..order * order).map(entry).collect()
+        (0..order * order).map(|k| 0.5 * (work[k] + work[k % order * order + k / order])).collect()
     }
 }
 
+/// Adds real numbers times a complex factor to complex ones.
+fn add_multiple(sum: &mut [f64], values: &[f64], [re, im]: [f64; 2]) {
+    for (sum, value) in sum.chunks_exact_mut(2).zip(values) {
+        sum[0] += re * value;
+        sum[1] += im * value;
+    }
+}
+
+/// A complex matrix of order n as a real one: [[Re, −Im], [Im, Re]].
+fn real_form(complex: &[f64], n: usize) -> Vec<f64> {
+    let order = 2 * n;
+    let mut matrix = vec![0.0; order * order];
+    for (position, pair) in complex.chunks_exact(2).enumerate() {
+        let i = position / n;
+        let j = position % n;
+        matrix[i * order + j] = pair[0];
+        matrix[(n + i) * order + n + j] = pair[0];
+        matrix[i * order + n + j] = -pair[1];
+        matrix[(n + i) * order + j] = pair[1];
+    }
+    matrix
+}
+
 fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
-    let mut found = vec![0.0; n * n];
-    for (row, own) in found.chunks_exact_mut(n).zip(a.chunks_exact(n)) {
-        for (factor, line) in own.iter().zip(b.chunks_exact(n)) {
-            row.iter_mut().zip(line).for_each(|(sum, x)| *sum += factor * x);
+    let mut product = vec![0.0; n * n];
+    for (product_row, a_row) in product.chunks_exact_mut(n).zip(a.chunks_exact(n)) {
+        for (factor, b_row) in a_row.iter().zip(b.chunks_exact(n)) {
+            product_row.iter_mut().zip(b_row).for_each(|(sum, x)| *sum += factor * x);
         }
     }
-    found
+    product
 }
 
 /// Number of eigenvalues of a symmetric matrix below `shift`: its negative pivots (Sylvester).
@@ -158,19 +205,19 @@ fn eigenvalues_below(matrix: &[f64], n: usize, shift: f64) -> usize {
     let mut a = matrix.to_vec();
     (0..n).for_each(|i| a[i * n + i] -= shift);
     for k in 0..n {
-        let (done, rest) = a.split_at_mut((k + 1) * n);
-        let row = &done[k * n..];
-        for line in rest.chunks_exact_mut(n) {
-            let factor = line[k] / row[k];
-            line[k..].iter_mut().zip(&row[k..]).for_each(|(x, own)| *x -= factor * own);
+        let (eliminated, remaining) = a.split_at_mut((k + 1) * n);
+        let pivot_row = &eliminated[k * n..];
+        for row in remaining.chunks_exact_mut(n) {
+            let factor = row[k] / pivot_row[k];
+            row[k..].iter_mut().zip(&pivot_row[k..]).for_each(|(x, pivot)| *x -= factor * pivot);
         }
     }
     (0..n).filter(|i| a[i * n + i] < 0.0).count()
 }
 
-/// Place between `low` and `high` from which on a condition holds.
-fn edge(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
+/// Number between `low` and `high` from which on a condition holds.
+fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..BISECTION_COUNT {
         let middle = 0.5 * (low + high);
         if holds(middle) { high = middle } else { low = middle }
     }

@@ -9,12 +9,17 @@ use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
 /// Content above this frequency counts as chatter, Hz.
-const CUT: f64 = 20.0;
-const DENSITY: f64 = 1500.0;
-const WIDTH: f64 = 4.0;
+const CUTOFF_FREQUENCY: f64 = 20.0;
+const BLOCK_DENSITY: f64 = 1500.0;
+const BLOCK_WIDTH: f64 = 4.0;
+
+pub use ChatterResult as Outcome;
+pub use ChatterScene as Scene;
+pub use ChatterScheme as Scheme;
 
 #[derive(Debug, Clone, Copy)]
-pub enum Scheme {
+/// Time integration of the run.
+pub enum ChatterScheme {
     Midpoint,
     Theta(f64),
     Dissipative(f64),
@@ -22,9 +27,9 @@ pub enum Scheme {
 
 /// A run of the block under El Centro × 2.
 #[derive(Debug, Clone, Copy)]
-pub struct Scene {
+pub struct ChatterScene {
     pub friction: f64,
-    pub scheme: Scheme,
+    pub scheme: ChatterScheme,
     pub activation: UnilateralCondition,
     pub shear_speed: f64,
     pub elements: usize,
@@ -37,7 +42,7 @@ pub struct Scene {
 
 /// Results of a run; forces relative to the weight, energies to the input's peak.
 #[derive(Debug, Clone, Copy)]
-pub struct Outcome {
+pub struct ChatterResult {
     pub rms_above: f64,
     pub peak_above: f64,
     /// Root mean square of what alternates from step to step.
@@ -59,10 +64,10 @@ pub struct Outcome {
     pub changes: usize,
 }
 
-impl Scene {
-    pub fn run(&self) -> Result<Outcome> {
+impl ChatterScene {
+    pub fn run(&self) -> Result<ChatterResult> {
         let soil = Soil::new(1900.0 * self.shear_speed.powi(2), 0.33, 1900.0)?;
-        let half = 0.5 * WIDTH;
+        let half = 0.5 * BLOCK_WIDTH;
         let law = Coulomb::new(self.friction)?.with_unilateral_condition(self.activation)?;
         let builder = Simulation::builder(self.time_step)
             .ground(ElasticGround::new(soil, Strip::uniform(-half..half, self.elements)?)?)
@@ -70,18 +75,18 @@ impl Scene {
             .motion(el_centro_1940().scaled(2.0)?)
             .gravity(STANDARD_GRAVITY);
         let builder = match self.scheme {
-            Scheme::Midpoint => builder.scheme(Midpoint),
-            Scheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
-            Scheme::Dissipative(gamma) => builder.scheme(DissipativeMidpoint::new(gamma)?),
+            ChatterScheme::Midpoint => builder.scheme(Midpoint),
+            ChatterScheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            ChatterScheme::Dissipative(gamma) => builder.scheme(DissipativeMidpoint::new(gamma)?),
         };
         let builder = match self.young {
             None => {
-                let block = RigidBlock::new(WIDTH, self.height, DENSITY)?;
+                let block = RigidBlock::new(BLOCK_WIDTH, self.height, BLOCK_DENSITY)?;
                 let top = block.horizontal_at(self.height);
                 builder.structure(block).probe(Probe::acceleration("top", top))
             }
             Some(young) => {
-                let material = Material::new(young, 0.2, DENSITY)?;
+                let material = Material::new(young, 0.2, BLOCK_DENSITY)?;
                 let rows = self.elements;
                 let layers = [Layer::new(self.height, rows, material)];
                 let mesh = Mesh::layered_block(-half..half, self.elements, &layers)?;
@@ -92,33 +97,35 @@ impl Scene {
             }
         };
         let mut simulation = builder.build()?;
-        let weight = WIDTH * self.height * DENSITY * STANDARD_GRAVITY;
-        let (mut force, mut acceleration) = (Vec::new(), Vec::new());
-        let (mut penetration, mut input) = (0.0_f64, 0.0_f64);
+        let weight = BLOCK_WIDTH * self.height * BLOCK_DENSITY * STANDARD_GRAVITY;
+        let mut force = Vec::new();
+        let mut acceleration = Vec::new();
+        let mut penetration = 0.0_f64;
+        let mut max_input = 0.0_f64;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let steps = (self.duration / self.time_step).round() as usize;
         let run = simulation.run(steps, |state| {
             force.push(state.normal_force / weight);
             acceleration.push(state.probes[0] / STANDARD_GRAVITY);
-            input = input.max(state.energy_balance.input.abs());
+            max_input = max_input.max(state.energy_balance.input.abs());
             for contact in &state.contact {
                 penetration = penetration.max(-contact.gap);
             }
         })?;
-        let fast = high_pass(&force, self.time_step);
-        Ok(Outcome {
+        let force_above = high_pass(&force, self.time_step);
+        Ok(ChatterResult {
             alternating: alternating(&force),
             acceleration_above: root_mean_square(&high_pass(&acceleration, self.time_step)),
             acceleration_alternating: alternating(&acceleration),
             shear: run.whole.base_shear.magnitude() / weight,
-            rms_above: root_mean_square(&fast),
-            peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
+            rms_above: root_mean_square(&force_above),
+            peak_above: force_above.iter().fold(0.0, |m, f| m.max(f.abs())),
             peak_slip: run.whole.largest_slip.largest().value.abs(),
             residual_slip: run.whole.residual_slip,
             uplift: run.whole.uplifted_fraction.largest().value,
             rotation: run.whole.base_rotation.magnitude(),
-            contact: run.energy_balance.contact / input,
-            algorithmic: run.energy_balance.algorithmic / input,
+            contact: run.energy_balance.contact / max_input,
+            algorithmic: run.energy_balance.algorithmic / max_input,
             penetration,
             energy_error: run.energy_error,
             changes: run.mode_changes,
@@ -132,29 +139,35 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 /// Root mean square of what alternates from step to step.
 fn alternating(values: &[f64]) -> f64 {
-    let parts: Vec<f64> = values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
-    root_mean_square(&parts)
+    let components: Vec<f64> =
+        values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
+    root_mean_square(&components)
 }
 
-/// Content above [`CUT`]: fourth-order Butterworth high-pass, forwards and backwards, so that it
+/// Content above [`CUTOFF_FREQUENCY`]: fourth-order Butterworth high-pass, forwards and backwards, so that it
 /// shifts nothing in time.
 fn high_pass(signal: &[f64], time_step: f64) -> Vec<f64> {
-    let mut out: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
+    let mut filtered: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
     for _ in 0..2 {
         for damping in [0.923_879_532_511_286_7, 0.382_683_432_365_089_8] {
-            section(&mut out, damping, time_step);
+            second_order_section(&mut filtered, damping, time_step);
         }
-        out.reverse();
+        filtered.reverse();
     }
-    out
+    filtered
 }
 
-/// One second-order section s²/(s² + 2ζωs + ω²), bilinear with the cut-off kept.
-fn section(signal: &mut [f64], damping: f64, time_step: f64) {
-    let k = (std::f64::consts::PI * CUT * time_step).tan();
+/// One section s²/(s² + 2ζωs + ω²), by the bilinear transform with the same cut-off.
+fn second_order_section(signal: &mut [f64], damping: f64, time_step: f64) {
+    let k = (std::f64::consts::PI * CUTOFF_FREQUENCY * time_step).tan();
     let norm = 1.0 + 2.0 * damping * k + k * k;
-    let (a1, a2) = (2.0 * (k * k - 1.0) / norm, (1.0 - 2.0 * damping * k + k * k) / norm);
-    let (mut x1, mut x2, mut y1, mut y2) = (0.0, 0.0, 0.0, 0.0);
+    let a1 = 2.0 * (k * k - 1.0) / norm;
+    let a2 = (1.0 - 2.0 * damping * k + k * k) / norm;
+    // Input and output one and two samples before.
+    let mut x1 = 0.0;
+    let mut x2 = 0.0;
+    let mut y1 = 0.0;
+    let mut y2 = 0.0;
     for x in signal {
         let y = (*x - 2.0 * x1 + x2) / norm - a1 * y1 - a2 * y2;
         (x2, x1, y2, y1) = (x1, *x, y1, y);

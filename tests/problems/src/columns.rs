@@ -3,21 +3,26 @@
 use basemat::fem::{BeamSection, Direction, Element, SpaceBeam};
 
 use crate::space_beams::{concrete, section};
-use crate::supported::{CLAMPED, Supported};
+use crate::supported::{CLAMPED_DIRECTIONS, SupportedMesh};
 
-pub const LENGTH: f64 = 4.0;
+pub use COLUMN_LENGTH as LENGTH;
+pub use self_weight_buckling as own_weight;
+
+/// m.
+pub const COLUMN_LENGTH: f64 = 4.0;
 /// Weight per length, N/m, at a gravity of 1 m/s².
-const WEIGHT: f64 = 2500.0 * 0.12;
+const WEIGHT_PER_LENGTH: f64 = 2500.0 * 0.12;
 
 /// The beam between a node and the next.
-pub fn beam(k: usize, section: BeamSection) -> SpaceBeam {
-    SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap()
+pub fn beam(node: usize, section: BeamSection) -> SpaceBeam {
+    SpaceBeam::new([node, node + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap()
 }
 
-fn nodes(count: usize) -> Supported {
-    let mut scene = Supported::new();
+/// Nodes along the column, without elements.
+fn column_nodes(count: usize) -> SupportedMesh {
+    let mut scene = SupportedMesh::new();
     for k in 0..=count {
-        scene.node([0.0, 0.0, LENGTH * k as f64 / count as f64]);
+        scene.node([0.0, 0.0, COLUMN_LENGTH * k as f64 / count as f64]);
     }
     scene
 }
@@ -29,7 +34,7 @@ pub fn supported(
     foot: &[Direction],
     head: &[Direction],
 ) -> f64 {
-    let mut scene = nodes(count);
+    let mut scene = column_nodes(count);
     for k in 0..count {
         scene.add(beam(k, section).with_compression(1.0).unwrap());
     }
@@ -39,34 +44,34 @@ pub fn supported(
 }
 
 /// Weight at which a cantilever buckles under it, N.
-pub fn own_weight(count: usize) -> f64 {
-    let height = LENGTH / count as f64;
-    let mut scene = nodes(count);
+pub fn self_weight_buckling(count: usize) -> f64 {
+    let height = COLUMN_LENGTH / count as f64;
+    let mut scene = column_nodes(count);
     for k in 0..count {
         // Shortening of the beam by the weight above its middle.
-        let above = WEIGHT * (LENGTH - height * (k as f64 + 0.5));
+        let weight_above = WEIGHT_PER_LENGTH * (COLUMN_LENGTH - height * (k as f64 + 0.5));
         let mut displacement = [0.0; 12];
-        displacement[8] = -above * height / (30.0e9 * 0.12);
-        let own = beam(k, section());
-        let points = scene.points(own.nodes());
-        scene.add(own.in_static_state(&points, &displacement, 1.0).unwrap());
+        displacement[8] = -weight_above * height / (30.0e9 * 0.12);
+        let beam = beam(k, section());
+        let points = scene.points(beam.nodes());
+        scene.add(beam.in_static_state(&points, &displacement, 1.0).unwrap());
     }
-    scene.hold(0, &CLAMPED);
-    scene.buckling() * WEIGHT * LENGTH
+    scene.hold(0, &CLAMPED_DIRECTIONS);
+    scene.buckling() * WEIGHT_PER_LENGTH * COLUMN_LENGTH
 }
 
 /// Buckling load of a cantilever of 2.5 m under a rigid arm of 1.5 m, N.
 pub fn rigid_head(count: usize) -> f64 {
-    let mut scene = Supported::new();
+    let mut scene = SupportedMesh::new();
     for k in 0..count {
         scene.node([0.0, 0.0, 2.5 * k as f64 / count as f64]);
     }
-    scene.node([0.0, 0.0, LENGTH]);
+    scene.node([0.0, 0.0, COLUMN_LENGTH]);
     for k in 0..count {
         let arm = if k + 1 == count { -1.5 } else { 0.0 };
-        let own = beam(k, section()).with_compression(1.0).unwrap();
-        scene.add(own.with_offsets([[0.0; 3], [0.0, 0.0, arm]]).unwrap());
+        let beam = beam(k, section()).with_compression(1.0).unwrap();
+        scene.add(beam.with_offsets([[0.0; 3], [0.0, 0.0, arm]]).unwrap());
     }
-    scene.hold(0, &CLAMPED);
+    scene.hold(0, &CLAMPED_DIRECTIONS);
     scene.buckling()
 }

@@ -8,18 +8,27 @@ use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil, unobserved};
 
-use super::prescribed::Prescribed;
+use super::prescribed::PrescribedGround;
 use super::random::Random;
 
 /// Steps of a sequence: problems with the same matrix, each from where the last one ended.
-pub const STEPS: usize = 20;
+pub const SEQUENCE_STEPS: usize = 20;
 /// Differences of solutions below this, relative to the largest traction, are rounding.
-const DISTINCT: f64 = 1e-6;
-/// Tolerance of brute force, relative to the largest traction and to the largest jump.
-const SLACK: f64 = 1e-10;
+const DISTINCTION_TOLERANCE: f64 = 1e-6;
+/// Of brute force, relative to the largest traction and to the largest jump.
+const VIOLATION_TOLERANCE: f64 = 1e-10;
 
-/// Delassus operator of a rigid block on a half-plane, and its elements.
-fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElement>) {
+pub use ContactTally as Tally;
+pub use SEQUENCE_STEPS as STEPS;
+
+/// Matrix of a problem, and its elements.
+struct ProblemMatrix {
+    delassus: Vec<f64>,
+    elements: Vec<ContactElement>,
+}
+
+/// Delassus operator of a rigid block on a half-plane.
+fn rigid_block_matrix(count: usize, random: &mut Random) -> ProblemMatrix {
     let poisson = random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]);
     let soil = Soil::new(1e8, poisson, 2000.0).unwrap();
     let strip = if random.chance(0.5) { Strip::graded } else { Strip::uniform };
@@ -31,41 +40,44 @@ fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElemen
     let mut matrix = vec![0.0; size * size];
     ground.step_compliance(&mut matrix).unwrap();
     // B (2M/Δt²)⁻¹ Bᵀ A of a block with mass m, inertia I and centre of gravity at h.
-    let (mass, height) = (random.log_within(1e3, 1e6), random.within(0.1, 8.0));
+    let mass = random.log_within(1e3, 1e6);
+    let height = random.within(0.1, 8.0);
     let inertia = mass * (16.0 + 4.0 * height * height) / 12.0;
     let scale = 0.5 * time_step * time_step;
     let elements = ground.elements();
     for (i, j) in (0..size * size).map(|k| (k / size, k % size)) {
-        let (x, y) = (elements[i % count].center()[0], elements[j % count].center()[0]);
-        let mean = match (i < count, j < count) {
+        let x = elements[i % count].center()[0];
+        let y = elements[j % count].center()[0];
+        let mobility = match (i < count, j < count) {
             (true, true) => 1.0 / mass + x * y / inertia,
             (true, false) => -x * height / inertia,
             (false, true) => -y * height / inertia,
             (false, false) => 1.0 / mass + height * height / inertia,
         };
-        matrix[i * size + j] += scale * mean * elements[j % count].length();
+        matrix[i * size + j] += scale * mobility * elements[j % count].length();
     }
-    (matrix, elements.to_vec())
+    ProblemMatrix { delassus: matrix, elements: elements.to_vec() }
 }
 
 /// Any symmetric positive definite matrix.
-fn invented(count: usize, random: &mut Random) -> Vec<f64> {
+fn random_matrix(count: usize, random: &mut Random) -> ProblemMatrix {
     let size = 2 * count;
     let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
-    let own = random.log_within(1e-3, 1.0);
+    let diagonal = random.log_within(1e-3, 1.0);
     let mut matrix = vec![0.0; size * size];
     for (i, j) in (0..size * size).map(|k| (k / size, k % size)) {
         let product: f64 = (0..size).map(|k| root[i * size + k] * root[j * size + k]).sum();
-        matrix[i * size + j] = product + if i == j { own } else { 0.0 };
+        matrix[i * size + j] = product + if i == j { diagonal } else { 0.0 };
     }
-    matrix
+    let elements = Strip::uniform(0.0..count as f64, count).unwrap().elements();
+    ProblemMatrix { delassus: matrix, elements }
 }
 
 /// jump = motion + W τ, with Coulomb's conditions on it.
-struct Problem<'a> {
+struct StepProblem<'a> {
     matrix: &'a [f64],
     motion: &'a [f64],
-    /// Slips before.
+    /// Slips at the start of the step.
     slip: Vec<f64>,
     friction: f64,
 }
@@ -75,7 +87,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()))
 }
 
-impl Problem<'_> {
+impl StepProblem<'_> {
     fn jump(&self, traction: &[f64]) -> Vec<f64> {
         let size = traction.len();
         (0..size)
@@ -91,19 +103,21 @@ impl Problem<'_> {
     fn violation(&self, traction: &[f64]) -> f64 {
         let count = traction.len() / 2;
         let jump = self.jump(traction);
-        let (force, length) = (largest(traction), largest(&jump).max(largest(self.motion)));
+        let force = largest(traction);
+        let length = largest(&jump).max(largest(self.motion));
         (0..count)
             .map(|e| {
-                let (pressure, shear) = (traction[e] / force, traction[count + e] / force);
+                let pressure = traction[e] / force;
+                let shear = traction[count + e] / force;
                 let gap = jump[e] / length;
-                let advance = (-jump[count + e] - self.slip[e]) / length;
+                let slip_increment = (-jump[count + e] - self.slip[e]) / length;
                 let open = pressure.abs().max(shear.abs()).max(-gap);
                 let closed = gap.abs().max(-pressure);
-                let stick = advance.abs().max(shear.abs() - self.friction * pressure);
-                let slides = |sense: f64| {
-                    (shear - sense * self.friction * pressure).abs().max(-sense * advance)
-                };
-                open.min(closed.max(stick.min(slides(1.0)).min(slides(-1.0))))
+                let stick = slip_increment.abs().max(shear.abs() - self.friction * pressure);
+                let slip = [1.0, -1.0].map(|sense: f64| {
+                    (shear - sense * self.friction * pressure).abs().max(-sense * slip_increment)
+                });
+                open.min(closed.max(stick.min(slip[0]).min(slip[1])))
             })
             .fold(0.0, f64::max)
     }
@@ -112,55 +126,67 @@ impl Problem<'_> {
     fn solutions(&self) -> Vec<Vec<f64>> {
         let size = self.motion.len();
         let count = size / 2;
-        let mut found: Vec<Vec<f64>> = Vec::new();
+        let mut solutions: Vec<Vec<f64>> = Vec::new();
         for number in 0..4_usize.pow(u32::try_from(count).unwrap()) {
-            let mode = |e: usize| number >> (2 * e) & 3;
-            let mut rows = vec![0.0; size * size];
-            let mut rhs = vec![0.0; size];
+            let mut system = LinearSystem::new(size);
             for e in 0..count {
-                let (n, t) = (e, count + e);
-                let mut condition = |row: usize, whole: bool, value: f64, own: f64| {
-                    let out = &mut rows[row * size..(row + 1) * size];
-                    if whole {
-                        out.copy_from_slice(&self.matrix[row * size..(row + 1) * size]);
-                        rhs[row] = value - self.motion[row];
-                    } else {
-                        out[row] = 1.0;
-                        if row == t {
-                            out[n] = own;
-                        }
-                    }
-                };
-                match mode(e) {
+                let normal = e;
+                let tangential = count + e;
+                match number >> (2 * e) & 3 {
                     0 => {
-                        condition(n, true, 0.0, 0.0);
-                        condition(t, true, -self.slip[e], 0.0);
+                        self.prescribe_jump(&mut system, normal, 0.0);
+                        self.prescribe_jump(&mut system, tangential, -self.slip[e]);
                     }
                     1 => {
-                        condition(n, true, 0.0, 0.0);
-                        condition(t, false, 0.0, -self.friction);
+                        self.prescribe_jump(&mut system, normal, 0.0);
+                        system.relate_tractions(tangential, normal, -self.friction);
                     }
                     2 => {
-                        condition(n, true, 0.0, 0.0);
-                        condition(t, false, 0.0, self.friction);
+                        self.prescribe_jump(&mut system, normal, 0.0);
+                        system.relate_tractions(tangential, normal, self.friction);
                     }
                     _ => {
-                        condition(n, false, 0.0, 0.0);
-                        condition(t, false, 0.0, 0.0);
+                        system.rows[normal * size + normal] = 1.0;
+                        system.relate_tractions(tangential, normal, 0.0);
                     }
                 }
             }
-            let Some(traction) = solve(rows, rhs) else { continue };
-            if self.violation(&traction) > SLACK {
+            let Some(traction) = solve(system.rows, system.right_side) else { continue };
+            if self.violation(&traction) > VIOLATION_TOLERANCE {
                 continue;
             }
-            let scale = largest(&traction);
-            let new = |known: &Vec<f64>| distance(known, &traction) > DISTINCT * scale;
-            if found.iter().all(new) {
-                found.push(traction);
+            let tolerance = DISTINCTION_TOLERANCE * largest(&traction);
+            if solutions.iter().all(|other| distance(other, &traction) > tolerance) {
+                solutions.push(traction);
             }
         }
-        found
+        solutions
+    }
+
+    /// The row of a jump: motion + W τ = value.
+    fn prescribe_jump(&self, system: &mut LinearSystem, row: usize, value: f64) {
+        let range = row * system.size..(row + 1) * system.size;
+        system.rows[range.clone()].copy_from_slice(&self.matrix[range]);
+        system.right_side[row] = value - self.motion[row];
+    }
+}
+
+/// Equations of the tractions.
+struct LinearSystem {
+    size: usize,
+    rows: Vec<f64>,
+    right_side: Vec<f64>,
+}
+
+impl LinearSystem {
+    fn new(size: usize) -> Self {
+        Self { size, rows: vec![0.0; size * size], right_side: vec![0.0; size] }
+    }
+
+    /// The row of a shear traction: shear + factor · pressure = 0.
+    fn relate_tractions(&mut self, shear: usize, pressure: usize, factor: f64) {
+        self.rows[shear * self.size + shear] = 1.0;
+        self.rows[shear * self.size + pressure] = factor;
     }
 }
 
@@ -172,9 +198,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 fn solve(mut matrix: Vec<f64>, mut rhs: Vec<f64>) -> Option<Vec<f64>> {
     let n = rhs.len();
     for k in 0..n {
-        let by_size =
-            |i: &usize, j: &usize| matrix[i * n + k].abs().total_cmp(&matrix[j * n + k].abs());
-        let pivot = (k..n).max_by(by_size)?;
+        let pivot =
+            (k..n).max_by(|&i, &j| matrix[i * n + k].abs().total_cmp(&matrix[j * n + k].abs()))?;
         if matrix[pivot * n + k] == 0.0 {
             return None;
         }
@@ -201,7 +226,7 @@ fn solve(mut matrix: Vec<f64>, mut rhs: Vec<f64>) -> Option<Vec<f64>> {
 
 /// Results of a number of problems.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Tally {
+pub struct ContactTally {
     pub problems: usize,
     /// Active set, Gauss–Seidel, path.
     pub methods: [usize; 3],
@@ -218,17 +243,17 @@ pub struct Tally {
     pub distance: f64,
 }
 
-impl Tally {
-    fn see(&mut self, problem: &Problem<'_>, state: &State) {
+impl ContactTally {
+    fn add_step(&mut self, problem: &StepProblem<'_>, state: &State) {
         let contact = &state.contact;
         let traction: Vec<f64> =
             contact.iter().map(|c| c.pressure).chain(contact.iter().map(|c| c.shear)).collect();
         // Gaps and slips must be those that the tractions give.
         let jump = problem.jump(&traction);
-        let shown = contact.iter().map(|c| c.gap).chain(contact.iter().map(|c| -c.slip));
+        let stated = contact.iter().map(|c| c.gap).chain(contact.iter().map(|c| -c.slip));
         let scale = largest(&jump).max(largest(problem.motion));
-        let open = shown.zip(&jump).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale;
-        self.violation = self.violation.max(problem.violation(&traction)).max(open);
+        let jump_error = stated.zip(&jump).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale;
+        self.violation = self.violation.max(problem.violation(&traction)).max(jump_error);
         let solutions = problem.solutions();
         self.none += usize::from(solutions.is_empty());
         self.several += usize::from(solutions.len() > 1);
@@ -263,16 +288,22 @@ impl Tally {
     }
 }
 
-/// One sequence of problems with one matrix of `count` elements.
-pub fn sequence(count: usize, friction: f64, real: bool, random: &mut Random) -> Tally {
-    let (matrix, elements) = if real {
-        of_a_scene(count, random)
+/// One sequence of problems with one matrix of `count` elements: of a rigid block, or a random one.
+pub fn sequence(
+    count: usize,
+    friction: f64,
+    is_rigid_block: bool,
+    random: &mut Random,
+) -> ContactTally {
+    let ProblemMatrix { delassus: matrix, elements } = if is_rigid_block {
+        rigid_block_matrix(count, random)
     } else {
-        (invented(count, random), Strip::uniform(0.0..count as f64, count).unwrap().elements())
+        random_matrix(count, random)
     };
     let size = 2 * count;
-    let (left, right) = (elements[0].left(), elements[count - 1].right());
-    let (ground, motion) = Prescribed::new(elements, matrix.clone());
+    let left = elements[0].left();
+    let right = elements[count - 1].right();
+    let (ground, motion) = PrescribedGround::new(elements, matrix.clone());
     let body = RigidBlock::from_mass(right - left, 1e60, 1e60, 0.0).unwrap();
     let mut simulation = Simulation::builder(1.0)
         .structure(body.centered_at(0.5 * (left + right)).unwrap())
@@ -281,27 +312,31 @@ pub fn sequence(count: usize, friction: f64, real: bool, random: &mut Random) ->
         .gravity(0.0)
         .build()
         .unwrap();
-    let mut tally = Tally::default();
-    for _ in 0..STEPS {
-        let before = simulation.state().contact.clone();
+    let mut tally = ContactTally::default();
+    for _ in 0..SEQUENCE_STEPS {
+        let previous_contact = simulation.state().contact.clone();
         let strength = random.log_within(0.1, 10.0);
-        let moving: Vec<f64> = (0..size)
+        let driving_traction: Vec<f64> = (0..size)
             .map(|i| strength * (random.within(-1.0, 1.0) - if i < count { 0.2 } else { 0.0 }))
             .collect();
-        let next: Vec<f64> = (0..size)
+        let next_motion: Vec<f64> = (0..size)
             .map(|i| {
                 let row = &matrix[i * size..(i + 1) * size];
-                let moved: f64 = row.iter().zip(&moving).map(|(w, t)| w * t).sum();
-                let start = if i < count { before[i].gap } else { -before[i - count].slip };
-                start + moved
+                let increment: f64 = row.iter().zip(&driving_traction).map(|(w, t)| w * t).sum();
+                let start = if i < count {
+                    previous_contact[i].gap
+                } else {
+                    -previous_contact[i - count].slip
+                };
+                start + increment
             })
             .collect();
-        motion.lock().unwrap().copy_from_slice(&next);
-        let slip = before.iter().map(|c| c.slip).collect();
-        let problem = Problem { matrix: &matrix, motion: &next, slip, friction };
+        motion.lock().unwrap().copy_from_slice(&next_motion);
+        let slip = previous_contact.iter().map(|c| c.slip).collect();
+        let problem = StepProblem { matrix: &matrix, motion: &next_motion, slip, friction };
         tally.problems += 1;
         if let Ok(state) = simulation.step() {
-            tally.see(&problem, state);
+            tally.add_step(&problem, state);
         } else {
             tally.failed += 1;
             tally.none += usize::from(problem.solutions().is_empty());

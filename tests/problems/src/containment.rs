@@ -14,13 +14,16 @@ use basemat::interface::{
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{DofCombination, FemModel, RayleighDamping, Structure};
 
-pub const FOOT: f64 = 0.3048;
+pub const METRES_PER_FOOT: f64 = 0.3048;
+/// N/m.
 pub const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
-pub const PSF: f64 = 47.880_258_980_335_84;
+/// Pounds per square foot, Pa.
+pub const POUND_PER_SQUARE_FOOT: f64 = 47.880_258_980_335_84;
+/// kg/m³.
 pub const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
 
 /// Rows of the paper's Table 1 and their friction; `None` is bonded, infinity uplift only.
-pub const ROWS: [(&str, Option<f64>); 5] = [
+pub const TABLE_1_ROWS: [(&str, Option<f64>); 5] = [
     ("bonded", None),
     ("uplift only", Some(f64::INFINITY)),
     ("friction 0.4", Some(0.4)),
@@ -29,6 +32,10 @@ pub const ROWS: [(&str, Option<f64>); 5] = [
 ];
 /// Their peak base shears, printed in lb, taken as lb/ft.
 pub const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
+
+pub use METRES_PER_FOOT as FOOT;
+pub use PermanentLayer as Glue;
+pub use TABLE_1_ROWS as ROWS;
 
 /// Choices of the model; the defaults are given in the paper, calibrated, or assumed.
 #[derive(Debug, Clone, Copy)]
@@ -70,21 +77,26 @@ impl Default for Containment {
 
 const SUPERSTRUCTURE_DENSITY: f64 = 0.590_06;
 
+/// A material by Young's modulus (psf) and density (slug/ft³).
+fn solid(young_psf: f64, density: f64) -> basemat::Result<Material> {
+    Material::new(young_psf * POUND_PER_SQUARE_FOOT, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
+}
+
 impl Containment {
     pub fn soil(&self) -> basemat::Result<Soil> {
-        let [shear, pressure] = self.wave_speeds.map(|speed| speed * FOOT);
-        Soil::from_wave_speeds(shear, pressure, self.soil_density * SLUG_PER_CUBIC_FOOT)
+        let speeds = self.wave_speeds.map(|speed| speed * METRES_PER_FOOT);
+        Soil::from_wave_speeds(speeds[0], speeds[1], self.soil_density * SLUG_PER_CUBIC_FOOT)
     }
 
     /// The base, m.
     pub fn base(&self) -> Range<f64> {
-        let half = 0.5 * self.width * FOOT;
+        let half = 0.5 * self.width * METRES_PER_FOOT;
         -half..half
     }
 
     /// Height of a layer, m.
     pub fn layer_height(&self) -> f64 {
-        self.height * FOOT / self.layers as f64
+        self.height * METRES_PER_FOOT / self.layers as f64
     }
 
     /// Height of all layers but the basemat, m.
@@ -99,23 +111,14 @@ impl Containment {
 
     /// The finite elements.
     pub fn structure(&self) -> basemat::Result<FemModel> {
-        let solid = |young_psf: f64, density: f64| {
-            Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
-        };
-        let layer = |height, rows, material| Layer {
-            formulation: self.formulation,
-            ..Layer::new(height, rows, material)
-        };
         let foundation = solid(106_560_369.0, self.foundation_density)?;
         let superstructure = solid(106_577_648.0, SUPERSTRUCTURE_DENSITY)?;
-        let mesh = Mesh::layered_block(
-            self.base(),
-            self.elements,
-            &[
-                layer(self.layer_height(), 1, foundation),
-                layer(self.superstructure_height(), self.layers - 1, superstructure),
-            ],
-        )?;
+        let layers = [
+            Layer::new(self.layer_height(), 1, foundation),
+            Layer::new(self.superstructure_height(), self.layers - 1, superstructure),
+        ]
+        .map(|layer| Layer { formulation: self.formulation, ..layer });
+        let mesh = Mesh::layered_block(self.base(), self.elements, &layers)?;
         let model = FemModel::on_base(mesh)?;
         if self.damping > 0.0 {
             let damping = RayleighDamping::from_ratios([1.0, 10.0], [self.damping; 2])?;
@@ -126,15 +129,15 @@ impl Containment {
 
     /// Mass per metre of thickness, kg/m.
     pub fn mass(&self) -> f64 {
-        let above = (self.layers - 1) as f64 * SUPERSTRUCTURE_DENSITY;
-        let density = (self.foundation_density + above) * SLUG_PER_CUBIC_FOOT;
-        self.width * FOOT * self.layer_height() * density
+        let superstructure = (self.layers - 1) as f64 * SUPERSTRUCTURE_DENSITY;
+        let density = (self.foundation_density + superstructure) * SLUG_PER_CUBIC_FOOT;
+        self.width * METRES_PER_FOOT * self.layer_height() * density
     }
 
     /// Mass of the superstructure per metre of thickness, kg/m.
     pub fn superstructure_mass(&self) -> f64 {
         let height = self.superstructure_height();
-        self.width * FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
+        self.width * METRES_PER_FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
     }
 
     /// Weights of all and of the superstructure per metre of thickness, N/m.
@@ -144,13 +147,13 @@ impl Containment {
 
     /// Mean horizontal motion of the nodes at the foundation's top, as terms of a probe.
     pub fn foundation_top(&self, model: &FemModel) -> basemat::Result<Vec<(usize, f64)>> {
-        let share = 1.0 / (self.elements + 1) as f64;
+        let node_weight = 1.0 / (self.elements + 1) as f64;
         let Range { start, end } = self.base();
         let mut terms = Vec::new();
         for k in 0..=self.elements {
             let x = start + (end - start) * k as f64 / self.elements as f64;
             let row = model.row(model.mesh().node_at(x, self.layer_height())?, Direction::X)?;
-            terms.extend(row.iter().map(|(unknown, weight)| (*unknown, share * weight)));
+            terms.extend(row.iter().map(|(dof, weight)| (*dof, node_weight * weight)));
         }
         Ok(terms)
     }
@@ -163,14 +166,15 @@ impl Containment {
     /// "roof x" and "roof y", absolute motion of location A; "base shear"; "sway", the horizontal displacement of A
     /// against the base.
     pub fn probes(&self, model: &FemModel) -> basemat::Result<[Probe; 4]> {
-        let [left, roof] = self.corner();
-        let corner = model.mesh().node_at(left, roof)?;
-        let [x, y] = [Direction::X, Direction::Y].map(|direction| model.row(corner, direction));
-        let (x, y) = (x?, y?);
-        let feet: Vec<_> = model.base().nodes().flat_map(|node| node.horizontal.to_vec()).collect();
-        let share = 1.0 / feet.len() as f64;
-        let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
-        let sway: DofCombination = x.iter().copied().chain(feet).collect();
+        let place = self.corner();
+        let corner = model.mesh().node_at(place[0], place[1])?;
+        let x = model.row(corner, Direction::X)?;
+        let y = model.row(corner, Direction::Y)?;
+        let base_terms: Vec<_> =
+            model.base().nodes().flat_map(|node| node.horizontal.to_vec()).collect();
+        let term_weight = 1.0 / base_terms.len() as f64;
+        let base_terms = base_terms.into_iter().map(|(dof, weight)| (dof, -term_weight * weight));
+        let sway: DofCombination = x.iter().copied().chain(base_terms).collect();
         Ok([
             Probe::absolute_displacement("roof x", x),
             Probe::absolute_displacement("roof y", y),
@@ -191,10 +195,10 @@ pub fn pounds_per_foot(force: f64) -> f64 {
     force / POUND_FORCE_PER_FOOT
 }
 
-/// A thin layer that never lets go, in its stick mode for good: what "bonded" is with the paper's interface elements.
-pub struct Glue(pub ThinLayer);
+/// A thin layer that never opens or slides: what "bonded" is with the paper's interface elements.
+pub struct PermanentLayer(pub ThinLayer);
 
-impl PlaneLaw for Glue {
+impl PlaneLaw for PermanentLayer {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

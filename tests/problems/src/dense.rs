@@ -4,7 +4,7 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 
 pub use basemat_testkit::dense::*;
 
-pub fn dense(triplets: &Triplets) -> Matrix {
+pub fn dense(triplets: &Triplets) -> DenseMatrix {
     let mut matrix = vec![vec![0.0; triplets.order()]; triplets.order()];
     for &(row, column, value) in triplets.entries() {
         matrix[row][column] += value;
@@ -25,21 +25,21 @@ pub fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
 pub fn collect(
     structure: &dyn Structure,
     fill: impl FnOnce(&mut Triplets) -> basemat::Result<()>,
-) -> Matrix {
+) -> DenseMatrix {
     let mut triplets = Triplets::new(structure.dofs());
     fill(&mut triplets).unwrap();
     dense(&triplets)
 }
 
-pub fn mass(structure: &dyn Structure) -> Matrix {
+pub fn mass(structure: &dyn Structure) -> DenseMatrix {
     collect(structure, |m| structure.mass(m))
 }
 
-pub fn stiffness(structure: &dyn Structure) -> Matrix {
+pub fn stiffness(structure: &dyn Structure) -> DenseMatrix {
     collect(structure, |m| structure.stiffness(m))
 }
 
-pub fn damping(structure: &dyn Structure) -> Matrix {
+pub fn damping(structure: &dyn Structure) -> DenseMatrix {
     collect(structure, |m| structure.damping(m))
 }
 

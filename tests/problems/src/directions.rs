@@ -2,8 +2,10 @@
 
 use basemat::fem::Direction;
 
+pub use NODE_DIRECTIONS as IN_SPACE;
+
 /// All directions of a node in space: along the axes, then about them.
-pub const IN_SPACE: [Direction; 6] = [
+pub const NODE_DIRECTIONS: [Direction; 6] = [
     Direction::X,
     Direction::Y,
     Direction::Z,

@@ -3,22 +3,45 @@
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, InterfaceLaw, Mode, PreviousContact};
 
-use super::dense::solve;
+use super::dense::{dot, solve};
 use super::random::Random;
 
-/// Number of elements.
-pub const COUNT: usize = 3;
-/// Number of tractions.
-const SIZE: usize = 2 * COUNT;
+pub const ELEMENT_COUNT: usize = 3;
+const TRACTION_COUNT: usize = 2 * ELEMENT_COUNT;
 /// Largest violation of the law by a solution.
-const ROUNDING: f64 = 1e-9;
+const LAW_TOLERANCE: f64 = 1e-9;
 /// Difference of equal tractions.
-const SAME_TRACTION: f64 = 1e-8;
+const SAME_TRACTION_TOLERANCE: f64 = 1e-8;
 
-/// Coefficients of gap, slip, pressure and shear traction, and right-hand side, of both conditions of a mode.
-type Rows = [([f64; 4], f64); 2];
+pub use ELEMENT_COUNT as COUNT;
 
-/// A contact problem in units of its own, and the parameters of the elements' laws.
+/// A linear condition on an element: a gap + b slip + c pressure + d shear = value.
+#[derive(Clone, Copy)]
+struct LinearCondition {
+    /// Of gap, slip, pressure and shear traction.
+    coefficients: [f64; 4],
+    value: f64,
+}
+
+impl LinearCondition {
+    fn new(coefficients: [f64; 4], value: f64) -> Self {
+        Self { coefficients, value }
+    }
+
+    fn gap_is(gap: f64) -> Self {
+        Self::new([1.0, 0.0, 0.0, 0.0], gap)
+    }
+
+    fn slip_is(slip: f64) -> Self {
+        Self::new([0.0, 1.0, 0.0, 0.0], slip)
+    }
+
+    fn pressure_is(pressure: f64) -> Self {
+        Self::new([0.0, 0.0, 1.0, 0.0], pressure)
+    }
+}
+
+/// A dimensionless contact problem, and the parameters of the elements' laws.
 pub struct EnumeratedContact {
     pub delassus: Vec<f64>,
     /// Jumps without tractions.
@@ -48,69 +71,63 @@ impl EnumeratedContact {
         ranges: Ranges,
         bounds: impl FnOnce(&mut Random) -> Vec<[f64; 2]>,
     ) -> Self {
-        let mut numbers = |[low, high]: [f64; 2], count: usize| -> Vec<f64> {
-            (0..count).map(|_| random.within(low, high)).collect()
-        };
-        let root = numbers([-1.0, 1.0], SIZE * SIZE);
-        let delassus = (0..SIZE * SIZE)
-            .map(|k| {
-                let (i, j) = (k / SIZE, k % SIZE);
-                let product: f64 = (0..SIZE).map(|m| root[i * SIZE + m] * root[j * SIZE + m]).sum();
-                product + if i == j { 0.2 } else { 0.0 }
-            })
-            .collect();
-        let free_jump = numbers(ranges.free_jump, SIZE);
-        let pressed = numbers(ranges.pressed, COUNT);
-        let moved = numbers(ranges.moved, COUNT);
-        let slip = numbers([-0.3, 0.3], COUNT);
+        let delassus = random_delassus(random);
+        let free_jump = random_numbers(random, ranges.free_jump, TRACTION_COUNT);
+        let pressed = random_numbers(random, ranges.pressed, ELEMENT_COUNT);
+        let moved = random_numbers(random, ranges.moved, ELEMENT_COUNT);
+        let slip = random_numbers(random, [-0.3, 0.3], ELEMENT_COUNT);
         let bounds = bounds(random);
         let friction = random.pick(&[0.0, 0.2, 0.5, f64::INFINITY]);
         Self { delassus, free_jump, pressed, moved, slip, bounds, friction }
     }
 
     /// Conditions of a mode of an element; `None` if it has no such mode.
-    fn rows(&self, e: usize, mode: Mode) -> Option<Rows> {
-        let [active, passive] = self.bounds[e];
-        let gap = ([1.0, 0.0, 0.0, 0.0], -self.moved[e]);
-        let presses = |pressure: f64| ([0.0, 0.0, 1.0, 0.0], pressure);
-        let stick = ([0.0, 1.0, 0.0, 0.0], self.slip[e]);
-        let slides = |sign: f64| ([0.0, 0.0, -self.friction, sign], 0.0);
+    fn conditions(&self, e: usize, mode: Mode) -> Option<[LinearCondition; 2]> {
+        let active = LinearCondition::pressure_is(self.bounds[e][0]);
+        let passive = LinearCondition::pressure_is(self.bounds[e][1]);
+        let closed = LinearCondition::gap_is(-self.moved[e]);
+        let stick = LinearCondition::slip_is(self.slip[e]);
+        let slip_right = LinearCondition::new([0.0, 0.0, -self.friction, 1.0], 0.0);
+        let slip_left = LinearCondition::new([0.0, 0.0, -self.friction, -1.0], 0.0);
+        let without_pressure = LinearCondition::pressure_is(0.0);
         if self.friction.is_infinite() && mode.is_slip() {
             // Infinite friction slides without pressure alone.
             let is_closed = matches!(mode, Mode::SlipLeft | Mode::SlipRight);
-            return (active == 0.0 && is_closed).then_some([gap, presses(0.0)]);
+            let can_open = self.bounds[e][0] == 0.0;
+            return (can_open && is_closed).then_some([closed, without_pressure]);
         }
         Some(match mode {
-            Mode::Open => [presses(0.0), ([0.0, 0.0, 0.0, 1.0], 0.0)],
-            Mode::Stick => [gap, stick],
-            Mode::Yield => [presses(passive), stick],
-            Mode::Active => [presses(active), stick],
-            Mode::SlipRight => [gap, slides(1.0)],
-            Mode::SlipLeft => [gap, slides(-1.0)],
-            Mode::YieldRight => [presses(passive), slides(1.0)],
-            Mode::YieldLeft => [presses(passive), slides(-1.0)],
-            Mode::ActiveRight => [presses(active), slides(1.0)],
-            Mode::ActiveLeft => [presses(active), slides(-1.0)],
+            Mode::Open => [without_pressure, LinearCondition::new([0.0, 0.0, 0.0, 1.0], 0.0)],
+            Mode::Stick => [closed, stick],
+            Mode::Yield => [passive, stick],
+            Mode::Active => [active, stick],
+            Mode::SlipRight => [closed, slip_right],
+            Mode::SlipLeft => [closed, slip_left],
+            Mode::YieldRight => [passive, slip_right],
+            Mode::YieldLeft => [passive, slip_left],
+            Mode::ActiveRight => [active, slip_right],
+            Mode::ActiveLeft => [active, slip_left],
             other => panic!("{other:?}"),
         })
     }
 
     /// Total tractions and jumps of a choice of modes.
     fn solve(&self, modes: &[Mode]) -> Option<Vec<ContactState>> {
-        let mut matrix = vec![vec![0.0; SIZE]; SIZE];
-        let mut rhs = vec![0.0; SIZE];
+        let mut matrix = vec![vec![0.0; TRACTION_COUNT]; TRACTION_COUNT];
+        let mut rhs = vec![0.0; TRACTION_COUNT];
         for (e, &mode) in modes.iter().enumerate() {
-            for (k, ([g, s, p, t], value)) in self.rows(e, mode)?.into_iter().enumerate() {
+            for (k, condition) in self.conditions(e, mode)?.into_iter().enumerate() {
                 // gap = j_n + W τ, slip = −(j_t + W τ), p = p₀ + τ_n, shear = τ_t.
+                let LinearCondition { coefficients: [g, s, p, t], value } = condition;
                 let row = 2 * e + k;
-                rhs[row] = value - g * self.free_jump[e] + s * self.free_jump[COUNT + e]
+                rhs[row] = value - g * self.free_jump[e] + s * self.free_jump[ELEMENT_COUNT + e]
                     - p * self.pressed[e];
-                for j in 0..SIZE {
-                    matrix[row][j] +=
-                        g * self.delassus[e * SIZE + j] - s * self.delassus[(COUNT + e) * SIZE + j];
+                for j in 0..TRACTION_COUNT {
+                    matrix[row][j] += g * self.delassus[e * TRACTION_COUNT + j]
+                        - s * self.delassus[(ELEMENT_COUNT + e) * TRACTION_COUNT + j];
                 }
                 matrix[row][e] += p;
-                matrix[row][COUNT + e] += t;
+                matrix[row][ELEMENT_COUNT + e] += t;
             }
         }
         let traction = solve(&matrix, &rhs);
@@ -118,56 +135,67 @@ impl EnumeratedContact {
     }
 
     fn states(&self, traction: &[f64]) -> Vec<ContactState> {
-        let jump = |i: usize| -> f64 {
-            let row = &self.delassus[i * SIZE..(i + 1) * SIZE];
-            self.free_jump[i] + row.iter().zip(traction).map(|(w, t)| w * t).sum::<f64>()
-        };
-        (0..COUNT)
+        let jump: Vec<f64> = self
+            .delassus
+            .chunks_exact(TRACTION_COUNT)
+            .zip(&self.free_jump)
+            .map(|(row, free_jump)| free_jump + dot(row, traction))
+            .collect();
+        (0..ELEMENT_COUNT)
             .map(|e| ContactState {
-                gap: jump(e),
-                slip: -jump(COUNT + e),
+                gap: jump[e],
+                slip: -jump[ELEMENT_COUNT + e],
                 pressure: self.pressed[e] + traction[e],
-                shear: traction[COUNT + e],
+                shear: traction[ELEMENT_COUNT + e],
                 ..ContactState::default()
             })
             .collect()
     }
 
-    /// By how much the states miss the law, written down as complementarity conditions.
+    /// Residual of the law over all elements, written as complementarity conditions.
     fn violation(&self, states: &[ContactState]) -> f64 {
-        states.iter().enumerate().fold(0.0_f64, |worst, (e, state)| {
-            let (p, [active, passive]) = (state.pressure, self.bounds[e]);
-            let g = state.gap + self.moved[e];
-            // p from active to passive, g ≥ 0 below passive, g ≤ 0 above active.
-            let bounds = (active - p).max(p - passive);
-            let apart = g.max(0.0).min(p - active);
-            let pressed = (-g).max(0.0).min(passive - p);
-            // Infinite friction has its limit as p → 0, too: any shear.
-            let endless = self.friction.is_infinite();
-            let limit = if endless { f64::INFINITY } else { self.friction * p };
-            let advance = state.slip - self.slip[e];
-            let cone = state.shear.abs() - limit;
-            let room = if endless { p.abs() } else { (-cone).max(0.0) };
-            let sticks = advance.abs().min(room);
-            let against = if self.friction > 0.0 {
-                (-advance * state.shear.signum()).max(0.0).min(state.shear.abs())
-            } else {
-                0.0
-            };
-            let is_open = active == 0.0 && g > ROUNDING;
-            let touches = if is_open { 0.0 } else { sticks.max(against) };
-            worst.max(bounds).max(apart).max(pressed).max(cone).max(touches)
-        })
+        let violations =
+            states.iter().enumerate().map(|(e, state)| self.element_violation(e, state));
+        violations.fold(0.0_f64, f64::max)
+    }
+
+    fn element_violation(&self, e: usize, state: &ContactState) -> f64 {
+        let [active, passive] = self.bounds[e];
+        let p = state.pressure;
+        let g = state.gap + self.moved[e];
+        // p from active to passive, g ≥ 0 below passive, g ≤ 0 above active.
+        let pressure_violation = (active - p).max(p - passive);
+        let gap_violation = g.max(0.0).min(p - active);
+        let penetration_violation = (-g).max(0.0).min(passive - p);
+        // Infinite friction has its limit as p → 0, too: any shear.
+        let is_infinite = self.friction.is_infinite();
+        let shear_limit = if is_infinite { f64::INFINITY } else { self.friction * p };
+        let slip_increment = state.slip - self.slip[e];
+        let cone_violation = state.shear.abs() - shear_limit;
+        let distance_from_limit = if is_infinite { p.abs() } else { (-cone_violation).max(0.0) };
+        let stick_violation = slip_increment.abs().min(distance_from_limit);
+        let direction_violation = if self.friction > 0.0 {
+            (-slip_increment * state.shear.signum()).max(0.0).min(state.shear.abs())
+        } else {
+            0.0
+        };
+        let is_open = active == 0.0 && g > LAW_TOLERANCE;
+        let slip_violation = if is_open { 0.0 } else { stick_violation.max(direction_violation) };
+        pressure_violation
+            .max(gap_violation)
+            .max(penetration_violation)
+            .max(cone_violation)
+            .max(slip_violation)
     }
 
     /// All solutions with these modes of each element.
-    fn solutions(&self, modes: [&[Mode]; COUNT]) -> Vec<Vec<ContactState>> {
+    fn solutions(&self, modes: [&[Mode]; ELEMENT_COUNT]) -> Vec<Vec<ContactState>> {
         let mut solutions = Vec::new();
-        for one in modes[0] {
-            for two in modes[1] {
-                for three in modes[2] {
-                    let Some(states) = self.solve(&[*one, *two, *three]) else { continue };
-                    if self.violation(&states) < ROUNDING {
+        for first in modes[0] {
+            for second in modes[1] {
+                for third in modes[2] {
+                    let Some(states) = self.solve(&[*first, *second, *third]) else { continue };
+                    if self.violation(&states) < LAW_TOLERANCE {
                         solutions.push(states);
                     }
                 }
@@ -191,30 +219,51 @@ impl EnumeratedContact {
 
     /// Modes that the contact search finds under these laws, and whether the problem has other solutions.
     ///
-    /// Panics unless what the search finds is among all solutions with the `modes` of each element.
+    /// Panics unless the solution of the search is among all solutions with the `modes` of each element.
     pub fn assert_found(
         &self,
-        laws: [Box<dyn InterfaceLaw>; COUNT],
-        modes: [&[Mode]; COUNT],
+        laws: [Box<dyn InterfaceLaw>; ELEMENT_COUNT],
+        modes: [&[Mode]; ELEMENT_COUNT],
     ) -> (Vec<Mode>, bool) {
         let solutions = self.solutions(modes);
-        assert!(!solutions.is_empty(), "brute force has none");
-        let starts: Vec<_> = (0..COUNT).map(|e| self.start(e, laws[e].as_ref())).collect();
+        assert!(!solutions.is_empty(), "no choice of modes is a solution");
+        let starts: Vec<_> = (0..ELEMENT_COUNT).map(|e| self.start(e, laws[e].as_ref())).collect();
         let mut traction = self.pressed.clone();
-        traction.resize(SIZE, 0.0);
+        traction.resize(TRACTION_COUNT, 0.0);
         let mut contact = ContactProblem::new(self.delassus.clone(), laws.into())
             .unwrap()
             .with_static_tractions(traction)
             .unwrap();
         let start = contact.start(&starts).unwrap();
         let found = contact.solve(&self.free_jump, &start).unwrap();
-        let is_found = |states: &Vec<ContactState>| {
-            states.iter().zip(found.states).all(|(a, b)| {
-                (a.pressure - b.pressure).abs() < SAME_TRACTION
-                    && (a.shear - b.shear).abs() < SAME_TRACTION
-            })
-        };
-        assert!(solutions.iter().any(is_found), "{:?} {:?}", found.modes, found.states);
-        (found.modes.to_vec(), !solutions.iter().all(is_found))
+        let same_solutions =
+            solutions.iter().filter(|states| have_same_tractions(states, found.states)).count();
+        assert!(same_solutions > 0, "{:?} {:?}", found.modes, found.states);
+        (found.modes.to_vec(), same_solutions < solutions.len())
     }
+}
+
+fn have_same_tractions(first: &[ContactState], second: &[ContactState]) -> bool {
+    first.iter().zip(second).all(|(a, b)| {
+        (a.pressure - b.pressure).abs() < SAME_TRACTION_TOLERANCE
+            && (a.shear - b.shear).abs() < SAME_TRACTION_TOLERANCE
+    })
+}
+
+fn random_numbers(random: &mut Random, [low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    (0..count).map(|_| random.within(low, high)).collect()
+}
+
+/// A random symmetric positive definite matrix.
+fn random_delassus(random: &mut Random) -> Vec<f64> {
+    let size = TRACTION_COUNT;
+    let root = random_numbers(random, [-1.0, 1.0], size * size);
+    let mut matrix = Vec::with_capacity(size * size);
+    for i in 0..size {
+        for j in 0..size {
+            let product: f64 = (0..size).map(|m| root[i * size + m] * root[j * size + m]).sum();
+            matrix.push(product + if i == j { 0.2 } else { 0.0 });
+        }
+    }
+    matrix
 }

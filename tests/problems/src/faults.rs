@@ -2,10 +2,11 @@
 
 use basemat::{Error, FileFault};
 
+pub use CLEAR_QUANTITY as CLEAR;
+
 /// A value that cannot be right.
 pub fn value(quantity: &str, found: &str, needed: &str) -> FileFault {
-    let (quantity, found, needed) = (quantity.into(), found.into(), needed.into());
-    FileFault::Value { quantity, found, needed }
+    FileFault::Value { quantity: quantity.into(), found: found.into(), needed: needed.into() }
 }
 
 /// A wrong number of items.
@@ -18,19 +19,27 @@ pub fn not_a_number(field: &str) -> FileFault {
     value("field", &format!("'{field}'"), "a finite number")
 }
 
-/// Whether an error is an item's, and a value of it that must be another one.
-pub fn is_input_of(error: &Error, item: &str, quantity: &str, value: f64) -> bool {
-    let Error::Item { item: of, source } = error else { return false };
-    let found = match &**source {
-        Error::Input { quantity: named, value, .. } if *named == quantity => *value,
-        _ => return false,
-    };
-    of == item && found.to_bits() == value.to_bits()
+/// Whether an error blames this value of a quantity of an item.
+pub fn is_input_of(
+    error: &Error,
+    expected_item: &str,
+    expected_quantity: &str,
+    expected_value: f64,
+) -> bool {
+    let Error::Item { item, source } = error else { return false };
+    match &**source {
+        Error::Input { quantity, value, .. } => {
+            item == expected_item
+                && *quantity == expected_quantity
+                && value.to_bits() == expected_value.to_bits()
+        }
+        _ => false,
+    }
 }
 
 /// Whether a fault is a value of this quantity.
-pub fn is_value(fault: &FileFault, quantity: &str) -> bool {
-    matches!(fault, FileFault::Value { quantity: of, .. } if of == quantity)
+pub fn is_value(fault: &FileFault, expected_quantity: &str) -> bool {
+    matches!(fault, FileFault::Value { quantity, .. } if quantity == expected_quantity)
 }
 
 /// Whether a fault is a field that is not a finite number.
@@ -45,11 +54,11 @@ pub fn is_missing(fault: &FileFault) -> bool {
 
 /// Whether a fault is a quantity of a record's header without a known number or unit.
 pub fn is_unclear(fault: &FileFault) -> bool {
-    matches!(fault, FileFault::Value { needed, .. } if needed == CLEAR)
+    matches!(fault, FileFault::Value { needed, .. } if needed == CLEAR_QUANTITY)
 }
 
 /// Requirement of a quantity that is unclear.
-pub const CLEAR: &str = "clear: all of it a known number, unit or word";
+pub const CLEAR_QUANTITY: &str = "clear: all of it a known number, unit or word";
 
 /// Whether a fault is another quantity than acceleration, or an unknown unit.
 pub fn is_no_acceleration(fault: &FileFault) -> bool {
@@ -72,7 +81,7 @@ pub fn is_off_columns(fault: &FileFault) -> bool {
 }
 
 /// Whether a file could not be written.
-pub fn is_unwritable<T>(outcome: &basemat::Result<T>) -> bool {
-    let Err(Error::File(error)) = outcome else { return false };
+pub fn is_unwritable<T>(result: &basemat::Result<T>) -> bool {
+    let Err(Error::File(error)) = result else { return false };
     matches!(error.fault, FileFault::Unwritable(_))
 }

@@ -2,6 +2,8 @@
 //!
 //! Units make the soil's density and fastest wave one.
 
+use std::collections::HashMap;
+
 use basemat::bem::ElasticGround;
 use basemat::bem::plan::Plan;
 use basemat::coupled::{Coordinates, StepError};
@@ -14,7 +16,9 @@ use basemat::{Error, Simulation, Soil};
 
 use crate::random::Random;
 
-const STEPS: usize = 60;
+const STEP_COUNT: usize = 60;
+
+pub use FlexibleSceneTotals as Outcome;
 
 /// Sines in three directions, at rest at t = 0.
 #[derive(Debug, Clone)]
@@ -25,11 +29,11 @@ pub struct Sines {
 }
 
 impl Sines {
-    /// Accelerations up to twice `gravity`, with frequencies for steps of the length `step`.
-    pub fn random(random: &mut Random, step: f64, gravity: f64) -> Self {
-        let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
-        let mut strength = || random.within(-2.0, 2.0) * gravity;
-        let accelerations = [strength(), strength(), 0.5 * strength()];
+    /// Accelerations up to twice `gravity`, with frequencies for steps of this length.
+    pub fn random(random: &mut Random, time_step: f64, gravity: f64) -> Self {
+        let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / time_step.max(0.2));
+        let accelerations =
+            [1.0, 1.0, 0.5].map(|factor| factor * (random.within(-2.0, 2.0) * gravity));
         let amplitudes = std::array::from_fn(|k| accelerations[k] / frequencies[k].powi(2));
         let slowness = if random.chance(0.3) { random.within(0.0, 0.7) } else { 0.0 };
         Self { amplitudes, frequencies, slowness }
@@ -49,9 +53,13 @@ impl FreeField for Sines {
 
 /// A half-space of `soil`, or by chance a damped layer of it on rock.
 ///
-/// `layered`: probability of the layer.
-pub fn profile(random: &mut Random, soil: Soil, layered: f64) -> Result<SoilProfile, Error> {
-    if !random.chance(layered) {
+/// `layer_probability`: of the layer.
+pub fn profile(
+    random: &mut Random,
+    soil: Soil,
+    layer_probability: f64,
+) -> Result<SoilProfile, Error> {
+    if !random.chance(layer_probability) {
         return Ok(soil.into());
     }
     let rock = Soil::new(random.within(2.0, 20.0), 0.3, 1.2)?;
@@ -62,7 +70,7 @@ pub fn profile(random: &mut Random, soil: Soil, layered: f64) -> Result<SoilProf
 
 /// A mesh on its lowest faces.
 #[derive(Debug)]
-struct Building {
+struct RandomBuilding {
     mesh: Mesh,
     shells: Vec<Shell>,
     floor: Grid,
@@ -75,29 +83,23 @@ struct Building {
 /// Sides of the base.
 type Sides = [f64; 2];
 
-impl Building {
+impl RandomBuilding {
     /// Nodes of an uneven floor.
     fn new(random: &mut Random, sides: Sides, modulus: f64) -> Result<Self, Error> {
         let counts = [random.pick(&[2, 3, 4, 5]), random.pick(&[2, 3, 4])];
-        let lines: [Vec<f64>; 2] = [0, 1].map(|axis| {
-            let widths: Vec<f64> = (0..counts[axis]).map(|_| random.within(0.7, 1.3)).collect();
-            let whole: f64 = widths.iter().sum();
-            let upto = |k: usize| widths[..k].iter().sum::<f64>() / whole - 0.5;
-            (0..=counts[axis]).map(|k| sides[axis] * upto(k)).collect()
-        });
-        let skew: Vec<[f64; 2]> = (0..(counts[0] + 1) * (counts[1] + 1))
+        let columns = uneven_lines(random, sides[0], counts[0]);
+        let rows = uneven_lines(random, sides[1], counts[1]);
+        let offsets: Vec<[f64; 2]> = (0..(counts[0] + 1) * (counts[1] + 1))
             .map(|_| {
                 [0, 1].map(|axis| random.within(-0.15, 0.15) * sides[axis] / counts[axis] as f64)
             })
             .collect();
-        let point = |row: usize, column: usize| {
-            let is_inner = row > 0 && row < counts[1] && column > 0 && column < counts[0];
-            let [x, y] = skew[row * (counts[0] + 1) + column];
-            let moved = if is_inner { [x, y] } else { [0.0; 2] };
-            [lines[0][column] + moved[0], lines[1][row] + moved[1], 0.0]
-        };
         let mut mesh = Mesh::in_space();
-        let floor = mesh.add_grid(counts[1] + 1, counts[0] + 1, point)?;
+        let floor = mesh.add_grid(counts[1] + 1, counts[0] + 1, |row, column| {
+            let is_inner = row > 0 && row < counts[1] && column > 0 && column < counts[0];
+            let offset = if is_inner { offsets[row * (counts[0] + 1) + column] } else { [0.0; 2] };
+            [columns[column] + offset[0], rows[row] + offset[1], 0.0]
+        })?;
         let poisson = random.within(0.0, 0.4);
         let thickness = random.within(0.02, 0.2) * sides[0];
         // D/(G B³) of a mat of this thickness.
@@ -108,33 +110,38 @@ impl Building {
         Ok(Self { mesh, shells: Vec::new(), floor, counts, material, thickness, height })
     }
 
-    fn shell(&mut self, corners: [usize; 4], thickness: f64, halved: bool) -> Result<(), Error> {
-        let [a, b, c, d] = corners;
-        let parts =
-            if halved { vec![vec![a, b, c], vec![a, c, d]] } else { vec![vec![a, b, c, d]] };
-        for nodes in parts {
+    /// Adds a shell, or two triangles in its place.
+    fn add_shell(
+        &mut self,
+        [a, b, c, d]: [usize; 4],
+        thickness: f64,
+        is_split: bool,
+    ) -> Result<(), Error> {
+        let faces =
+            if is_split { vec![vec![a, b, c], vec![a, c, d]] } else { vec![vec![a, b, c, d]] };
+        for nodes in faces {
             self.shells.push(Shell::new(nodes, self.material, thickness)?);
         }
         Ok(())
     }
 
-    fn mat(&mut self, random: &mut Random) -> Result<(), Error> {
-        let triangles = if random.chance(0.3) { 0.4 } else { 0.0 };
+    fn add_mat(&mut self, random: &mut Random) -> Result<(), Error> {
+        let triangle_probability = if random.chance(0.3) { 0.4 } else { 0.0 };
         for (_, nodes) in self.floor.cells().collect::<Vec<_>>() {
             let Ok(corners) = nodes.try_into() else { continue };
-            self.shell(corners, self.thickness, random.chance(triangles))?;
+            self.add_shell(corners, self.thickness, random.chance(triangle_probability))?;
         }
         Ok(())
     }
 
-    /// Copies of nodes at this height.
-    fn lifted(&mut self, nodes: &[usize], height: f64) -> Result<Vec<usize>, Error> {
+    /// Adds copies of nodes at this height.
+    fn add_nodes_above(&mut self, nodes: &[usize], height: f64) -> Result<Vec<usize>, Error> {
         let points: Vec<[f64; 3]> = nodes.iter().map(|&node| self.mesh.nodes()[node]).collect();
         points.into_iter().map(|[x, y, _]| self.mesh.add_node_at([x, y, height])).collect()
     }
 
     /// A wall on a row of the mat, and one across it.
-    fn walls(&mut self, random: &mut Random) -> Result<(), Error> {
+    fn add_walls(&mut self, random: &mut Random) -> Result<(), Error> {
         let row = random.pick(&[0, self.counts[1] / 2, self.counts[1]]);
         let column = random.pick(&[0, self.counts[0]]);
         let along = self.floor.row(row).to_vec();
@@ -142,25 +149,25 @@ impl Building {
             (0..self.floor.rows()).map(|row| self.floor.row(row)[column]).collect();
         let thickness = random.within(0.3, 1.0) * self.thickness;
         let storeys = random.pick(&[1, 2]);
-        let mut tops: Vec<(usize, usize, usize)> = Vec::new();
+        // Nodes by the base node below them and the storey.
+        let mut nodes_above: HashMap<(usize, usize), usize> = HashMap::new();
         for line in [along, across] {
             let mut below = line.clone();
             for storey in 1..=storeys {
                 let height = self.height * storey as f64 / storeys as f64;
-                // The walls share the nodes above their common node.
                 let mut above = Vec::new();
                 for &foot in &line {
-                    let known = tops.iter().find(|own| (own.0, own.1) == (foot, storey));
-                    let node = match known {
-                        Some(&(_, _, node)) => node,
-                        None => self.lifted(&[foot], height)?[0],
+                    // The walls share the nodes above their common node.
+                    let node = match nodes_above.get(&(foot, storey)) {
+                        Some(node) => *node,
+                        None => self.add_nodes_above(&[foot], height)?[0],
                     };
-                    tops.push((foot, storey, node));
+                    nodes_above.insert((foot, storey), node);
                     above.push(node);
                 }
                 for k in 0..line.len() - 1 {
                     let corners = [below[k], below[k + 1], above[k + 1], above[k]];
-                    self.shell(corners, thickness, false)?;
+                    self.add_shell(corners, thickness, false)?;
                 }
                 below = above;
             }
@@ -169,11 +176,12 @@ impl Building {
     }
 
     /// Columns on the corners under a roof of beams, or one column with a rigid arm.
-    fn frame(&mut self, random: &mut Random) -> Result<(), Error> {
-        let (last, end) = (self.floor.rows() - 1, self.counts[0]);
-        let feet =
-            [[0, 0], [0, end], [last, end], [last, 0]].map(|[row, k]| self.floor.row(row)[k]);
-        let tops = self.lifted(&feet, self.height)?;
+    fn add_frame(&mut self, random: &mut Random) -> Result<(), Error> {
+        let last_row = self.floor.rows() - 1;
+        let last_column = self.counts[0];
+        let feet = [[0, 0], [0, last_column], [last_row, last_column], [last_row, 0]]
+            .map(|[row, column]| self.floor.row(row)[column]);
+        let tops = self.add_nodes_above(&feet, self.height)?;
         let side = random.within(0.5, 2.0) * self.thickness;
         let moment = side.powi(4) / 12.0;
         let section = BeamSection::new(side * side, [moment; 2], 1.6 * moment)?
@@ -188,7 +196,7 @@ impl Building {
         Ok(())
     }
 
-    fn bricks(&mut self, random: &mut Random) -> Result<(), Error> {
+    fn add_bricks(&mut self, random: &mut Random) -> Result<(), Error> {
         let levels = random.pick(&[1, 2, 3]);
         let heights: Vec<f64> =
             (1..=levels).map(|k| 0.5 * self.height * f64::from(k) / f64::from(levels)).collect();
@@ -201,14 +209,14 @@ impl Building {
     fn model(mut self, random: &mut Random) -> Result<FemModel, Error> {
         match random.pick(&[0, 0, 1, 2]) {
             0 => {
-                self.mat(random)?;
-                self.walls(random)?;
+                self.add_mat(random)?;
+                self.add_walls(random)?;
             }
             1 => {
-                self.mat(random)?;
-                self.frame(random)?;
+                self.add_mat(random)?;
+                self.add_frame(random)?;
             }
-            _ => self.bricks(random)?,
+            _ => self.add_bricks(random)?,
         }
         Shell::match_sides(&mut self.shells);
         for shell in self.shells {
@@ -220,42 +228,50 @@ impl Building {
     }
 }
 
+/// Boundaries of `count` intervals of random lengths along a side about the origin.
+fn uneven_lines(random: &mut Random, side: f64, count: usize) -> Vec<f64> {
+    let widths: Vec<f64> = (0..count).map(|_| random.within(0.7, 1.3)).collect();
+    let total: f64 = widths.iter().sum();
+    (0..=count).map(|k| side * (widths[..k].iter().sum::<f64>() / total - 0.5)).collect()
+}
+
+/// A random scene, and whether its structure is reduced.
 fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
     let soil = Soil::new(1.0, random.within(0.0, 0.45), 1.0)?;
     let profile = profile(random, soil, 0.1)?;
     let sides = [2.0, random.within(1.2, 2.0)];
-    let model = Building::new(random, sides, soil.shear_modulus())?.model(random)?;
+    let model = RandomBuilding::new(random, sides, soil.shear_modulus())?.model(random)?;
     let cells = random.pick(&[4, 5, 6, 8]);
     let plan = Plan::under(&model, cells)?;
-    let step = plan.pitch()[1] * random.log_within(0.1, 5.0);
+    let time_step = plan.pitch()[1] * random.log_within(0.1, 5.0);
     let gravity = random.log_within(1e-4, 1e-2);
     let law: Box<dyn InterfaceLaw> = match random.pick(&[0, 0, 1, 2]) {
         0 => Box::new(Coulomb::new(random.log_within(0.05, 2.0))?),
         1 => Box::new(Coulomb::new(f64::INFINITY)?),
         _ => Box::new(Bonded),
     };
-    let motion = Sines::random(random, step, gravity);
+    let motion = Sines::random(random, time_step, gravity);
     let is_reduced = random.chance(0.5);
     let coordinates = if is_reduced {
         random.pick(&[Coordinates::Reduced { tolerance: 1e-3 }, Coordinates::Auto])
     } else {
         Coordinates::Physical
     };
-    let simulation = Simulation::builder(step)
+    let simulation = Simulation::builder(time_step)
         .structure(model)
         .ground(ElasticGround::in_plan(profile, plan)?)
         .interface(law)
         .motion(motion)
         .gravity(gravity)
         .coordinates(coordinates)
-        .expected_steps(STEPS)
+        .expected_steps(STEP_COUNT)
         .build()?;
     Ok((simulation, is_reduced))
 }
 
 /// Events and errors of random scenes.
 #[derive(Debug, Default, Clone)]
-pub struct Outcome {
+pub struct FlexibleSceneTotals {
     pub scenes: usize,
     pub steps: usize,
     pub reduced: usize,
@@ -269,7 +285,7 @@ pub struct Outcome {
     pub returned: f64,
 }
 
-impl Outcome {
+impl FlexibleSceneTotals {
     /// Adds the scene of this number; panics where an energy balance is open by 1e-9.
     pub fn run(&mut self, number: usize) {
         self.scenes += 1;
@@ -287,7 +303,7 @@ impl Outcome {
             Err(error) => panic!("{number}: {error}"),
         };
         self.reduced += usize::from(is_reduced);
-        for _ in 0..STEPS {
+        for _ in 0..STEP_COUNT {
             let state = match simulation.step() {
                 Ok(state) => state,
                 Err(Error::Step { source: source @ StepError::Cone { .. }, step, .. }) => {

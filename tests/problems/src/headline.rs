@@ -9,12 +9,18 @@ use basemat::motion::{Baseline, Record, STANDARD_GRAVITY, VerticalIncidence, el_
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
-/// 1.5 ft.
-pub const ELEMENT: f64 = 0.4572;
+/// 1.5 ft, m.
+pub const ELEMENT_LENGTH: f64 = 0.4572;
 /// Contact length of the headline problem, 15 ft, on so many elements.
-pub const COUNT: usize = 10;
+pub const ELEMENT_COUNT: usize = 10;
 /// The whole record at half an element over `c_P`.
-pub const STEPS: usize = 54_000;
+pub const RECORD_STEPS: usize = 54_000;
+
+pub use ELEMENT_COUNT as COUNT;
+pub use ELEMENT_LENGTH as ELEMENT;
+pub use RECORD_STEPS as STEPS;
+pub use TIMED_SCENES as ROWS;
+pub use TimedScene as Row;
 
 /// The soil of the headline problem: ν = 1/3, waves of 650 and 1300 ft/s.
 pub fn soil() -> Result<Soil> {
@@ -23,24 +29,30 @@ pub fn soil() -> Result<Soil> {
 
 /// `c_P` Δt is half an element.
 pub fn time_step() -> f64 {
-    0.5 * ELEMENT / 396.24
+    0.5 * ELEMENT_LENGTH / 396.24
 }
 
 /// So many elements, all alike.
 pub fn strip(count: usize) -> Result<Strip> {
-    let half = 0.5 * ELEMENT * count as f64;
+    let half = 0.5 * ELEMENT_LENGTH * count as f64;
     Strip::uniform(-half..half, count)
 }
 
 /// The headline problem without law and history: the paper's model, a basemat and twelve layers of
 /// the containment, 35 ft high in all, under El Centro.
 pub fn headline(count: usize) -> Result<(SimulationBuilder, ElasticGround)> {
-    let half = 0.5 * ELEMENT * count as f64;
-    let (psf, slug, layer) = (47.880_259, 515.378_818, 35.0 * 0.3048 / 13.0);
-    let foundation = Material::new(106_560_369.0 * psf, 1.0 / 3.0, 3.043_48 * slug)?;
-    let above = Material::new(106_577_648.0 * psf, 1.0 / 3.0, 0.590_06 * slug)?;
-    let layers = [Layer::new(layer, 1, foundation), Layer::new(12.0 * layer, 12, above)];
-    let tower = FemModel::on_base(Mesh::layered_block(-half..half, COUNT, &layers)?)?;
+    let half = 0.5 * ELEMENT_LENGTH * count as f64;
+    let psf = 47.880_259;
+    let slug_per_cubic_foot = 515.378_818;
+    let layer_height = 35.0 * 0.3048 / 13.0;
+    let foundation = Material::new(106_560_369.0 * psf, 1.0 / 3.0, 3.043_48 * slug_per_cubic_foot)?;
+    let superstructure =
+        Material::new(106_577_648.0 * psf, 1.0 / 3.0, 0.590_06 * slug_per_cubic_foot)?;
+    let layers = [
+        Layer::new(layer_height, 1, foundation),
+        Layer::new(12.0 * layer_height, 12, superstructure),
+    ];
+    let tower = FemModel::on_base(Mesh::layered_block(-half..half, ELEMENT_COUNT, &layers)?)?;
     let builder = Simulation::builder(time_step())
         .structure(tower)
         .motion(el_centro_1940())
@@ -53,12 +65,12 @@ pub fn without_end(duration: f64) -> Result<Record> {
     let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 5 })?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "minutes at most")]
     let samples = 2 + (duration / record.time_step()).ceil() as usize;
-    let again = record.accelerations().iter().copied().cycle().take(samples);
-    Record::new(record.time_step(), again.collect())
+    let repeated = record.accelerations().iter().copied().cycle().take(samples);
+    Record::new(record.time_step(), repeated.collect())
 }
 
 /// A scene of the table.
-pub struct Row {
+pub struct TimedScene {
     pub name: &'static str,
     /// Feature that its steps leave out.
     pub left_out: &'static str,
@@ -78,101 +90,101 @@ fn vertical(builder: SimulationBuilder, law: impl InterfaceLaw + 'static) -> Sim
     })
 }
 
-fn nothing(_: &State) -> f64 {
+fn read_nothing(_: &State) -> f64 {
     0.0
 }
 
 /// All of the table.
-pub const ROWS: [Row; 12] = [
-    Row {
+pub const TIMED_SCENES: [TimedScene; 12] = [
+    TimedScene {
         name: "bonded",
         left_out: "the mode search: one solve with factors made once",
         make: |builder| Ok(builder.interface(Bonded)),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "bonded, without energy balance",
         left_out: "the mode search, the energy balance",
         make: |builder| Ok(builder.interface(Bonded).without_energy_balance()),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "bonded, without weight",
         left_out: "the mode search; by `build` the static state",
         make: |builder| Ok(builder.interface(Bonded).gravity(0.0)),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "bonded, symmetric load",
         left_out: "the mode search; symmetry is not made use of",
         make: |builder| Ok(vertical(builder, Bonded)),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "frictionless, vertical motion",
         left_out: "tangential tractions: a system of Q instead of 2Q; symmetry is not made use of",
         make: |builder| Ok(vertical(builder, Coulomb::new(0.0)?)),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "uplift only",
         left_out: "elements that are open: no degrees of freedom",
         make: |builder| Ok(builder.interface(Coulomb::uplift_only())),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "uplift and sliding, friction 0.4",
         left_out: "the same; no observers: nothing of the structure's interior is computed",
         make: |builder| friction(builder, 0.4),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "the same, without energy balance",
         left_out: "the energy balance",
         make: |builder| friction(builder.without_energy_balance(), 0.4),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "the same, three probes",
         left_out: "degrees of freedom that no probe asks for",
         make: |builder| {
-            let probe = |name, row| Probe::displacement(name, vec![(row, 1.0)]);
-            let builder = builder.probe(probe("a", 0)).probe(probe("b", 1)).probe(probe("c", 2));
-            friction(builder, 0.4)
+            let probes = [("a", 0), ("b", 1), ("c", 2)]
+                .map(|(name, dof)| Probe::displacement(name, vec![(dof, 1.0)]));
+            friction(builder.probes(probes), 0.4)
         },
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "the same, all displacements read at every step",
         left_out: "nothing",
         make: |builder| friction(builder, 0.4),
         observe: |state| state.absolute_displacement().iter().sum(),
     },
-    Row {
+    TimedScene {
         name: "the same, in degrees of freedom instead of modes",
         left_out: "the modes: back-substitution with sparse factors",
         make: |builder| friction(builder.coordinates(Coordinates::Physical), 0.4),
-        observe: nothing,
+        observe: read_nothing,
     },
-    Row {
+    TimedScene {
         name: "rigid block, friction 0.4",
         left_out: "all but three degrees of freedom of the structure",
         make: |builder| {
-            let width = ELEMENT * COUNT as f64;
+            let width = ELEMENT_LENGTH * ELEMENT_COUNT as f64;
             friction(builder.structure(RigidBlock::new(width, 35.0 * 0.3048, 400.0)?), 0.4)
         },
-        observe: nothing,
+        observe: read_nothing,
     },
 ];
 
-impl Row {
+impl TimedScene {
     /// The scene, ready for `steps`.
     pub fn build(&self, steps: usize) -> Result<Simulation> {
-        let (builder, ground) = headline(COUNT)?;
+        let (builder, ground) = headline(ELEMENT_COUNT)?;
         (self.make)(builder.ground(ground).expected_steps(steps))?.build()
     }
 
-    /// Makes `steps` steps; a sum of what the observer saw.
+    /// Makes `steps` steps; a sum of what the observer read.
     pub fn march(&self, simulation: &mut Simulation, steps: usize) -> Result<f64> {
         let mut sum = 0.0;
         for _ in 0..steps {

@@ -2,9 +2,11 @@
 
 use basemat::bem::Grading;
 
-use super::rigid_strip::{Contact, RigidStrip};
-use super::series::{Error, whole};
+use super::rigid_strip::{DrivenStrip, StripTractions};
+use super::series::{RelativeError, nearest_integer};
 use super::table;
+
+pub use ForceSampling as Force;
 
 /// Ricker pulse of peak 1.
 pub fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
@@ -27,7 +29,7 @@ fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 
 /// Value of a force that the ground receives in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Force {
+pub enum ForceSampling {
     /// Its mean over the step.
     Mean,
     /// Its value at the end of the step.
@@ -36,33 +38,33 @@ pub enum Force {
 
 /// Impedances `[hh, vv, rr, hr]` at each of `frequencies`, of strips marched with `time_step`.
 pub fn impedances(
-    make: impl Fn(Contact) -> RigidStrip,
+    make: impl Fn(StripTractions) -> DrivenStrip,
     time_step: f64,
-    force: Force,
-    bonded: bool,
+    sampling: ForceSampling,
+    is_bonded: bool,
     frequencies: &[f64],
 ) -> Vec<[[f64; 2]; 4]> {
-    let steps = whole(60.0 / time_step);
+    let steps = nearest_integer(60.0 / time_step);
     let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
     // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
-    let run = |contact, motion: [f64; 3]| -> [Vec<f64>; 3] {
-        let mut strip = make(contact);
-        let mut forces = [const { Vec::new() }; 3];
-        for p in &pulse {
-            for (list, force) in forces.iter_mut().zip(strip.drive(motion.map(|m| m * p))) {
-                list.push(force);
-            }
-        }
-        forces
-    };
-    let forces = if bonded {
-        let [hh, vv, _] = run(Contact::Bonded, [1.0, 1.0, 0.0]);
-        let [hr, _, rr] = run(Contact::Bonded, [0.0, 0.0, 1.0]);
-        [hh, vv, rr, hr]
+    let forces = if is_bonded {
+        let by_translation = pulse_response(make(StripTractions::Bonded), &pulse, [1.0, 1.0, 0.0]);
+        let by_rotation = pulse_response(make(StripTractions::Bonded), &pulse, [0.0, 0.0, 1.0]);
+        [
+            by_translation[0].clone(),
+            by_translation[1].clone(),
+            by_rotation[2].clone(),
+            by_rotation[0].clone(),
+        ]
     } else {
-        let [hr, vv, rr] = run(Contact::Normal, [0.0, 1.0, 1.0]);
-        let [hh, _, _] = run(Contact::Tangential, [1.0, 0.0, 0.0]);
-        [hh, vv, rr, hr]
+        let by_pressure = pulse_response(make(StripTractions::Normal), &pulse, [0.0, 1.0, 1.0]);
+        let by_shear = pulse_response(make(StripTractions::Tangential), &pulse, [1.0, 0.0, 0.0]);
+        [
+            by_shear[0].clone(),
+            by_pressure[1].clone(),
+            by_pressure[2].clone(),
+            by_pressure[0].clone(),
+        ]
     };
     frequencies
         .iter()
@@ -70,16 +72,27 @@ pub fn impedances(
             let motion = transform(&pulse, omega, |k| (k + 1) as f64 * time_step);
             // The transform of means over a step has this factor.
             let phase = 0.5 * omega * time_step;
-            let (place, mean) = match force {
-                Force::Mean => (0.5, phase.sin() / phase),
-                Force::End => (1.0, 1.0),
-            };
+            let sample_position = if sampling == ForceSampling::Mean { 0.5 } else { 1.0 };
+            let mean_factor =
+                if sampling == ForceSampling::Mean { phase.sin() / phase } else { 1.0 };
             std::array::from_fn(|k| {
-                let force = transform(&forces[k], omega, |k| (k as f64 + place) * time_step);
-                divide(force, motion).map(|x| x / mean)
+                let force =
+                    transform(&forces[k], omega, |k| (k as f64 + sample_position) * time_step);
+                divide(force, motion).map(|x| x / mean_factor)
             })
         })
         .collect()
+}
+
+/// Forces of a strip that a pulse moves along `[right, down, rotation]`.
+fn pulse_response(mut strip: DrivenStrip, pulse: &[f64], motion: [f64; 3]) -> [Vec<f64>; 3] {
+    let mut forces = [const { Vec::new() }; 3];
+    for p in pulse {
+        for (series, force) in forces.iter_mut().zip(strip.drive(motion.map(|m| m * p))) {
+            series.push(force);
+        }
+    }
+    forces
 }
 
 /// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error, relative
@@ -87,24 +100,28 @@ pub fn impedances(
 pub fn impedance_errors(
     file: &str,
     poisson: f64,
-    mesh: (Grading, usize, f64),
-    bonded: bool,
+    (grading, elements, time_step): (Grading, usize, f64),
+    is_bonded: bool,
 ) -> [f64; 4] {
     let columns =
         ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
     let rows = table(file).rows(columns).into_iter();
     let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let (grading, elements, time_step) = mesh;
-    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
-    let found = impedances(strip, time_step, Force::Mean, bonded, &frequencies);
-    let mut errors = [Error::default(); 4];
-    for (row, found) in rows.iter().zip(&found) {
+    let computed = impedances(
+        |tractions| DrivenStrip::new(poisson, grading, elements, time_step, tractions),
+        time_step,
+        ForceSampling::Mean,
+        is_bonded,
+        &frequencies,
+    );
+    let mut errors = [RelativeError::default(); 4];
+    for (row, computed) in rows.iter().zip(&computed) {
         for k in 0..4 {
             for part in 0..2 {
-                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+                errors[k].add(computed[k][part], row[2 * k + 1 + part]);
             }
         }
     }
-    errors.map(Error::relative)
+    errors.map(RelativeError::relative)
 }

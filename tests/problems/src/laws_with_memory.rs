@@ -1,12 +1,13 @@
-//! Laws that remember something of each element.
+//! Laws with state variables of each element.
 
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PlaneLaw, PreviousContact,
     Tolerance,
 };
 
-/// Friction that falls with the distance slid: residual + (first − residual) e^(−slid/distance).
-/// The memory is that distance.
+/// Friction that falls with the sliding distance: residual + (first − residual) e^(−slid/distance).
+///
+/// The state variable is the sliding distance.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipWeakening {
     pub first: f64,
@@ -15,18 +16,19 @@ pub struct SlipWeakening {
 }
 
 impl SlipWeakening {
-    pub fn friction(&self, slid: f64) -> f64 {
-        self.residual + (self.first - self.residual) * (-slid / self.distance).exp()
+    pub fn friction(&self, sliding_distance: f64) -> f64 {
+        self.residual + (self.first - self.residual) * (-sliding_distance / self.distance).exp()
     }
 
-    fn now(&self, start: &PreviousContact) -> Coulomb {
+    /// Coulomb's law with the present state variables.
+    fn current_law(&self, start: &PreviousContact) -> Coulomb {
         Coulomb::new(self.friction(start.state_variables[0])).unwrap()
     }
 }
 
 impl InterfaceLaw for SlipWeakening {
     fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
-        self.now(start).limits(start)
+        self.current_law(start).limits(start)
     }
 
     fn modes(&self) -> &[Mode] {
@@ -34,7 +36,7 @@ impl InterfaceLaw for SlipWeakening {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        self.now(start).conditions(mode, start)
+        self.current_law(start).conditions(mode, start)
     }
 
     fn next_mode(
@@ -44,51 +46,61 @@ impl InterfaceLaw for SlipWeakening {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        self.now(start).next_mode(mode, start, trial, tolerance)
+        self.current_law(start).next_mode(mode, start, trial, tolerance)
     }
 
     fn state_variables(&self) -> usize {
         1
     }
 
-    fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(
+        &self,
+        start: &PreviousContact,
+        end: &ContactState,
+        mode: Mode,
+        variables: &mut [f64],
+    ) {
         assert_eq!(
-            memory, start.state_variables,
-            "a commit begins with the memory of the step's start"
+            variables, start.state_variables,
+            "a commit begins with the state variables at the step's start"
         );
         if mode.is_slip() {
-            memory[0] += (end.slip - start.state.slip).abs();
+            variables[0] += (end.slip - start.state.slip).abs();
         }
     }
 }
 
-/// Glue that breaks once, by opening (and by sliding, unless it is ductile in shear): tensile strength,
-/// and friction · strength of cohesion. The memory is the strength that is left, and the static
-/// pressure.
+/// A bond that breaks for good by opening, and by sliding unless it is ductile in shear.
+///
+/// It has a tensile strength, and friction · strength of cohesion. State variables are the remaining strength and the
+/// static pressure.
 #[derive(Debug, Clone, Copy)]
-pub struct Adhesion {
+pub struct BreakingBond {
     pub friction: f64,
     pub strength: f64,
     pub breaks_by_sliding: bool,
 }
 
-impl Adhesion {
-    fn now(&self, start: &PreviousContact) -> Coulomb {
+pub use BreakingBond as Adhesion;
+
+impl BreakingBond {
+    /// Coulomb's law with the present state variables.
+    fn current_law(&self, start: &PreviousContact) -> Coulomb {
         let law = Coulomb::new(self.friction).unwrap();
         law.with_tensile_strength(start.state_variables[0]).unwrap()
     }
 
-    /// Coulomb's law keeps no strength for what has once opened: here that is the memory's to say.
-    fn seen<'a>(start: &PreviousContact<'a>) -> PreviousContact<'a> {
+    /// The contact as one that has never opened, since Coulomb's law has no strength after an opening.
+    fn without_opening<'a>(start: &PreviousContact<'a>) -> PreviousContact<'a> {
         let mut start = *start;
         start.has_opened = false;
         start
     }
 }
 
-impl InterfaceLaw for Adhesion {
+impl InterfaceLaw for BreakingBond {
     fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
-        self.now(start).limits(&Self::seen(start))
+        self.current_law(start).limits(&Self::without_opening(start))
     }
 
     fn modes(&self) -> &[Mode] {
@@ -96,7 +108,7 @@ impl InterfaceLaw for Adhesion {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        self.now(start).conditions(mode, &Self::seen(start))
+        self.current_law(start).conditions(mode, &Self::without_opening(start))
     }
 
     fn next_mode(
@@ -106,27 +118,28 @@ impl InterfaceLaw for Adhesion {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        self.now(start).next_mode(mode, &Self::seen(start), trial, tolerance)
+        self.current_law(start).next_mode(mode, &Self::without_opening(start), trial, tolerance)
     }
 
     fn state_variables(&self) -> usize {
         2
     }
 
-    fn initial_state_variables(&self, start: &PreviousContact, memory: &mut [f64]) {
+    fn initial_state_variables(&self, start: &PreviousContact, variables: &mut [f64]) {
         let strength = if start.has_opened { 0.0 } else { self.strength };
-        memory.copy_from_slice(&[strength, start.static_pressure]);
+        variables.copy_from_slice(&[strength, start.static_pressure]);
     }
 
-    fn commit(&self, _: &PreviousContact, _: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(&self, _: &PreviousContact, _: &ContactState, mode: Mode, variables: &mut [f64]) {
         if mode == Mode::Open || (self.breaks_by_sliding && mode.is_slip()) {
-            memory[0] = 0.0;
+            variables[0] = 0.0;
         }
     }
 }
 
-/// Elastic pads, bonded to both sides, that soften with the largest pressure they have borne:
-/// stiffness / (1 + pressure / softening). The memory is that pressure.
+/// Elastic pads, bonded to both sides, that soften with the largest pressure they have carried.
+///
+/// Stiffness / (1 + pressure / softening). The state variable is that pressure.
 #[derive(Debug, Clone, Copy)]
 pub struct SofteningPads {
     /// Across and along the base, Pa/m.
@@ -135,8 +148,8 @@ pub struct SofteningPads {
 }
 
 impl SofteningPads {
-    pub fn compliance_after(&self, borne: f64) -> [f64; 2] {
-        self.stiffness.map(|k| (1.0 + borne / self.softening) / k)
+    pub fn compliance_after(&self, max_pressure: f64) -> [f64; 2] {
+        self.stiffness.map(|k| (1.0 + max_pressure / self.softening) / k)
     }
 }
 
@@ -146,10 +159,10 @@ impl PlaneLaw for SofteningPads {
     }
 
     fn conditions(&self, _: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let [normal, shear] = self.compliance_after(start.state_variables[0]);
+        let compliance = self.compliance_after(start.state_variables[0]);
         [
-            Condition { gap: 1.0 / normal, ..Condition::pressure_is(0.0) },
-            Condition { slip: -1.0 / shear, ..Condition::shear_is(0.0) },
+            Condition { gap: 1.0 / compliance[0], ..Condition::pressure_is(0.0) },
+            Condition { slip: -1.0 / compliance[1], ..Condition::shear_is(0.0) },
         ]
     }
 
@@ -165,7 +178,7 @@ impl PlaneLaw for SofteningPads {
         1
     }
 
-    fn commit(&self, _: &PreviousContact, end: &ContactState, _: Mode, memory: &mut [f64]) {
-        memory[0] = memory[0].max(end.pressure);
+    fn commit(&self, _: &PreviousContact, end: &ContactState, _: Mode, variables: &mut [f64]) {
+        variables[0] = variables[0].max(end.pressure);
     }
 }

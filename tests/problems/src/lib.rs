@@ -42,4 +42,7 @@ pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
 
-pub use basemat_testkit::{Table, check_sum, close, csv, data_path, heavy, random, series, table};
+pub use basemat_testkit::{
+    ReferenceTable, Table, assert_close, check_sum, close, csv, data_path, heavy, random, series,
+    table,
+};

@@ -9,7 +9,7 @@ use super::random::Random;
 
 /// A strip, its step and what drives it.
 #[derive(Debug, Clone, Copy)]
-pub struct Scene {
+pub struct PassivityScene {
     pub poisson: f64,
     /// c₁ Δt over the mean element length.
     pub beta: f64,
@@ -22,7 +22,10 @@ pub struct Scene {
     pub tolerance: f64,
 }
 
-impl Scene {
+pub use PassivityScene as Scene;
+pub use min_work_ratio as least_work;
+
+impl PassivityScene {
     fn ground(&self) -> ElasticGround {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
         let strip = if self.graded { Strip::graded } else { Strip::uniform };
@@ -41,9 +44,9 @@ impl Scene {
         ground
     }
 
-    /// As [`least_work`] of the ground.
+    /// As [`min_work_ratio`] of the ground.
     pub fn least_work(&self) -> f64 {
-        least_work(&mut self.ground(), self.steps, self.seed)
+        min_work_ratio(&mut self.ground(), self.steps, self.seed)
     }
 
     /// Tractions that random displacements need: the largest of the run's last tenth over the
@@ -55,27 +58,29 @@ impl Scene {
         ground.step_compliance(&mut operator).unwrap();
         let inverse = inverse(&operator, size);
         let mut random = Random(self.seed);
-        let (mut history, mut open) = (vec![0.0; size], vec![0.0; size]);
+        let mut history = vec![0.0; size];
+        let mut increment = vec![0.0; size];
         let tenth = self.steps / 10;
-        let (mut early, mut late) = (0.0_f64, 0.0_f64);
+        let mut early_max = 0.0_f64;
+        let mut late_max = 0.0_f64;
         for step in 0..self.steps {
             ground.history(&mut history).unwrap();
-            for (o, h) in open.iter_mut().zip(&history) {
-                *o = random.within(-1.0, 1.0) - h;
+            for (du, h) in increment.iter_mut().zip(&history) {
+                *du = random.within(-1.0, 1.0) - h;
             }
-            let traction = multiply(&inverse, &open);
-            let largest = traction.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
-            if !largest.is_finite() {
+            let traction = multiply(&inverse, &increment);
+            let max_traction = traction.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+            if !max_traction.is_finite() {
                 return f64::INFINITY;
             }
             if step < tenth {
-                early = early.max(largest);
+                early_max = early_max.max(max_traction);
             } else if step >= self.steps - tenth {
-                late = late.max(largest);
+                late_max = late_max.max(max_traction);
             }
             ground.commit(&traction);
         }
-        late / early
+        late_max / early_max
     }
 }
 
@@ -85,7 +90,7 @@ impl Scene {
 /// Tractions are white noise for ten steps, then for half of the run they take out as much
 /// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
 /// follows.
-pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
+pub fn min_work_ratio(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let count = ground.elements().len();
     let directions = ground.elements()[0].directions().len();
     let size = directions * count;
@@ -95,42 +100,44 @@ pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let sides = ground.elements().iter().map(basemat::bem::ContactElement::sides);
     let areas: Vec<f64> = sides.map(|[along, across]| along * across).collect();
     let mut random = Random(seed);
-    let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
-    let mut before = vec![0.0; size];
-    let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
+    let mut traction = vec![0.0; size];
+    let mut history = vec![0.0; size];
+    let mut start = vec![0.0; size];
+    let mut work = 0.0;
+    let mut min_work = f64::INFINITY;
+    let mut noise_work = 0.0;
     for step in 0..steps {
         ground.history(&mut history).unwrap();
-        let noise = step < 10;
-        if !noise && step < steps / 2 {
+        let is_noise = step < 10;
+        if !is_noise && step < steps / 2 {
             let change: Vec<f64> =
-                history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
+                history.iter().zip(&start).map(|(h, s)| -0.5 * (h - s)).collect();
             traction = multiply(&inverse, &change);
         } else {
             for t in &mut traction {
                 let kick = random.within(-1.0, 1.0);
-                *t = if noise { kick } else { 0.95 * *t + 0.3 * kick };
+                *t = if is_noise { kick } else { 0.95 * *t + 0.3 * kick };
             }
         }
-        let mut now = multiply(&operator, &traction);
-        for (s, h) in now.iter_mut().zip(&history) {
+        let mut end = multiply(&operator, &traction);
+        for (s, h) in end.iter_mut().zip(&history) {
             *s += h;
         }
         for i in 0..size {
-            work += areas[i % count] * traction[i] * (now[i] - before[i]);
+            work += areas[i % count] * traction[i] * (end[i] - start[i]);
         }
-        if noise {
-            given = work;
+        if is_noise {
+            noise_work = work;
         }
-        if !noise || work < 0.0 {
-            least = least.min(work);
+        if !is_noise || work < 0.0 {
+            min_work = min_work.min(work);
         }
         ground.commit(&traction);
-        before.copy_from_slice(&now);
+        start.copy_from_slice(&end);
     }
-    least / given
+    min_work / noise_work
 }
 
 fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
-    let row = |row: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum();
-    matrix.chunks_exact(x.len()).map(row).collect()
+    matrix.chunks_exact(x.len()).map(|row| row.iter().zip(x).map(|(a, b)| a * b).sum()).collect()
 }

@@ -2,10 +2,15 @@
 
 use basemat::fem::{Hex8, Material};
 
-use crate::supported::Supported;
+use crate::supported::SupportedMesh;
+
+pub use CUBE_BRICKS as BRICKS;
+pub use PATCH_NODES as POINTS;
+pub use PATCH_QUADS as QUADS;
+pub use SHELL_STATES as STATES;
 
 /// Nodes of the distorted quadrilaterals, corners of the patch first.
-pub const POINTS: [[f64; 2]; 8] = [
+pub const PATCH_NODES: [[f64; 2]; 8] = [
     [0.0, 0.0],
     [0.24, 0.0],
     [0.24, 0.12],
@@ -15,12 +20,13 @@ pub const POINTS: [[f64; 2]; 8] = [
     [0.16, 0.08],
     [0.08, 0.08],
 ];
-pub const QUADS: [[usize; 4]; 5] =
+/// Corners of the distorted quadrilaterals.
+pub const PATCH_QUADS: [[usize; 4]; 5] =
     [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
 /// Names of the states in which shells have uniform strains or curvatures.
-pub const STATES: [&str; 4] = ["membrane", "membrane and rotation", "bending", "twist"];
+pub const SHELL_STATES: [&str; 4] = ["membrane", "membrane and rotation", "bending", "twist"];
 /// Seven bricks in a unit cube.
-pub const BRICKS: [[usize; 8]; 7] = [
+pub const CUBE_BRICKS: [[usize; 8]; 7] = [
     [8, 9, 10, 11, 12, 13, 14, 15],
     [0, 1, 2, 3, 8, 9, 10, 11],
     [12, 13, 14, 15, 4, 5, 6, 7],
@@ -30,7 +36,7 @@ pub const BRICKS: [[usize; 8]; 7] = [
     [3, 0, 8, 11, 7, 4, 12, 15],
 ];
 /// Nodes inside the cube, numbers 8 to 15.
-const INNER: [[f64; 3]; 8] = [
+const INNER_NODES: [[f64; 3]; 8] = [
     [0.249, 0.342, 0.192],
     [0.826, 0.288, 0.288],
     [0.850, 0.649, 0.263],
@@ -56,17 +62,17 @@ pub fn field(state: &str, x: f64, y: f64) -> [f64; 6] {
 }
 
 /// The bricks; their first eight nodes are the corners of the cube.
-pub fn bricks(material: Material) -> Supported {
-    let mut scene = Supported::new();
+pub fn bricks(material: Material) -> SupportedMesh {
+    let mut scene = SupportedMesh::new();
     for z in [0.0, 1.0] {
         for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
             scene.node([x, y, z]);
         }
     }
-    for point in INNER {
+    for point in INNER_NODES {
         scene.node(point);
     }
-    for nodes in BRICKS {
+    for nodes in CUBE_BRICKS {
         scene.add(Hex8::new(nodes, material));
     }
     scene

@@ -1,27 +1,33 @@
-//! A ground without memory, with any compliance matrix, whose motion in the next step is given.
+//! A ground without memory, with any compliance matrix, whose motion in the next step is prescribed.
 
 use std::sync::{Arc, Mutex};
 
 use basemat::bem::{ContactElement, Ground};
 use basemat::{Observer, Result};
 
-/// A ground without memory: its answer to tractions is a matrix, and its motion in the next step is given. Both have normal
-/// components (down) first, then components along x, in plan also along y.
-pub struct Prescribed {
+/// A ground whose step compliance and motion are prescribed.
+///
+/// Both have normal components (down) first, then components along x, in plan also along y.
+pub struct PrescribedGround {
     elements: Vec<ContactElement>,
-    matrix: Vec<f64>,
+    compliance: Vec<f64>,
     motion: Arc<Mutex<Vec<f64>>>,
 }
 
-impl Prescribed {
+pub use PrescribedGround as Prescribed;
+
+impl PrescribedGround {
     /// A ground at rest, and its motion in the next step, to be set.
-    pub fn new(elements: Vec<ContactElement>, matrix: Vec<f64>) -> (Self, Arc<Mutex<Vec<f64>>>) {
-        let motion = Arc::new(Mutex::new(vec![0.0; matrix.len().isqrt()]));
-        (Self { elements, matrix, motion: Arc::clone(&motion) }, motion)
+    pub fn new(
+        elements: Vec<ContactElement>,
+        compliance: Vec<f64>,
+    ) -> (Self, Arc<Mutex<Vec<f64>>>) {
+        let motion = Arc::new(Mutex::new(vec![0.0; compliance.len().isqrt()]));
+        (Self { elements, compliance, motion: Arc::clone(&motion) }, motion)
     }
 }
 
-impl Ground for Prescribed {
+impl Ground for PrescribedGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
     }
@@ -31,7 +37,7 @@ impl Ground for Prescribed {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        matrix.copy_from_slice(&self.matrix);
+        matrix.copy_from_slice(&self.compliance);
         Ok(())
     }
 

@@ -9,8 +9,8 @@ pub use basemat_testkit::gmb_numbers;
 
 /// The law of `gmb.json` for 5 % or 1 %.
 pub fn gmb(percent: u32) -> GeneralizedMaxwell {
-    let (long_term, moduli, frequencies) = gmb_numbers(percent);
-    GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
+    let numbers = gmb_numbers(percent);
+    GeneralizedMaxwell::new(numbers.0, numbers.1, numbers.2).unwrap()
 }
 
 /// A ground with convolution weights of two stages.
@@ -22,6 +22,7 @@ fn layer() -> Soil {
     Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap()
 }
 
+/// A layer on rock.
 pub fn p1(
     layer_damping: impl Relaxation + 'static,
     rock_damping: impl Relaxation + 'static,
@@ -33,6 +34,7 @@ pub fn p1(
         .with_damping(layer_damping)
 }
 
+/// The same layer on a rigid base.
 pub fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
     SoilProfile::on_rigid_bedrock().with_layer(layer(), 2.0).unwrap().with_damping(damping)
 }
@@ -72,19 +74,21 @@ pub fn one_layer(
     below: Soil,
     height: f64,
 ) -> [(SoilProfile, [Box<dyn Relaxation>; 2]); 3] {
-    fn of<L: Relaxation + Clone + 'static>(
-        [above, below]: [Soil; 2],
-        height: f64,
-        [upper, lower]: [L; 2],
-    ) -> (SoilProfile, [Box<dyn Relaxation>; 2]) {
-        let base = SoilProfile::on_half_plane(below).with_bedrock_damping(lower.clone());
-        let profile = base.with_layer(above, height).unwrap().with_damping(upper.clone());
-        (profile, [Box::new(upper), Box::new(lower)])
-    }
     let soils = [above, below];
     [
-        of(soils, height, [Elastic; 2]),
-        of(soils, height, [0.05, 0.01].map(constant_q)),
-        of(soils, height, [0.1, 0.03].map(|ratio| Hysteretic::new(ratio).unwrap())),
+        damped_layer(soils, height, [Elastic; 2]),
+        damped_layer(soils, height, [0.05, 0.01].map(constant_q)),
+        damped_layer(soils, height, [0.1, 0.03].map(|ratio| Hysteretic::new(ratio).unwrap())),
     ]
+}
+
+/// A layer and the half-plane under it with these laws, and the laws of both.
+fn damped_layer<L: Relaxation + Clone + 'static>(
+    [above, below]: [Soil; 2],
+    height: f64,
+    [upper, lower]: [L; 2],
+) -> (SoilProfile, [Box<dyn Relaxation>; 2]) {
+    let base = SoilProfile::on_half_plane(below).with_bedrock_damping(lower.clone());
+    let profile = base.with_layer(above, height).unwrap().with_damping(upper.clone());
+    (profile, [Box::new(upper), Box::new(lower)])
 }

@@ -5,10 +5,13 @@ use basemat::{Soil, unobserved};
 
 use super::dense::inverse;
 
-/// Contact of the strip with the soil.
+pub use DrivenStrip as RigidStrip;
+pub use StripTractions as Contact;
+
+/// Tractions between the strip and the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Contact {
-    /// Glued.
+pub enum StripTractions {
+    /// Both.
     Bonded,
     /// Pressure only.
     Normal,
@@ -20,9 +23,9 @@ pub enum Contact {
 ///
 /// Motions are `[right, down, rotation]`, forces on the soil are `[right, down, moment]`; a
 /// positive rotation or moment lowers the right side.
-pub struct RigidStrip {
+pub struct DrivenStrip {
     ground: Box<dyn Ground>,
-    /// Of the instantaneous operator.
+    /// Of the step compliance.
     inverse: Vec<f64>,
     /// Element means of the three rigid motions, and the same times element lengths.
     motions: [Vec<f64>; 3],
@@ -32,45 +35,47 @@ pub struct RigidStrip {
     history: Vec<f64>,
 }
 
-impl RigidStrip {
+impl DrivenStrip {
     pub fn new(
         poisson: f64,
         grading: Grading,
         elements: usize,
         time_step: f64,
-        contact: Contact,
+        tractions: StripTractions,
     ) -> Self {
         let soil = Soil::new(1.0, poisson, 1.0).unwrap();
         let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
         let ground = ElasticGround::new(soil, strip).unwrap();
-        Self::on(Box::new(ground), time_step, contact)
+        Self::on(Box::new(ground), time_step, tractions)
     }
 
     /// The strip on any ground with the strip's elements.
-    pub fn on(mut ground: Box<dyn Ground>, time_step: f64, contact: Contact) -> Self {
+    pub fn on(mut ground: Box<dyn Ground>, time_step: f64, tractions: StripTractions) -> Self {
         ground.prepare(time_step, None, &mut unobserved).unwrap();
         let elements = ground.elements().len();
         let size = 2 * elements;
         let mut matrix = vec![0.0; size * size];
         ground.step_compliance(&mut matrix).unwrap();
-        let active = |i: usize| match contact {
-            Contact::Bonded => true,
-            Contact::Normal => i < elements,
-            Contact::Tangential => i >= elements,
-        };
+        let active: Vec<bool> = (0..size)
+            .map(|i| match tractions {
+                StripTractions::Bonded => true,
+                StripTractions::Normal => i < elements,
+                StripTractions::Tangential => i >= elements,
+            })
+            .collect();
         let mut motions = [vec![0.0; size], vec![0.0; size], vec![0.0; size]];
         for (q, element) in ground.elements().iter().enumerate() {
-            if active(q) {
+            if active[q] {
                 motions[1][q] = 1.0;
                 motions[2][q] = element.center()[0];
             }
-            if active(elements + q) {
+            if active[elements + q] {
                 motions[0][elements + q] = 1.0;
             }
         }
         for i in 0..size {
             for j in 0..size {
-                if !(active(i) && active(j)) {
+                if !(active[i] && active[j]) {
                     matrix[i * size + j] = f64::from(u8::from(i == j));
                 }
             }
@@ -114,20 +119,20 @@ impl RigidStrip {
     /// Pushes the strip for one step with the mean forces `force`; the motion at its end.
     pub fn push(&mut self, force: [f64; 3]) -> [f64; 3] {
         self.ground.history(&mut self.history).unwrap();
-        let held = self.resultant(&self.traction(&self.history));
-        let free: [f64; 3] = std::array::from_fn(|k| force[k] + held[k]);
+        let history_force = self.resultant(&self.traction(&self.history));
+        let total: [f64; 3] = std::array::from_fn(|k| force[k] + history_force[k]);
         let motion = std::array::from_fn(|k| {
-            (0..3).map(|j| self.compliance[3 * k + j] * free[j]).sum::<f64>()
+            (0..3).map(|j| self.compliance[3 * k + j] * total[j]).sum::<f64>()
         });
         self.advance(motion);
         motion
     }
 
     fn advance(&mut self, motion: [f64; 3]) -> [f64; 3] {
-        let wanted: Vec<f64> = (0..self.history.len())
+        let increment: Vec<f64> = (0..self.history.len())
             .map(|i| (0..3).map(|k| motion[k] * self.motions[k][i]).sum::<f64>() - self.history[i])
             .collect();
-        let mut traction = self.traction(&wanted);
+        let mut traction = self.traction(&increment);
         // Components that are not in contact carry nothing.
         for (i, t) in traction.iter_mut().enumerate() {
             if self.motions.iter().all(|m| m[i] == 0.0) && !self.in_contact(i) {
@@ -145,8 +150,10 @@ impl RigidStrip {
 
     fn traction(&self, displacement: &[f64]) -> Vec<f64> {
         let size = displacement.len();
-        let row = |i: usize| &self.inverse[i * size..(i + 1) * size];
-        (0..size).map(|i| row(i).iter().zip(displacement).map(|(a, b)| a * b).sum()).collect()
+        self.inverse
+            .chunks_exact(size)
+            .map(|row| row.iter().zip(displacement).map(|(a, b)| a * b).sum())
+            .collect()
     }
 
     fn resultant(&self, traction: &[f64]) -> [f64; 3] {

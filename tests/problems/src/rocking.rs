@@ -2,7 +2,7 @@
 
 use basemat::motion::STANDARD_GRAVITY;
 
-use crate::series::whole;
+use crate::series::nearest_integer;
 
 /// A rigid body on two corners.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +26,7 @@ impl Rocker {
     /// Housner's block for small tilts under a moment, N m/m by time: tilts every `sample` seconds, and the times of impacts.
     ///
     /// About the corner that is down, I θ″ = M ∓ N(b ∓ hθ); at an impact the moment of momentum about the new corner is
-    /// kept, so the rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
+    /// conserved, so the rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
     pub fn tilts(
         &self,
         push: impl Fn(f64) -> f64,
@@ -35,36 +35,41 @@ impl Rocker {
     ) -> (Vec<f64>, Vec<f64>) {
         let Self { half_width, mass, height, inertia } = *self;
         let moment_of_inertia = inertia + mass * half_width * half_width;
-        let kept = (inertia - mass * half_width * half_width) / moment_of_inertia;
-        let (stable, leaning) = (self.weight() * half_width, self.weight() * height);
-        // Side: +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
+        let rate_factor = (inertia - mass * half_width * half_width) / moment_of_inertia;
+        let restoring_moment = self.weight() * half_width;
+        let tilting_stiffness = self.weight() * height;
         let acceleration = |time: f64, tilt: f64, side: f64| {
-            (push(time) - side * stable + leaning * tilt) / moment_of_inertia
+            (push(time) - side * restoring_moment + tilting_stiffness * tilt) / moment_of_inertia
         };
         let substeps = 2000;
         let step = sample / f64::from(substeps);
-        let (mut tilt, mut rate, mut side) = (0.0_f64, 0.0_f64, 0.0_f64);
-        let (mut tilts, mut impacts) = (vec![0.0], Vec::new());
-        for n in 0..whole(duration / sample) {
+        let mut tilt = 0.0_f64;
+        let mut rate = 0.0_f64;
+        // +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
+        let mut side = 0.0_f64;
+        let mut tilts = vec![0.0];
+        let mut impacts = Vec::new();
+        for n in 0..nearest_integer(duration / sample) {
             for k in 0..substeps {
                 let time = n as f64 * sample + f64::from(k) * step;
                 if side == 0.0 {
-                    if push(time).abs() <= stable {
+                    if push(time).abs() <= restoring_moment {
                         continue;
                     }
                     side = push(time).signum();
                 }
                 // Velocity Verlet.
-                let before = acceleration(time, tilt, side);
-                let mut next = tilt + step * (rate + 0.5 * step * before);
-                rate += 0.5 * step * (before + acceleration(time + step, next, side));
+                let start_acceleration = acceleration(time, tilt, side);
+                let mut next = tilt + step * (rate + 0.5 * step * start_acceleration);
+                let end_acceleration = acceleration(time + step, next, side);
+                rate += 0.5 * step * (start_acceleration + end_acceleration);
                 if next * side < 0.0 {
                     // Linear within the step: the event is off by step² at most.
-                    let part = tilt / (tilt - next);
-                    impacts.push(time + part * step);
-                    rate *= kept;
+                    let fraction = tilt / (tilt - next);
+                    impacts.push(time + fraction * step);
+                    rate *= rate_factor;
                     side = -side;
-                    next = rate * (1.0 - part) * step;
+                    next = rate * (1.0 - fraction) * step;
                 }
                 tilt = next;
             }
@@ -90,8 +95,10 @@ pub fn quarter_period(tilt: f64, lift_off: f64, slenderness: f64, rate: f64) -> 
             if theta > lift_off { 1.0 - 0.5 * lift_off / theta } else { 0.5 * theta / lift_off };
         -rate * rate * (slenderness * arm - theta)
     };
-    let (mut theta, mut speed, mut time) = (tilt, 0.0, 0.0);
     let step = 1e-5;
+    let mut theta = tilt;
+    let mut speed = 0.0;
+    let mut time = 0.0;
     loop {
         // Leapfrog.
         speed += 0.5 * step * acceleration(theta);

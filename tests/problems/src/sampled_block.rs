@@ -8,8 +8,11 @@ use basemat::results::Run;
 use basemat::structure::{RigidBlock, Structure};
 use basemat::{Result, Simulation, Soil};
 
-use super::series::{Error, Series, whole};
+use super::series::{RelativeError, TabledSeries, nearest_integer};
 use super::table;
+
+pub use SAMPLING_INTERVAL as SAMPLE;
+pub use SampledHistory as History;
 
 /// The scene of the tables `td_*`: bonded and weightless under a Ricker pulse.
 pub fn under_pulse(
@@ -28,15 +31,19 @@ pub fn under_pulse(
 }
 
 /// Base displacement, rotation, and base shear (its mean over a sample).
-pub type History = [Vec<f64>; 3];
+pub type SampledHistory = [Vec<f64>; 3];
 
-/// The history of so many steps, a sample every `every` of them.
-pub fn sample(simulation: &mut Simulation, steps: usize, every: usize) -> Result<(History, Run)> {
+/// The history of so many steps, a sample every `interval` of them.
+pub fn sample(
+    simulation: &mut Simulation,
+    steps: usize,
+    interval: usize,
+) -> Result<(SampledHistory, Run)> {
     let mut history = [const { Vec::new() }; 3];
     let mut shear = 0.0;
     let run = simulation.run(steps, |state| {
-        shear += state.base_shear / every as f64;
-        if state.step % every == 0 {
+        shear += state.base_shear / interval as f64;
+        if state.step % interval == 0 {
             history[0].push(state.absolute_displacement()[0]);
             history[1].push(state.absolute_displacement()[2]);
             history[2].push(shear);
@@ -46,17 +53,17 @@ pub fn sample(simulation: &mut Simulation, steps: usize, every: usize) -> Result
     Ok((history, run))
 }
 
-/// Relative distance of `found` from `wanted`, component by component.
-pub fn distance(found: &History, wanted: &History) -> [f64; 3] {
+/// Relative distance of `computed` from `expected`, component by component.
+pub fn distance(computed: &SampledHistory, expected: &SampledHistory) -> [f64; 3] {
     std::array::from_fn(|k| {
-        let mut error = Error::default();
-        found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
+        let mut error = RelativeError::default();
+        computed[k].iter().zip(&expected[k]).for_each(|(a, b)| error.add(*a, *b));
         error.relative()
     })
 }
 
 /// Sampling of the histories of a [`PulsedBlock`]: all time steps are fractions of it.
-pub const SAMPLE: f64 = 0.2;
+pub const SAMPLING_INTERVAL: f64 = 0.2;
 
 /// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`; bonded without friction.
 #[derive(Debug, Clone, Copy)]
@@ -70,13 +77,13 @@ pub struct PulsedBlock {
 
 impl PulsedBlock {
     /// The bonded block of the reference table.
-    pub const BONDED: Self =
+    pub const BONDED_BLOCK: Self =
         Self { height: 2.0, gravity: 0.0, sigma: 1.0, friction: None, duration: 20.0 };
     /// A slender block under a slow pulse.
-    pub const SLENDER: Self =
+    pub const SLENDER_BLOCK: Self =
         Self { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
     /// A block that slides and lifts.
-    pub const SLIDING: Self =
+    pub const SLIDING_BLOCK: Self =
         Self { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
 
     /// Its history on so many elements.
@@ -84,7 +91,7 @@ impl PulsedBlock {
         self,
         (grading, elements): (Grading, usize),
         time_step: f64,
-    ) -> Result<(History, Run)> {
+    ) -> Result<(SampledHistory, Run)> {
         let soil = Soil::new(1.0, 1.0 / 3.0, 1.0)?;
         let strip = Strip::new(-1.0..1.0, elements, grading)?;
         let builder = Simulation::builder(time_step)
@@ -96,27 +103,30 @@ impl PulsedBlock {
             Some(friction) => builder.interface(Coulomb::new(friction)?),
             None => builder.interface(Bonded),
         };
-        let every = whole(SAMPLE / time_step);
-        sample(&mut builder.build()?, whole(self.duration / time_step), every)
+        let interval = nearest_integer(SAMPLING_INTERVAL / time_step);
+        sample(&mut builder.build()?, nearest_integer(self.duration / time_step), interval)
     }
 
     /// The bonded block of the table, sampled.
-    pub fn exact() -> History {
+    pub fn exact() -> SampledHistory {
         let table = table("td_block_SV_nu0333_h2_rho1.csv");
-        let column = |name| Series::new(&table, name);
-        let (base, rotation, shear) = (column("u_base"), column("theta"), column("V"));
-        let times = || (1..=whole(Self::BONDED.duration / SAMPLE)).map(|n| n as f64 * SAMPLE);
-        // Mean of the shear over a sample, from means over its eighths.
-        let part = SAMPLE / 8.0;
-        let mean = |time: f64| -> f64 {
-            (0..8).map(|k| shear.mean(time - f64::from(k) * part, part)).sum::<f64>() / 8.0
-        };
+        let base = TabledSeries::new(&table, "u_base");
+        let rotation = TabledSeries::new(&table, "theta");
+        let shear = TabledSeries::new(&table, "V");
+        let samples = nearest_integer(Self::BONDED_BLOCK.duration / SAMPLING_INTERVAL);
+        let times: Vec<f64> = (1..=samples).map(|n| n as f64 * SAMPLING_INTERVAL).collect();
         [
-            times().map(|time| base.at(time)).collect(),
-            times().map(|time| -rotation.at(time)).collect(),
-            times().map(mean).collect(),
+            times.iter().map(|time| base.at(*time)).collect(),
+            times.iter().map(|time| -rotation.at(*time)).collect(),
+            times.iter().map(|time| sample_mean(&shear, *time)).collect(),
         ]
     }
+}
+
+/// Mean over the sample that ends at a time, from means over its eighths.
+fn sample_mean(series: &TabledSeries, time: f64) -> f64 {
+    let eighth = SAMPLING_INTERVAL / 8.0;
+    (0..8).map(|k| series.mean(time - f64::from(k) * eighth, eighth)).sum::<f64>() / 8.0
 }
 
 /// Horizontal displacement of a block's base.

@@ -13,16 +13,20 @@ use basemat::{Simulation, Soil};
 
 /// Units of length, time and mass, and whether left and right are exchanged.
 #[derive(Debug, Clone, Copy)]
-pub struct Frame {
+pub struct UnitFrame {
     pub length: f64,
     pub time: f64,
     pub mass: f64,
     pub mirrored: bool,
 }
 
-pub const SI: Frame = Frame { length: 1.0, time: 1.0, mass: 1.0, mirrored: false };
+pub const SI_UNITS: UnitFrame = UnitFrame { length: 1.0, time: 1.0, mass: 1.0, mirrored: false };
 
-impl Frame {
+pub use SCENE_GRAVITY as GRAVITY;
+pub use SI_UNITS as SI;
+pub use UnitFrame as Frame;
+
+impl UnitFrame {
     pub fn sign(&self) -> f64 {
         if self.mirrored { -1.0 } else { 1.0 }
     }
@@ -42,40 +46,45 @@ impl Frame {
 }
 
 /// Two pulses of ground motion, horizontal and (smaller) vertical: m at `strength` = 1.
-pub fn shake(frame: Frame, strength: f64) -> FreeFieldFn {
-    let pulse = |t: f64, middle: f64, width: f64| {
-        let a = (t - middle) / width;
-        (1.0 - 2.0 * a * a) * (-a * a).exp()
-    };
-    let Frame { length, time, .. } = frame;
-    let across = frame.sign() * strength * length;
-    let at = move |t: f64| {
-        let t = t / time;
-        let start = |middle, width| pulse(t, middle, width) - pulse(0.0, middle, width);
-        let horizontal = 0.12 * start(0.4, 0.13) + 0.05 * start(0.75, 0.08);
-        let vertical = 0.02 * start(0.5, 0.07);
-        [across * horizontal, strength * length * vertical]
-    };
+pub fn shake(frame: UnitFrame, strength: f64) -> FreeFieldFn {
+    let horizontal_unit = frame.sign() * strength * frame.length;
+    let vertical_unit = strength * frame.length;
     // No law here uses the velocity.
-    FreeFieldFn::new(move |_, t| at(t))
+    FreeFieldFn::new(move |_, time| {
+        let t = time / frame.time;
+        let horizontal = 0.12 * pulse(t, 0.4, 0.13) + 0.05 * pulse(t, 0.75, 0.08);
+        let vertical = 0.02 * pulse(t, 0.5, 0.07);
+        [horizontal_unit * horizontal, vertical_unit * vertical]
+    })
 }
 
-pub fn soil(frame: Frame) -> Soil {
+/// Ricker's wavelet, (1 − 2a²) e^−a².
+fn ricker(time: f64, middle: f64, width: f64) -> f64 {
+    let a = (time - middle) / width;
+    (1.0 - 2.0 * a * a) * (-a * a).exp()
+}
+
+/// The wavelet that begins at zero.
+fn pulse(time: f64, middle: f64, width: f64) -> f64 {
+    ricker(time, middle, width) - ricker(0.0, middle, width)
+}
+
+pub fn soil(frame: UnitFrame) -> Soil {
     Soil::new(6e7 * frame.pressure(), 0.3, 1900.0 * frame.density()).unwrap()
 }
 
-pub fn ground(frame: Frame, elements: usize, grading: Grading) -> ElasticGround {
+pub fn ground(frame: UnitFrame, elements: usize, grading: Grading) -> ElasticGround {
     let half = 2.0 * frame.length;
     let strip = Strip::new(-half..half, elements, grading).unwrap();
     ElasticGround::new(soil(frame), strip).unwrap()
 }
 
-pub fn block(frame: Frame) -> RigidBlock {
+pub fn block(frame: UnitFrame) -> RigidBlock {
     RigidBlock::new(4.0 * frame.length, 6.0 * frame.length, 1500.0 * frame.density()).unwrap()
 }
 
 /// Flexible tower of 6 × 6 elements on the base of [`block`].
-pub fn tower(frame: Frame, damping: Option<RayleighDamping>) -> FemModel {
+pub fn tower(frame: UnitFrame, damping: Option<RayleighDamping>) -> FemModel {
     let material = Material::new(2e8 * frame.pressure(), 0.2, 1500.0 * frame.density()).unwrap();
     let layers = [Layer::new(6.0 * frame.length, 6, material)];
     let half = 2.0 * frame.length;
@@ -88,14 +97,14 @@ pub fn tower(frame: Frame, damping: Option<RayleighDamping>) -> FemModel {
 }
 
 pub const TIME_STEP: f64 = 2.5e-3;
-pub const GRAVITY: f64 = 9.81;
+pub const SCENE_GRAVITY: f64 = 9.81;
 
-/// The builder of a run with weight, everything but the structure and the law given.
-pub fn scene(frame: Frame, strength: f64) -> SimulationBuilder {
+/// The builder of a run with weight, without structure and law.
+pub fn scene(frame: UnitFrame, strength: f64) -> SimulationBuilder {
     Simulation::builder(TIME_STEP * frame.time)
         .ground(ground(frame, 8, Grading::Cosine))
         .motion(shake(frame, strength))
-        .gravity(GRAVITY * frame.acceleration())
+        .gravity(SCENE_GRAVITY * frame.acceleration())
 }
 
 pub fn friction(coefficient: f64) -> Coulomb {
@@ -113,38 +122,53 @@ pub fn states(simulation: &mut Simulation, steps: usize) -> Vec<State> {
 
 /// Largest difference of a quantity over a run, relative to its largest value in the first.
 pub fn apart<'a>(
-    one: &'a [State],
-    two: &'a [State],
+    expected: &'a [State],
+    computed: &'a [State],
     quantity: impl Fn(&'a State) -> Vec<f64>,
 ) -> f64 {
-    let (mut scale, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
-    for (a, b) in one.iter().zip(two) {
-        for (a, b) in quantity(a).into_iter().zip(quantity(b)) {
-            scale = scale.max(a.abs());
-            apart = apart.max((a - b).abs());
+    let mut max_value = f64::MIN_POSITIVE;
+    let mut max_difference = 0.0_f64;
+    for (expected, computed) in expected.iter().zip(computed) {
+        for (a, b) in quantity(expected).into_iter().zip(quantity(computed)) {
+            max_value = max_value.max(a.abs());
+            max_difference = max_difference.max((a - b).abs());
         }
     }
-    apart / scale
+    max_difference / max_value
 }
 
-/// A run of so many steps: its time series, and its states with the one before.
+/// A run with its time series.
+pub struct RecordedRun {
+    pub time_series: TimeSeries,
+    pub run: Run,
+    /// The state before the run, and that of each step.
+    pub states: Vec<State>,
+}
+
+/// A run of so many steps.
+pub fn record_run(simulation: &mut Simulation, recorder: Recorder, steps: usize) -> RecordedRun {
+    let mut time_series = recorder.start(simulation).unwrap();
+    let mut states = vec![simulation.state().clone()];
+    let run = simulation.run(steps, |state| {
+        time_series.record(state).unwrap();
+        states.push(state.clone());
+    });
+    RecordedRun { time_series, run: run.unwrap(), states }
+}
+
+/// The same as separate results.
 pub fn recorded(
     simulation: &mut Simulation,
     recorder: Recorder,
     steps: usize,
 ) -> (TimeSeries, Run, Vec<State>) {
-    let mut series = recorder.start(simulation).unwrap();
-    let mut states = vec![simulation.state().clone()];
-    let observe = |state: &State| {
-        series.record(state).unwrap();
-        states.push(state.clone());
-    };
-    let run = simulation.run(steps, observe).unwrap();
-    (series, run, states)
+    let RecordedRun { time_series, run, states } = record_run(simulation, recorder, steps);
+    (time_series, run, states)
 }
 
-/// A rigid block with a spring that hardens and loses energy in no way: f = k θ³ on the rotation
-/// of a rider of the same inertia on the top.
+/// A rigid block with a body on its top, on a spring that hardens and dissipates nothing.
+///
+/// The force is k s³ of the body's displacement s relative to the top.
 #[derive(Debug)]
 pub struct Rider {
     pub block: RigidBlock,
@@ -160,9 +184,9 @@ impl Structure for Rider {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        let mut own = Triplets::new(3);
-        self.block.mass(&mut own)?;
-        for &(i, j, value) in own.entries() {
+        let mut block_mass = Triplets::new(3);
+        self.block.mass(&mut block_mass)?;
+        for &(i, j, value) in block_mass.entries() {
             matrix.add(i, j, value);
         }
         matrix.add(3, 3, 4000.0);

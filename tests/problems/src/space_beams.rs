@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use basemat::fem::{BeamSection, Direction, Material, SpaceBeam};
 
-use crate::supported::{CLAMPED, RX, RY, RZ, Supported, X, Y, Z};
+use crate::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, SupportedMesh, X, Y, Z};
 
 /// Concrete of the tables.
 pub fn concrete() -> Material {
@@ -36,8 +36,8 @@ pub fn chain(
     count: usize,
     point: impl Fn(f64) -> [f64; 3],
     orientation: impl Fn(f64) -> [f64; 3],
-) -> Supported {
-    let mut scene = Supported::new();
+) -> SupportedMesh {
+    let mut scene = SupportedMesh::new();
     for k in 0..=count {
         scene.node(point(k as f64 / count as f64));
     }
@@ -46,45 +46,47 @@ pub fn chain(
         let beam = SpaceBeam::new([k, k + 1], material, section, orientation(middle));
         scene.add(beam.unwrap());
     }
-    scene.hold(0, &CLAMPED);
+    scene.hold(0, &CLAMPED_DIRECTIONS);
     scene
 }
 
 /// The straight cantilever of `MacNeal` & Harder (Finite Elements in Analysis and Design 1, 1985), along x.
-pub fn straight_cantilever(torsion_constant: f64, count: usize) -> Supported {
+pub fn straight_cantilever(torsion_constant: f64, count: usize) -> SupportedMesh {
     let material = Material::new(1.0e7, 0.3, 0.0).unwrap();
     let section = rectangle(0.2, 0.1, torsion_constant);
-    chain(material, section, count, |part| [6.0 * part, 0.0, 0.0], |_| [0.0, 1.0, 0.0])
+    chain(material, section, count, |fraction| [6.0 * fraction, 0.0, 0.0], |_| [0.0, 1.0, 0.0])
 }
 
 /// The twisted cantilever of `MacNeal` & Harder, 1.1 wide, turned by 90°.
-pub fn twisted_cantilever(thickness: f64, torsion_constant: f64, count: usize) -> Supported {
+pub fn twisted_cantilever(thickness: f64, torsion_constant: f64, count: usize) -> SupportedMesh {
     let material = Material::new(2.9e7, 0.22, 0.0).unwrap();
     let section = rectangle(1.1, thickness, torsion_constant);
-    let turned = |part: f64| {
-        let (sine, cosine) = (FRAC_PI_2 * part).sin_cos();
-        [0.0, cosine, sine]
-    };
-    chain(material, section, count, |part| [12.0 * part, 0.0, 0.0], turned)
+    chain(
+        material,
+        section,
+        count,
+        |fraction| [12.0 * fraction, 0.0, 0.0],
+        |fraction| [0.0, (FRAC_PI_2 * fraction).cos(), (FRAC_PI_2 * fraction).sin()],
+    )
 }
 
 /// Deflection of a cantilever, 4 m high, with a hinge at a guided head, under a unit force.
 pub fn hinged_cantilever(section: BeamSection) -> f64 {
-    let mut scene = Supported::new();
+    let mut scene = SupportedMesh::new();
     let ends = [[0.0; 3], [0.0, 0.0, 4.0]].map(|point| scene.node(point));
     let beam = SpaceBeam::new(ends, concrete(), section, [1.0, 0.0, 0.0]).unwrap();
     scene.add(beam.with_releases(1, &[RY, RZ]).unwrap());
-    scene.hold(0, &CLAMPED);
+    scene.hold(0, &CLAMPED_DIRECTIONS);
     scene.hold(1, &[RX, RY, RZ]);
     scene.work(&[(1, X, 1.0)])
 }
 
 /// The deep beam FV5 of the National Agency for Finite Element Methods and Standards (NAFEMS).
-pub fn deep_beam(count: usize) -> Supported {
+pub fn deep_beam(count: usize) -> SupportedMesh {
     let section = BeamSection::new(4.0, [4.0 / 3.0; 2], 2.24923).unwrap();
     let section = section.with_shear_areas([10.0 / 3.0; 2]).unwrap();
     let steel = Material::new(200.0e9, 0.3, 8000.0).unwrap();
-    let mut scene = Supported::new();
+    let mut scene = SupportedMesh::new();
     for k in 0..=count {
         scene.node([10.0 * k as f64 / count as f64, 0.0, 0.0]);
     }
@@ -97,15 +99,15 @@ pub fn deep_beam(count: usize) -> Supported {
     scene
 }
 
-/// A cantilever 3 m × 4 m × 20 m with some motions held along all its height.
-pub fn thick_cantilever(count: usize, held: &[Direction]) -> Supported {
+/// A cantilever 3 m × 4 m × 20 m with some directions fixed along all its height.
+pub fn thick_cantilever(count: usize, fixed: &[Direction]) -> SupportedMesh {
     // 3 m along the first axis of the section, 4 m along the second.
     let section = BeamSection::new(12.0, [16.0, 9.0], 20.0).unwrap();
     let section = section.with_shear_areas([10.0; 2]).unwrap();
-    let mut scene = Supported::new();
+    let mut scene = SupportedMesh::new();
     for k in 0..=count {
         scene.node([0.0, 0.0, 20.0 * k as f64 / count as f64]);
-        scene.hold(k, if k == 0 { &CLAMPED } else { held });
+        scene.hold(k, if k == 0 { &CLAMPED_DIRECTIONS } else { fixed });
     }
     for k in 0..count {
         let beam = SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap();

@@ -3,7 +3,8 @@
 use basemat::fem::{Direction, Element, ElementFace, MassKind};
 
 use super::dense::dot;
-use super::directions::IN_SPACE;
+use super::directions::NODE_DIRECTIONS;
+use super::supported::rigid_motion;
 
 /// Nodes with the stiffness k (I − Q Qᵀ), where the columns of Q are an orthonormal basis of the rigid motions.
 pub struct StiffElement {
@@ -26,8 +27,8 @@ impl StiffElement {
     pub fn brick(nodes: [usize; 8], stiffness: f64, mass: f64) -> Self {
         let sides =
             [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
-        let side = |side: [usize; 4]| ElementFace::side(&side.map(|k| nodes[k]));
-        Self { faces: sides.map(side).into(), ..Self::solid(&nodes, stiffness, mass) }
+        let faces = sides.map(|side| ElementFace::side(&side.map(|k| nodes[k]))).into();
+        Self { faces, ..Self::solid(&nodes, stiffness, mass) }
     }
 
     /// A bar or joint: nodes with displacements and rotations.
@@ -43,23 +44,17 @@ impl StiffElement {
 
     /// Displacements of all nodes in the six rigid motions.
     fn rigid_motions(&self, coordinates: &[[f64; 3]]) -> Vec<Vec<f64>> {
-        let motion = |k: usize| -> Vec<f64> {
-            let node = |p: &[f64; 3]| {
-                let [x, y, z] = [0, 1, 2].map(|axis| p[axis] - coordinates[0][axis]);
-                let mut u = [0.0; 6];
-                u[k] = 1.0;
-                // θ × r.
-                match k {
-                    3 => [u[1], u[2]] = [-z, y],
-                    4 => [u[0], u[2]] = [z, -x],
-                    5 => [u[0], u[1]] = [-y, x],
-                    _ => {}
-                }
-                u.into_iter().take(self.directions)
-            };
-            coordinates.iter().flat_map(node).collect()
-        };
-        (0..6).map(motion).collect()
+        let mut motions = Vec::new();
+        for motion in 0..6 {
+            let mut displacements = Vec::new();
+            for point in coordinates {
+                let from_first = [0, 1, 2].map(|axis| point[axis] - coordinates[0][axis]);
+                let u = rigid_motion(motion, from_first);
+                displacements.extend_from_slice(&u[..self.directions]);
+            }
+            motions.push(displacements);
+        }
+        motions
     }
 }
 
@@ -69,22 +64,22 @@ impl Element for StiffElement {
     }
 
     fn directions(&self) -> &[Direction] {
-        &IN_SPACE[..self.directions]
+        &NODE_DIRECTIONS[..self.directions]
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let n = self.order();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for mut motion in self.rigid_motions(coordinates) {
-            let whole = dot(&motion, &motion).sqrt();
+            let norm = dot(&motion, &motion).sqrt();
             // Twice is enough to be orthogonal to rounding.
-            for own in basis.iter().chain(&basis) {
-                let part = dot(own, &motion);
-                motion.iter_mut().zip(own).for_each(|(u, q)| *u -= part * q);
+            for vector in basis.iter().chain(&basis) {
+                let component = dot(vector, &motion);
+                motion.iter_mut().zip(vector).for_each(|(u, q)| *u -= component * q);
             }
-            let rest = dot(&motion, &motion).sqrt();
-            if rest > 1e-9 * whole {
-                basis.push(motion.iter().map(|u| u / rest).collect());
+            let orthogonal_norm = dot(&motion, &motion).sqrt();
+            if orthogonal_norm > 1e-9 * norm {
+                basis.push(motion.iter().map(|u| u / orthogonal_norm).collect());
             }
         }
         for i in 0..n {

@@ -5,30 +5,35 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
-use crate::dense::{eigenpairs, noise};
 use basemat::fem::{Direction, Element, MassKind, Mesh};
 
-pub const X: Direction = Direction::X;
-pub const Y: Direction = Direction::Y;
-pub const Z: Direction = Direction::Z;
-pub const RX: Direction = Direction::RotationX;
-pub const RY: Direction = Direction::RotationY;
-pub const RZ: Direction = Direction::RotationZ;
-pub const CLAMPED: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
-pub const HINGED: [Direction; 3] = [X, Y, Z];
+use crate::dense::{eigenpairs, noise};
+
+pub use basemat::fem::Direction::{RotationX as RX, RotationY as RY, RotationZ as RZ, X, Y, Z};
+
+pub const CLAMPED_DIRECTIONS: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
+pub const HINGED_DIRECTIONS: [Direction; 3] = [X, Y, Z];
+
+pub use CLAMPED_DIRECTIONS as CLAMPED;
+pub use ElementMatrix as Part;
+pub use HINGED_DIRECTIONS as HINGED;
+pub use NodalLoad as Load;
+pub use SupportedMesh as Supported;
+pub use assert_near as near;
+pub use rigid_motion as rigid;
 
 /// Force (N) or moment (N m) at a node.
-pub type Load = (usize, Direction, f64);
+pub type NodalLoad = (usize, Direction, f64);
 
 /// A matrix of the elements.
 #[derive(Debug, Clone, Copy)]
-pub enum Part {
+pub enum ElementMatrix {
     Stiffness,
     GeometricStiffness,
     Mass(MassKind),
 }
 
-impl Part {
+impl ElementMatrix {
     /// This matrix of an element.
     pub fn of(self, element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
         let mut matrix = vec![0.0; element.order().pow(2)];
@@ -43,14 +48,14 @@ impl Part {
 
 /// A mesh in space and its supports.
 #[derive(Debug, Default)]
-pub struct Supported {
+pub struct SupportedMesh {
     pub mesh: Mesh,
-    held: HashSet<(usize, Direction)>,
+    fixed: HashSet<(usize, Direction)>,
 }
 
-impl Supported {
+impl SupportedMesh {
     pub fn new() -> Self {
-        Self { mesh: Mesh::in_space(), held: HashSet::new() }
+        Self { mesh: Mesh::in_space(), fixed: HashSet::new() }
     }
 
     pub fn node(&mut self, point: [f64; 3]) -> usize {
@@ -61,15 +66,16 @@ impl Supported {
         self.mesh.add(element).unwrap();
     }
 
+    /// Fixes a node in these directions.
     pub fn hold(&mut self, node: usize, directions: &[Direction]) {
-        self.held.extend(directions.iter().map(|&direction| (node, direction)));
+        self.fixed.extend(directions.iter().map(|&direction| (node, direction)));
     }
 
     pub fn points(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&node| self.mesh.nodes()[node]).collect()
     }
 
-    /// Numbers of the degrees of freedom that are not held, node by node.
+    /// Numbers of the degrees of freedom that are not fixed, node by node.
     pub fn numbers(&self) -> HashMap<(usize, Direction), usize> {
         let mut used = HashSet::new();
         for element in self.mesh.elements() {
@@ -77,24 +83,24 @@ impl Supported {
                 used.extend(element.directions().iter().map(|&direction| (node, direction)));
             }
         }
-        let all = (0..self.mesh.nodes().len()).flat_map(|node| CLAMPED.map(|d| (node, d)));
-        let free = all.filter(|place| used.contains(place) && !self.held.contains(place));
-        free.enumerate().map(|(number, place)| (place, number)).collect()
+        let nodes = 0..self.mesh.nodes().len();
+        let all = nodes.flat_map(|node| CLAMPED_DIRECTIONS.map(|direction| (node, direction)));
+        let free = all.filter(|dof| used.contains(dof) && !self.fixed.contains(dof));
+        free.enumerate().map(|(number, dof)| (dof, number)).collect()
     }
 
-    pub fn matrix(&self, part: Part, factor: f64) -> Skyline {
+    pub fn matrix(&self, kind: ElementMatrix, factor: f64) -> Skyline {
         let numbers = self.numbers();
         let mut matrix = Skyline(vec![vec![0.0]; numbers.len()]);
         for element in self.mesh.elements() {
-            let own = part.of(element, &self.points(element.nodes()));
-            let places = element
+            let block = kind.of(element, &self.points(element.nodes()));
+            let dofs = element
                 .nodes()
                 .iter()
                 .flat_map(|&node| element.directions().iter().map(move |&d| (node, d)));
-            let places: Vec<Option<usize>> =
-                places.map(|place| numbers.get(&place).copied()).collect();
-            for (row, values) in places.iter().zip(own.chunks(places.len())) {
-                for (column, value) in places.iter().zip(values) {
+            let dofs: Vec<Option<usize>> = dofs.map(|dof| numbers.get(&dof).copied()).collect();
+            for (row, values) in dofs.iter().zip(block.chunks(dofs.len())) {
+                for (column, value) in dofs.iter().zip(values) {
                     if let (Some(row), Some(column)) = (*row, *column) {
                         matrix.add(row, column, factor * value);
                     }
@@ -104,8 +110,8 @@ impl Supported {
         matrix
     }
 
-    /// Displacements under `loads`: zero where held.
-    pub fn solve(&self, loads: &[Load]) -> impl Fn(usize, Direction) -> f64 + use<> {
+    /// Displacements under `loads`: zero where fixed.
+    pub fn solve(&self, loads: &[NodalLoad]) -> impl Fn(usize, Direction) -> f64 + use<> {
         let numbers = self.numbers();
         let mut displacement = vec![0.0; numbers.len()];
         for &(node, direction, force) in loads {
@@ -113,21 +119,21 @@ impl Supported {
                 displacement[number] += force;
             }
         }
-        self.matrix(Part::Stiffness, 1.0).factor().solve(&mut displacement);
+        self.matrix(ElementMatrix::Stiffness, 1.0).factor().solve(&mut displacement);
         move |node, direction| numbers.get(&(node, direction)).map_or(0.0, |&k| displacement[k])
     }
 
     /// Displacements of all nodes under `loads`.
-    pub fn displacements(&self, loads: &[Load]) -> Vec<[f64; 6]> {
-        let found = self.solve(loads);
+    pub fn displacements(&self, loads: &[NodalLoad]) -> Vec<[f64; 6]> {
+        let solution = self.solve(loads);
         let nodes = 0..self.mesh.nodes().len();
-        nodes.map(|node| CLAMPED.map(|direction| found(node, direction))).collect()
+        nodes.map(|node| CLAMPED_DIRECTIONS.map(|direction| solution(node, direction))).collect()
     }
 
     /// Displacement in the direction of the `loads`: their work.
-    pub fn work(&self, loads: &[Load]) -> f64 {
-        let found = self.solve(loads);
-        loads.iter().map(|&(node, direction, force)| force * found(node, direction)).sum()
+    pub fn work(&self, loads: &[NodalLoad]) -> f64 {
+        let solution = self.solve(loads);
+        loads.iter().map(|&(node, direction, force)| force * solution(node, direction)).sum()
     }
 
     /// Lowest frequencies, Hz.
@@ -137,36 +143,43 @@ impl Supported {
 
     /// Lowest modes. A structure that can move without deforming needs a `shift` of its squared circular frequencies.
     pub fn modes(&self, kind: MassKind, count: usize, shift: f64) -> Vec<Vibration> {
-        let mass = self.matrix(Part::Mass(kind), 1.0);
-        let mut shifted = self.matrix(Part::Stiffness, 1.0);
+        let mass = self.matrix(ElementMatrix::Mass(kind), 1.0);
+        let mut shifted = self.matrix(ElementMatrix::Stiffness, 1.0);
         if shift > 0.0 {
             shifted.add_all(&mass, shift);
         }
         let numbers = self.numbers();
-        let found = lowest(&shifted, &mass, count).into_iter().map(|(squared, shape)| {
-            let value = |place| numbers.get(&place).map_or(0.0, |&number| shape[number]);
+        let mut modes = Vec::new();
+        for EigenPair { value, vector } in lowest(&shifted, &mass, count) {
             let nodes = 0..self.mesh.nodes().len();
-            let shape = nodes.map(|node| CLAMPED.map(|direction| value((node, direction))));
-            let frequency = (squared - shift).max(0.0).sqrt() / TAU;
-            Vibration { frequency, shape: shape.collect() }
-        });
-        found.collect()
+            let shape = nodes.map(|node| {
+                CLAMPED_DIRECTIONS.map(|direction| {
+                    numbers.get(&(node, direction)).map_or(0.0, |&number| vector[number])
+                })
+            });
+            let frequency = (value - shift).max(0.0).sqrt() / TAU;
+            modes.push(Vibration { frequency, shape: shape.collect() });
+        }
+        modes
     }
 
-    /// aᵀ P b of a matrix of the elements, for motions of all nodes, held ones included.
-    pub fn form(&self, part: Part, a: &[[f64; 6]], b: &[[f64; 6]]) -> f64 {
-        let of_element = |element: &dyn Element| {
-            let [a, b] = [a, b].map(|all| values(element, all));
-            let own = part.of(element, &self.points(element.nodes()));
-            own.chunks(a.len()).zip(&a).map(|(row, a)| a * dot(row, &b)).sum::<f64>()
-        };
-        self.mesh.elements().map(of_element).sum()
+    /// aᵀ P b of a matrix of the elements, for motions of all nodes, fixed ones included.
+    pub fn form(&self, kind: ElementMatrix, a: &[[f64; 6]], b: &[[f64; 6]]) -> f64 {
+        self.mesh
+            .elements()
+            .map(|element| {
+                let a = values(element, a);
+                let b = values(element, b);
+                let block = kind.of(element, &self.points(element.nodes()));
+                block.chunks(a.len()).zip(&a).map(|(row, a)| a * dot(row, &b)).sum::<f64>()
+            })
+            .sum()
     }
 
     /// Lowest factor on the axial forces at which the structure buckles.
     pub fn buckling(&self) -> f64 {
-        let other = self.matrix(Part::GeometricStiffness, -1.0);
-        lowest(&self.matrix(Part::Stiffness, 1.0), &other, 1)[0].0
+        let geometric = self.matrix(ElementMatrix::GeometricStiffness, -1.0);
+        lowest(&self.matrix(ElementMatrix::Stiffness, 1.0), &geometric, 1)[0].value
     }
 }
 
@@ -180,33 +193,44 @@ pub struct Vibration {
 }
 
 /// Unit motion of a rigid body at a point: along x, y, z, and about axes through the origin.
-pub fn rigid(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
-    let mut own = [0.0; 6];
-    own[motion] = 1.0;
+pub fn rigid_motion(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
+    let mut u = [0.0; 6];
+    u[motion] = 1.0;
+    // θ × r.
     match motion {
-        3 => [own[1], own[2]] = [-z, y],
-        4 => [own[0], own[2]] = [z, -x],
-        5 => [own[0], own[1]] = [-y, x],
+        3 => [u[1], u[2]] = [-z, y],
+        4 => [u[0], u[2]] = [z, -x],
+        5 => [u[0], u[1]] = [-y, x],
         _ => (),
     }
-    own
+    u
 }
 
 /// Values of an element's degrees of freedom from the motions of all nodes.
 pub fn values(element: &dyn Element, all: &[[f64; 6]]) -> Vec<f64> {
-    let place = |direction: &Direction| CLAMPED.iter().position(|own| own == direction).unwrap();
-    let places: Vec<usize> = element.directions().iter().map(place).collect();
-    let nodes = element.nodes().iter();
-    nodes.flat_map(|&node| places.iter().map(move |&place| all[node][place])).collect()
+    let mut values = Vec::new();
+    for &node in element.nodes() {
+        for direction in element.directions() {
+            let index = CLAMPED_DIRECTIONS.iter().position(|other| other == direction).unwrap();
+            values.push(all[node][index]);
+        }
+    }
+    values
 }
 
-/// Lowest positive λ of K x = λ B x and their x, by iteration of a subspace.
-fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<(f64, Vec<f64>)> {
+/// λ and x of K x = λ B x.
+struct EigenPair {
+    value: f64,
+    vector: Vec<f64>,
+}
+
+/// Solutions of K x = λ B x with the lowest positive λ, by iteration of a subspace.
+fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<EigenPair> {
     let factor = stiffness.clone().factor();
     let order = stiffness.0.len();
     let mut basis: Vec<Vec<f64>> =
         (0..2 * count + 6).map(|seed| noise(order, seed as u64 + 1)).collect();
-    let mut before = vec![0.0; count];
+    let mut previous_values = vec![0.0; count];
     for _ in 0..300 {
         let images = basis.iter().map(|vector| {
             let mut image = other.multiply(vector);
@@ -215,44 +239,55 @@ fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<(f64, Vec<f
         });
         basis = orthonormal(images.collect(), stiffness);
         let images: Vec<Vec<f64>> = basis.iter().map(|v| other.multiply(v)).collect();
-        let small: Vec<Vec<f64>> =
+        let projected: Vec<Vec<f64>> =
             basis.iter().map(|a| images.iter().map(|b| dot(a, b)).collect()).collect();
         // The greatest 1/λ last.
-        let (small, vectors) = eigenpairs(&small);
-        let found: Vec<f64> = small.iter().rev().take(count).map(|value| 1.0 / value).collect();
-        if found.iter().zip(&before).all(|(a, b)| (a - b).abs() < 1e-11 * a.abs()) {
-            let shape = |vector: &Vec<f64>| {
-                let mut sum = vec![0.0; order];
-                for (factor, own) in vector.iter().zip(&basis) {
-                    sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += factor * own);
-                }
-                sum
-            };
-            return found.into_iter().zip(vectors.iter().rev().map(shape)).collect();
+        let (inverse_values, vectors) = eigenpairs(&projected);
+        let values: Vec<f64> =
+            inverse_values.iter().rev().take(count).map(|value| 1.0 / value).collect();
+        if values.iter().zip(&previous_values).all(|(a, b)| (a - b).abs() < 1e-11 * a.abs()) {
+            return values
+                .into_iter()
+                .zip(vectors.iter().rev())
+                .map(|(value, factors)| EigenPair { value, vector: combination(factors, &basis) })
+                .collect();
         }
-        before = found;
+        previous_values = values;
     }
-    panic!("no convergence: {before:?}");
+    panic!("no convergence: {previous_values:?}");
+}
+
+/// Sum of vectors times factors.
+fn combination(factors: &[f64], vectors: &[Vec<f64>]) -> Vec<f64> {
+    let mut sum = vec![0.0; vectors[0].len()];
+    for (factor, vector) in factors.iter().zip(vectors) {
+        sum.iter_mut().zip(vector).for_each(|(sum, value)| *sum += factor * value);
+    }
+    sum
+}
+
+/// Root of the energy xᵀKx.
+fn energy_norm(vector: &[f64], stiffness: &Skyline) -> f64 {
+    dot(vector, &stiffness.multiply(vector)).sqrt()
 }
 
 /// Vectors of unit energy xᵀKx with the same span; those that depend on earlier ones are left out.
 fn orthonormal(vectors: Vec<Vec<f64>>, stiffness: &Skyline) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for mut vector in vectors {
-        let size = |vector: &[f64]| dot(vector, &stiffness.multiply(vector)).sqrt();
-        let first = size(&vector);
+        let first_norm = energy_norm(&vector, stiffness);
         for _ in 0..2 {
             let force = stiffness.multiply(&vector);
             for other in &basis {
-                let part = dot(other, &force);
+                let component = dot(other, &force);
                 for (value, other) in vector.iter_mut().zip(other) {
-                    *value -= part * other;
+                    *value -= component * other;
                 }
             }
         }
-        let last = size(&vector);
-        if last > 1e-10 * first {
-            basis.push(vector.into_iter().map(|value| value / last).collect());
+        let orthogonal_norm = energy_norm(&vector, stiffness);
+        if orthogonal_norm > 1e-10 * first_norm {
+            basis.push(vector.into_iter().map(|value| value / orthogonal_norm).collect());
         }
     }
     basis
@@ -268,19 +303,19 @@ impl Skyline {
             return;
         }
         let entries = &mut self.0[row];
-        let place = row - column;
-        if entries.len() <= place {
-            entries.splice(0..0, vec![0.0; place + 1 - entries.len()]);
+        let distance = row - column;
+        if entries.len() <= distance {
+            entries.splice(0..0, vec![0.0; distance + 1 - entries.len()]);
         }
-        let last = entries.len() - 1;
-        entries[last - place] += value;
+        let diagonal = entries.len() - 1;
+        entries[diagonal - distance] += value;
     }
 
     /// Adds another matrix of the same profile times a factor.
     fn add_all(&mut self, other: &Self, factor: f64) {
-        for (row, (own, other)) in self.0.iter_mut().zip(&other.0).enumerate() {
-            assert_eq!(own.len(), other.len(), "row {row} of both matrices");
-            own.iter_mut().zip(other).for_each(|(own, value)| *own += factor * value);
+        for (row, (entries, other)) in self.0.iter_mut().zip(&other.0).enumerate() {
+            assert_eq!(entries.len(), other.len(), "row {row} of both matrices");
+            entries.iter_mut().zip(other).for_each(|(entry, value)| *entry += factor * value);
         }
     }
 
@@ -299,20 +334,21 @@ impl Skyline {
     /// Cholesky's factor.
     fn factor(mut self) -> Self {
         for row in 0..self.0.len() {
-            let (above, rest) = self.0.split_at_mut(row);
-            let entries = &mut rest[0];
+            let (above, remaining) = self.0.split_at_mut(row);
+            let entries = &mut remaining[0];
             let first = row + 1 - entries.len();
             for column in first..row {
                 let other = &above[column];
                 let start = first.max(column + 1 - other.len());
-                let own = &entries[start - first..column - first];
-                let rest = dot(own, &other[start + other.len() - column - 1..other.len() - 1]);
-                entries[column - first] = (entries[column - first] - rest) / other[other.len() - 1];
+                let left_entries = &entries[start - first..column - first];
+                let other_entries = &other[start + other.len() - column - 1..other.len() - 1];
+                let sum = dot(left_entries, other_entries);
+                entries[column - first] = (entries[column - first] - sum) / other[other.len() - 1];
             }
             let last = entries.len() - 1;
-            let rest = dot(&entries[..last], &entries[..last]);
-            assert!(entries[last] > rest, "row {row} has no stiffness");
-            entries[last] = (entries[last] - rest).sqrt();
+            let sum = dot(&entries[..last], &entries[..last]);
+            assert!(entries[last] > sum, "row {row} has no stiffness");
+            entries[last] = (entries[last] - sum).sqrt();
         }
         self
     }
@@ -321,8 +357,8 @@ impl Skyline {
     fn solve(&self, vector: &mut [f64]) {
         for (row, entries) in self.0.iter().enumerate() {
             let last = entries.len() - 1;
-            let rest = dot(&entries[..last], &vector[row - last..row]);
-            vector[row] = (vector[row] - rest) / entries[last];
+            let sum = dot(&entries[..last], &vector[row - last..row]);
+            vector[row] = (vector[row] - sum) / entries[last];
         }
         for (row, entries) in self.0.iter().enumerate().rev() {
             let last = entries.len() - 1;
@@ -337,20 +373,21 @@ impl Skyline {
 
 /// Product of two vectors, in eight sums.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (first, rest) = a.as_chunks::<8>();
-    let (others, last) = b.as_chunks::<8>();
+    let (a_chunks, a_remainder) = a.as_chunks::<8>();
+    let (b_chunks, b_remainder) = b.as_chunks::<8>();
     let mut sums = [0.0; 8];
-    for (a, b) in first.iter().zip(others) {
+    for (a, b) in a_chunks.iter().zip(b_chunks) {
         for k in 0..8 {
             sums[k] += a[k] * b[k];
         }
     }
-    let rest: f64 = rest.iter().zip(last).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    let remainder: f64 = a_remainder.iter().zip(b_remainder).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + remainder
 }
 
 /// Asserts that two numbers differ by less than this, relative to the second.
-pub fn near(what: &str, found: f64, exact: f64, tolerance: f64) {
-    println!("{what}: {found:.9e}, {exact:.9e}");
-    assert!((found / exact - 1.0).abs() < tolerance, "{what}: {found} is not {exact}");
+pub fn assert_near(quantity: &str, computed: f64, expected: f64, tolerance: f64) {
+    println!("{quantity}: {computed:.9e}, {expected:.9e}");
+    let error = (computed / expected - 1.0).abs();
+    assert!(error < tolerance, "{quantity}: {computed} is not {expected}");
 }

@@ -15,29 +15,32 @@ pub fn three_storeys() -> basemat::Result<ShearBuilding> {
     ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3])
 }
 
-/// The cantilever of `td_EBcantilever_*`. Beam on a rigid base with mass and rotary inertia: node 0 is the middle of the base.
+/// The cantilever of `td_EBcantilever_*`: beams on a rigid base with mass and rotary inertia.
+///
+/// Node 0 is the middle of the base.
 pub struct Cantilever {
     beams: Vec<Beam>,
-    heights: Vec<[f64; 3]>,
+    nodes: Vec<[f64; 3]>,
 }
 
 impl Cantilever {
     pub fn new(elements: usize) -> Self {
         // EI = 20, mass per length 1, and an area that keeps the axial mode out of the way.
-        let beam = |k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap();
-        let height = |k| [0.0, 4.0 * k as f64 / elements as f64, 0.0];
         Self {
-            beams: (0..elements).map(beam).collect(),
-            heights: (0..=elements).map(height).collect(),
+            beams: (0..elements)
+                .map(|k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap())
+                .collect(),
+            nodes: (0..=elements).map(|k| [0.0, 4.0 * k as f64 / elements as f64, 0.0]).collect(),
         }
     }
 
-    /// Unknown of the top's displacement.
+    /// Degree of freedom of the top's displacement.
     pub fn top(&self) -> usize {
         3 * self.beams.len()
     }
 
-    fn add(
+    /// Adds an element matrix of all beams, times a factor.
+    fn add_beams(
         &self,
         factor: f64,
         matrix: &mut Triplets,
@@ -45,7 +48,7 @@ impl Cantilever {
     ) {
         for (k, beam) in self.beams.iter().enumerate() {
             let mut block = [0.0; 36];
-            fill(beam, &self.heights[k..k + 2], &mut block);
+            fill(beam, &self.nodes[k..k + 2], &mut block);
             let dofs: Vec<usize> = (3 * k..3 * k + 6).collect();
             matrix.add_block(&dofs, &block.map(|x| factor * x));
         }
@@ -54,7 +57,7 @@ impl Cantilever {
 
 impl Structure for Cantilever {
     fn dofs(&self) -> usize {
-        3 * self.heights.len()
+        3 * self.nodes.len()
     }
 
     fn base(&self) -> Base {
@@ -65,17 +68,19 @@ impl Structure for Cantilever {
         matrix.add(0, 0, 1.0);
         matrix.add(1, 1, 1.0);
         matrix.add(2, 2, 1.0 / 3.0);
-        self.add(1.0, matrix, |beam, at, block| beam.mass(at, MassKind::Consistent, block));
+        self.add_beams(1.0, matrix, |beam, nodes, block| {
+            beam.mass(nodes, MassKind::Consistent, block);
+        });
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        self.add(1.0, matrix, Beam::stiffness);
+        self.add_beams(1.0, matrix, Beam::stiffness);
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        self.add(0.02, matrix, Beam::stiffness);
+        self.add_beams(0.02, matrix, Beam::stiffness);
         Ok(())
     }
 }

@@ -14,7 +14,7 @@ use basemat::{Result, Simulation, Soil};
 pub const TIME_STEP: f64 = 0.01;
 
 /// Matrices as another program would write them.
-pub struct Tower {
+pub struct TowerMatrices {
     pub mass: Triplets,
     pub stiffness: Triplets,
     pub base: Base,
@@ -22,13 +22,16 @@ pub struct Tower {
     pub top: DofCombination,
 }
 
-impl Tower {
+pub use TowerMatrices as Tower;
+
+impl TowerMatrices {
     /// 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
     pub fn new() -> Result<Self> {
         let material = Material::new(5.0e9, 0.2, 600.0)?;
         let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
         let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
-        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
+        let mut mass = Triplets::new(model.dofs());
+        let mut stiffness = Triplets::new(model.dofs());
         model.mass(&mut mass)?;
         model.stiffness(&mut stiffness)?;
         let top = model.row(model.mesh().node_at(0.0, 100.0)?, Direction::X)?;

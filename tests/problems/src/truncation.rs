@@ -8,17 +8,19 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
-use crate::impedance::{Force, impedances};
-use crate::rigid_strip::RigidStrip;
-use crate::sampled_block::{History, distance, sample, under_pulse};
-use crate::series::{Error, whole};
+use crate::impedance::{ForceSampling, impedances};
+use crate::rigid_strip::DrivenStrip;
+use crate::sampled_block::{SampledHistory, distance, sample, under_pulse};
+use crate::series::{RelativeError, nearest_integer};
 use crate::table;
+
+pub use FullPlaneMesh as Mesh;
 
 /// Full-plane elements under a strip of half width 1.
 #[derive(Debug, Clone, Copy)]
-pub struct Mesh {
+pub struct FullPlaneMesh {
     pub elements: usize,
-    /// Free ones on either side.
+    /// Elements of the free surface on either side.
     pub free: usize,
     /// β = c₁Δt/l.
     pub beta: f64,
@@ -26,7 +28,7 @@ pub struct Mesh {
     pub quadrature: Option<CqMethod>,
 }
 
-impl Mesh {
+impl FullPlaneMesh {
     pub fn time_step(&self, soil: Soil) -> f64 {
         self.beta * 2.0 / self.elements as f64 / soil.pressure_wave_speed()
     }
@@ -57,50 +59,57 @@ pub fn tabled(name: &str) -> (Vec<f64>, Impedances) {
 }
 
 /// Impedances of the bonded strip from a march of 60 shear wave travel times.
-pub fn bonded_impedances(poisson: f64, mesh: Mesh, frequencies: &[f64]) -> Impedances {
+pub fn bonded_impedances(poisson: f64, mesh: FullPlaneMesh, frequencies: &[f64]) -> Impedances {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let time_step = mesh.time_step(soil);
-    let strip = |contact| RigidStrip::on(Box::new(mesh.ground(soil)), time_step, contact);
     // Convolution quadrature takes point values.
-    let force = if mesh.quadrature.is_some() { Force::End } else { Force::Mean };
-    impedances(strip, time_step, force, true, frequencies)
+    let sampling = if mesh.quadrature.is_some() { ForceSampling::End } else { ForceSampling::Mean };
+    impedances(
+        |tractions| DrivenStrip::on(Box::new(mesh.ground(soil)), time_step, tractions),
+        time_step,
+        sampling,
+        true,
+        frequencies,
+    )
 }
 
 /// Distances of `[hh, vv, rr, hr]`, as root mean squares relative to the modulus's.
-pub fn distances(found: &Impedances, wanted: &Impedances) -> [f64; 4] {
-    let mut errors = [Error::default(); 4];
-    for (found, wanted) in found.iter().zip(wanted) {
+pub fn distances(computed: &Impedances, expected: &Impedances) -> [f64; 4] {
+    let mut errors = [RelativeError::default(); 4];
+    for (computed, expected) in computed.iter().zip(expected) {
         for k in 0..4 {
             for part in 0..2 {
-                errors[k].add(found[k][part], wanted[k][part]);
+                errors[k].add(computed[k][part], expected[k][part]);
             }
         }
     }
-    errors.map(Error::relative)
+    errors.map(RelativeError::relative)
 }
 
 /// Distances of the bonded strip from its table.
-pub fn impedance_errors(name: &str, poisson: f64, mesh: Mesh) -> [f64; 4] {
-    let (frequencies, wanted) = tabled(name);
-    distances(&bonded_impedances(poisson, mesh, &frequencies), &wanted)
+pub fn impedance_errors(name: &str, poisson: f64, mesh: FullPlaneMesh) -> [f64; 4] {
+    let (frequencies, expected) = tabled(name);
+    distances(&bonded_impedances(poisson, mesh, &frequencies), &expected)
 }
 
-/// Base displacement, rotation and base shear (means over `every` steps) of a bonded rigid block
-/// of width and height 2 and density 1 under a Ricker pulse, every `every` steps.
-fn block(ground: impl Ground + 'static, time_step: f64, every: usize) -> History {
+/// Base displacement, rotation and base shear of a bonded rigid block under a Ricker pulse.
+///
+/// Width and height are 2, the density is 1. A sample is every `interval` steps, the shear its mean over them.
+fn block_history(ground: impl Ground + 'static, time_step: f64, interval: usize) -> SampledHistory {
     let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
     let mut simulation = under_pulse(block, ground, time_step);
-    sample(&mut simulation, whole(20.0 / time_step), every).unwrap().0
+    sample(&mut simulation, nearest_integer(20.0 / time_step), interval).unwrap().0
 }
 
 /// Relative distance of the block's `[u_base, theta, V]` on the full plane from that on a fine
 /// half-plane (32 graded elements, an eighth of the step).
-pub fn block_errors(mesh: Mesh) -> [f64; 3] {
+pub fn block_errors(mesh: FullPlaneMesh) -> [f64; 3] {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
-    let (time_step, full) = (mesh.time_step(soil), mesh.ground(soil));
+    let time_step = mesh.time_step(soil);
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
-    let half = ElasticGround::new(soil, strip).unwrap();
-    distance(&block(full, time_step, 1), &block(half, time_step / 8.0, 8))
+    let half_plane = ElasticGround::new(soil, strip).unwrap();
+    let computed = block_history(mesh.ground(soil), time_step, 1);
+    distance(&computed, &block_history(half_plane, time_step / 8.0, 8))
 }
 
 /// Mean slip and largest uplifted fraction of a block of height 4 under its weight that rocks and
@@ -108,31 +117,34 @@ pub fn block_errors(mesh: Mesh) -> [f64; 3] {
 pub fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f64); 2] {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
-    let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
-    let half = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, elements).unwrap()).unwrap();
-    let run = |builder: SimulationBuilder| {
-        let mut simulation = builder
-            .structure(RigidBlock::new(2.0, 4.0, 0.5).unwrap())
-            .interface(Coulomb::new(0.5).unwrap())
-            .motion(RickerDisplacement::new(1.0, 1.5, 6.0).unwrap())
-            .gravity(0.1)
-            .build()
-            .unwrap();
-        let mut slip = Vec::new();
-        let run = simulation
-            .run(whole(14.0 / time_step), |state| {
-                slip.push(state.mean_slip);
-                for contact in &state.contact {
-                    assert!(contact.pressure >= -1e-9 && contact.gap >= -1e-9);
-                    assert!(contact.shear.abs() <= 0.5 * contact.pressure + 1e-9);
-                }
-            })
-            .unwrap();
-        assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
-        (slip, run.whole.uplifted_fraction.largest().value)
-    };
+    let full_plane = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
+    let strip = Strip::uniform(-1.0..1.0, elements).unwrap();
+    let half_plane = ElasticGround::new(soil, strip).unwrap();
     [
-        run(Simulation::builder(time_step).ground(full)),
-        run(Simulation::builder(time_step).ground(half)),
+        rocking_on(Simulation::builder(time_step).ground(full_plane), time_step),
+        rocking_on(Simulation::builder(time_step).ground(half_plane), time_step),
     ]
+}
+
+/// Mean slip and largest uplifted fraction of the block on a ground.
+fn rocking_on(builder: SimulationBuilder, time_step: f64) -> (Vec<f64>, f64) {
+    let mut simulation = builder
+        .structure(RigidBlock::new(2.0, 4.0, 0.5).unwrap())
+        .interface(Coulomb::new(0.5).unwrap())
+        .motion(RickerDisplacement::new(1.0, 1.5, 6.0).unwrap())
+        .gravity(0.1)
+        .build()
+        .unwrap();
+    let mut slip = Vec::new();
+    let run = simulation
+        .run(nearest_integer(14.0 / time_step), |state| {
+            slip.push(state.mean_slip);
+            for contact in &state.contact {
+                assert!(contact.pressure >= -1e-9 && contact.gap >= -1e-9);
+                assert!(contact.shear.abs() <= 0.5 * contact.pressure + 1e-9);
+            }
+        })
+        .unwrap();
+    assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
+    (slip, run.whole.uplifted_fraction.largest().value)
 }

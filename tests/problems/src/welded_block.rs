@@ -10,9 +10,9 @@ use basemat::unobserved;
 use super::dense::{dot, inverse};
 use super::table;
 
-const MOTIONS: usize = 3;
-const DEPTH: f64 = 1.0;
-const HEIGHT: f64 = 3.0;
+const MOTION_COUNT: usize = 3;
+const TRENCH_DEPTH: f64 = 1.0;
+const BLOCK_HEIGHT: f64 = 3.0;
 
 /// Cause of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,13 +32,14 @@ fn pulse(time: f64) -> f64 {
 
 /// Means of (t − z) and (t + z) pulses over the depths of an element: their sum's half, and their difference's half.
 fn waves(time: f64, [top, bottom]: [f64; 2]) -> [f64; 2] {
-    const POINTS: usize = 8;
+    const POINT_COUNT: usize = 8;
     let mut means = [0.0; 2];
-    for point in 0..POINTS {
-        let z = top + (bottom - top) * (point as f64 + 0.5) / POINTS as f64;
-        let [up, down] = [pulse(time + z), pulse(time - z)];
-        means[0] += 0.5 * (up + down) / POINTS as f64;
-        means[1] += 0.5 * (up - down) / POINTS as f64;
+    for point in 0..POINT_COUNT {
+        let z = top + (bottom - top) * (point as f64 + 0.5) / POINT_COUNT as f64;
+        let up = pulse(time + z);
+        let down = pulse(time - z);
+        means[0] += 0.5 * (up + down) / POINT_COUNT as f64;
+        means[1] += 0.5 * (up - down) / POINT_COUNT as f64;
     }
     means
 }
@@ -52,118 +53,156 @@ fn depths(element: &ContactElement) -> [f64; 2] {
 
 /// Mean displacements of the elements, normal and then tangential, in rigid motions: to the right, down, rotation that
 /// lowers the right end.
-fn rigid(elements: &[ContactElement]) -> Vec<[f64; MOTIONS]> {
-    let row = |component: usize| {
-        elements.iter().map(move |element| {
-            let [x, _, z] = element.center();
-            let [along, _, up] = element.directions()[component];
-            [along, -up, along * (DEPTH + z) - up * x]
-        })
-    };
-    row(0).chain(row(1)).collect()
+fn rigid_motion_rows(elements: &[ContactElement]) -> Vec<[f64; MOTION_COUNT]> {
+    let normal = elements.iter().map(|element| rigid_motion_row(element, 0));
+    let tangential = elements.iter().map(|element| rigid_motion_row(element, 1));
+    normal.chain(tangential).collect()
+}
+
+/// Mean displacement of an element along one of its directions in each rigid motion.
+fn rigid_motion_row(element: &ContactElement, component: usize) -> [f64; MOTION_COUNT] {
+    let center = element.center();
+    let direction = element.directions()[component];
+    [
+        direction[0],
+        -direction[2],
+        direction[0] * (TRENCH_DEPTH + center[2]) - direction[2] * center[0],
+    ]
+}
+
+/// Mass matrix of the block about the middle of its base.
+fn mass_matrix() -> [[f64; MOTION_COUNT]; MOTION_COUNT] {
+    let mass = 2.0 * BLOCK_HEIGHT;
+    let arm = 0.5 * BLOCK_HEIGHT;
+    let inertia = mass * (4.0 + BLOCK_HEIGHT * BLOCK_HEIGHT) / 12.0 + mass * arm * arm;
+    [[mass, 0.0, mass * arm], [0.0, mass, 0.0], [mass * arm, 0.0, inertia]]
+}
+
+/// Forces on the block's three motions by tractions: (L R)ᵀ τ.
+fn resultant(loads: &[[f64; MOTION_COUNT]], traction: &[f64]) -> [f64; MOTION_COUNT] {
+    std::array::from_fn(|k| loads.iter().zip(traction).map(|(row, t)| row[k] * t).sum())
+}
+
+/// What moves the block in a step.
+struct StepInput {
+    /// Displacements of the free field at the end of the step.
+    displacement: Vec<f64>,
+    /// Tractions of the free field in the step.
+    traction: Vec<f64>,
+    /// On the block.
+    load: [f64; MOTION_COUNT],
+}
+
+impl StepInput {
+    /// Of a step, counted from 1.
+    fn new(cause: Cause, elements: &[ContactElement], step: usize, time_step: f64) -> Self {
+        let start = (step - 1) as f64 * time_step;
+        let end = step as f64 * time_step;
+        let count = elements.len();
+        let mut input = Self {
+            displacement: vec![0.0; 2 * count],
+            traction: vec![0.0; 2 * count],
+            load: [0.0; MOTION_COUNT],
+        };
+        match cause {
+            Cause::Waves(left_factor) => {
+                for (e, element) in elements.iter().enumerate() {
+                    let along = element.directions()[0][0];
+                    let start_means = waves(start, depths(element));
+                    let end_means = waves(end, depths(element));
+                    let stress = (end_means[1] - start_means[1]) / time_step;
+                    let is_floor = along == 0.0;
+                    let component = if is_floor { count + e } else { e };
+                    input.displacement[component] =
+                        end_means[0] * if is_floor { 1.0 } else { along };
+                    input.traction[count + e] = if is_floor { -stress } else { stress };
+                    if along < 0.0 {
+                        input.traction[count + e] *= left_factor;
+                    }
+                }
+            }
+            Cause::Force => {
+                // Simpson's rule.
+                let middle = pulse(0.5 * (start + end));
+                let mean = (pulse(start) + 4.0 * middle + pulse(end)) / 6.0;
+                input.load = [mean, 0.0, -2.0 * mean];
+            }
+        }
+        input
+    }
 }
 
 /// Displacement and rotation of the middle of the base at the end of each step.
 pub fn march(ground: &mut dyn Ground, time_step: f64, steps: usize, cause: Cause) -> Vec<[f64; 2]> {
     ground.prepare(time_step, Some(steps), &mut unobserved).unwrap();
     let elements = ground.elements().to_vec();
-    let (count, size) = (elements.len(), 2 * elements.len());
-    let rows = rigid(&elements);
+    let count = elements.len();
+    let size = 2 * count;
+    let rows = rigid_motion_rows(&elements);
     let mut compliance = vec![0.0; size * size];
     ground.step_compliance(&mut compliance).unwrap();
     let stiffness = inverse(&compliance, size);
-    let loads: Vec<[f64; MOTIONS]> =
+    let loads: Vec<[f64; MOTION_COUNT]> =
         (0..size).map(|i| rows[i].map(|value| value * elements[i % count].length())).collect();
-    let resultant = |traction: &[f64]| -> [f64; MOTIONS] {
-        std::array::from_fn(|k| loads.iter().zip(traction).map(|(row, t)| row[k] * t).sum())
-    };
-    let mass = 2.0 * HEIGHT;
-    let arm = 0.5 * HEIGHT;
-    let turning = mass * (4.0 + HEIGHT * HEIGHT) / 12.0 + mass * arm * arm;
-    let mass = [[mass, 0.0, mass * arm], [0.0, mass, 0.0], [mass * arm, 0.0, turning]];
+    let mass = mass_matrix();
     // Mean acceleration over a step: 2 (Δu/Δt − v)/Δt.
-    let mut system = [0.0; MOTIONS * MOTIONS];
-    for k in 0..MOTIONS {
+    let mut system = [0.0; MOTION_COUNT * MOTION_COUNT];
+    for k in 0..MOTION_COUNT {
         let column: Vec<f64> = rows.iter().map(|row| row[k]).collect();
-        let force = resultant(&times(&stiffness, &column));
-        for i in 0..MOTIONS {
-            system[i * MOTIONS + k] = force[i] + 2.0 * mass[i][k] / time_step.powi(2);
+        let force = resultant(&loads, &multiply(&stiffness, &column));
+        for i in 0..MOTION_COUNT {
+            system[i * MOTION_COUNT + k] = force[i] + 2.0 * mass[i][k] / time_step.powi(2);
         }
     }
-    let solution = inverse(&system, MOTIONS);
-    let (mut displacement, mut velocity) = ([0.0; MOTIONS], [0.0; MOTIONS]);
-    let (mut history, mut found) = (vec![0.0; size], vec![]);
+    let system_inverse = inverse(&system, MOTION_COUNT);
+    let mut displacement = [0.0; MOTION_COUNT];
+    let mut velocity = [0.0; MOTION_COUNT];
+    let mut history = vec![0.0; size];
+    let mut motions = vec![];
     for step in 1..=steps {
-        let ends = [(step - 1) as f64 * time_step, step as f64 * time_step];
-        let (mut field, mut own) = (vec![0.0; size], vec![0.0; size]);
-        let mut load = [0.0; MOTIONS];
-        match cause {
-            Cause::Waves(left) => {
-                for (e, element) in elements.iter().enumerate() {
-                    let [along, _, _] = element.directions()[0];
-                    let [before, now] = ends.map(|time| waves(time, depths(element)));
-                    let stress = (now[1] - before[1]) / time_step;
-                    let place = if along == 0.0 { count + e } else { e };
-                    field[place] = now[0] * if along == 0.0 { 1.0 } else { along };
-                    own[count + e] = if along == 0.0 { -stress } else { stress };
-                    if along < 0.0 {
-                        own[count + e] *= left;
-                    }
-                }
-            }
-            Cause::Force => {
-                // Simpson's rule.
-                let middle = pulse(0.5 * (ends[0] + ends[1]));
-                let mean = (pulse(ends[0]) + 4.0 * middle + pulse(ends[1])) / 6.0;
-                load = [mean, 0.0, -2.0 * mean];
-            }
-        }
+        let input = StepInput::new(cause, &elements, step, time_step);
         ground.history(&mut history).unwrap();
         // τ = t + G₁⁻¹ (R u − s − h), with R u at the end of the step.
-        let at_rest: Vec<f64> = (0..size)
-            .map(|i| {
-                let kept: f64 = rows[i].iter().zip(&displacement).map(|(r, u)| r * u).sum();
-                kept - field[i] - history[i]
-            })
+        let relative: Vec<f64> = (0..size)
+            .map(|i| dot(&rows[i], &displacement) - input.displacement[i] - history[i])
             .collect();
-        let mut traction = times(&stiffness, &at_rest);
-        traction.iter_mut().zip(&own).for_each(|(t, own)| *t += own);
-        let held = resultant(&traction);
-        let inertia: [f64; MOTIONS] = std::array::from_fn(|i| {
-            let speed: f64 = mass[i].iter().zip(&velocity).map(|(m, v)| m * v).sum();
-            2.0 * speed / time_step
-        });
-        let right: Vec<f64> = (0..MOTIONS).map(|i| load[i] - held[i] + inertia[i]).collect();
-        let change = times(&solution, &right);
-        let moved: Vec<f64> =
-            rows.iter().map(|row| row.iter().zip(&change).map(|(r, u)| r * u).sum()).collect();
-        let more = times(&stiffness, &moved);
-        let committed: Vec<f64> = (0..size).map(|i| traction[i] + more[i] - own[i]).collect();
+        let mut traction = multiply(&stiffness, &relative);
+        traction.iter_mut().zip(&input.traction).for_each(|(t, field)| *t += field);
+        let force = resultant(&loads, &traction);
+        let inertia: [f64; MOTION_COUNT] =
+            std::array::from_fn(|i| 2.0 * dot(&mass[i], &velocity) / time_step);
+        let right_side: Vec<f64> =
+            (0..MOTION_COUNT).map(|i| input.load[i] - force[i] + inertia[i]).collect();
+        let increment = multiply(&system_inverse, &right_side);
+        let element_increments: Vec<f64> = rows.iter().map(|row| dot(row, &increment)).collect();
+        let traction_increments = multiply(&stiffness, &element_increments);
+        let committed: Vec<f64> =
+            (0..size).map(|i| traction[i] + traction_increments[i] - input.traction[i]).collect();
         ground.commit(&committed);
-        for k in 0..MOTIONS {
-            displacement[k] += change[k];
-            velocity[k] = 2.0 * change[k] / time_step - velocity[k];
+        for k in 0..MOTION_COUNT {
+            displacement[k] += increment[k];
+            velocity[k] = 2.0 * increment[k] / time_step - velocity[k];
         }
-        found.push([displacement[0], displacement[2]]);
+        motions.push([displacement[0], displacement[2]]);
     }
-    found
+    motions
 }
 
 /// Largest errors of displacement and rotation against the synthesis in `tests/data/embedded`, relative to the largest
 /// values there.
 ///
 /// `name`: SV or force, and the step.
-pub fn errors(found: &[[f64; 2]], name: &str) -> [f64; 2] {
+pub fn errors(motions: &[[f64; 2]], name: &str) -> [f64; 2] {
     let table = table(&format!("embedded/td_{name}.csv"));
-    let wanted = table.rows(["reference_ux", "reference_theta"]);
+    let expected = table.rows(["reference_ux", "reference_theta"]);
     std::array::from_fn(|k| {
-        let largest = wanted.iter().fold(0.0_f64, |most, row| most.max(row[k].abs()));
-        let errors = found.iter().zip(&wanted).map(|(found, wanted)| (found[k] - wanted[k]).abs());
-        errors.fold(0.0, f64::max) / largest
+        let size = expected.iter().fold(0.0_f64, |max, row| max.max(row[k].abs()));
+        let errors = motions.iter().zip(&expected).map(|(u, expected)| (u[k] - expected[k]).abs());
+        errors.fold(0.0, f64::max) / size
     })
 }
 
 /// A row-major matrix times a vector.
-fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+fn multiply(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
     matrix.chunks_exact(vector.len()).map(|row| dot(row, vector)).collect()
 }

@@ -1,5 +1,7 @@
-//! Wrappers of a structure: one that forwards the least, one that pulls it; of a ground: one that forwards the least; and
-//! of a law: one with another rule for modes.
+//! Wrappers of a structure, of a ground and of a law.
+//!
+//! Of a structure and of a ground, one that forwards the required methods only; of a structure, one with a force; of a law,
+//! one with another rule for modes.
 
 use basemat::bem::Ground;
 use basemat::interface::{
@@ -29,7 +31,7 @@ macro_rules! needed_from {
     };
 }
 
-/// A structure's own nonlinear force.
+/// Methods of a structure that is its nonlinear force.
 #[macro_export]
 macro_rules! own_force {
     () => {
@@ -43,15 +45,20 @@ macro_rules! own_force {
     };
 }
 
-/// A structure of which nothing but what every structure must say is left.
-pub struct Bare<S>(pub S);
+pub use LawWithNextMode as Wayward;
+pub use MinimalGround as BareGround;
+pub use MinimalStructure as Bare;
+pub use StructureWithForce as Pulled;
 
-impl<S: Structure> Structure for Bare<S> {
+/// A structure with the required methods only.
+pub struct MinimalStructure<S>(pub S);
+
+impl<S: Structure> Structure for MinimalStructure<S> {
     needed_from!(0);
 }
 
-/// A structure that a force pulls.
-pub struct Pulled<S, F> {
+/// A structure under a force.
+pub struct StructureWithForce<S, F> {
     pub structure: S,
     /// Displacement in the direction of the force of the point it acts on.
     pub along: DofCombination,
@@ -59,7 +66,7 @@ pub struct Pulled<S, F> {
     pub force: F,
 }
 
-impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F> {
+impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for StructureWithForce<S, F> {
     needed_from!(structure);
 
     fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
@@ -67,8 +74,8 @@ impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        for &(unknown, weight) in &self.along {
-            load[unknown] += weight * (self.force)(time);
+        for &(dof, weight) in &self.along {
+            load[dof] += weight * (self.force)(time);
         }
         Ok(())
     }
@@ -109,10 +116,10 @@ macro_rules! ground_from {
     };
 }
 
-/// A ground of which nothing but what every ground must say is left.
-pub struct BareGround<G>(pub G);
+/// A ground with the required methods only.
+pub struct MinimalGround<G>(pub G);
 
-impl<G: Ground> Ground for BareGround<G> {
+impl<G: Ground> Ground for MinimalGround<G> {
     ground_from!(0);
 }
 
@@ -151,14 +158,14 @@ macro_rules! law_from {
     };
 }
 
-/// Coulomb's law with a rule for the next mode that is not its own.
-pub struct Wayward<F> {
+/// Coulomb's law with another rule for the next mode.
+pub struct LawWithNextMode<F> {
     pub law: Coulomb,
-    /// The next mode, by the present one, the contact before and the mode that the law returns.
+    /// The next mode, by the present one, the previous contact and the mode that the law returns.
     pub next: F,
 }
 
-impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> PlaneLaw for Wayward<F> {
+impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> PlaneLaw for LawWithNextMode<F> {
     fn modes(&self) -> &[Mode] {
         self.law.modes()
     }

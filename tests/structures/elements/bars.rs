@@ -7,19 +7,25 @@ use basemat_problems::supported::{CLAMPED, Part, near};
 
 use super::{add, inner};
 
-const POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
+const END_POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
 
-fn direction([first, second]: [[f64; 3]; 2]) -> (f64, [f64; 3]) {
+struct BarAxis {
+    length: f64,
+    along: [f64; 3],
+}
+
+fn bar_axis([first, second]: [[f64; 3]; 2]) -> BarAxis {
     let way = add(second, -1.0, first);
     let length = inner(way, way).sqrt();
-    (length, way.map(|component| component / length))
+    BarAxis { length, along: way.map(|component| component / length) }
 }
 
 /// Asserts that a matrix is ± `block` between the displacements of two nodes.
 fn assert_pair(matrix: &[f64], block: impl Fn(usize, usize) -> f64) {
     let scale = (0..3).map(|k| block(k, k).abs()).fold(0.0, f64::max);
     for (index, value) in matrix.iter().enumerate() {
-        let [row, column] = [index / 6, index % 6];
+        let row = index / 6;
+        let column = index % 6;
         let sign = if (row < 3) == (column < 3) { 1.0 } else { -1.0 };
         let exact = sign * block(row % 3, column % 3);
         assert!((value - exact).abs() < 1e-14 * scale, "({row}, {column}): {value}, {exact}");
@@ -29,8 +35,8 @@ fn assert_pair(matrix: &[f64], block: impl Fn(usize, usize) -> f64) {
 #[test]
 fn a_truss_stretches_and_sways_in_space() {
     let truss = Truss::in_space([0, 1], 200.0e9, 1.0e-3, 7800.0).unwrap();
-    for points in [POINTS, [[0.0; 3], [0.0, 0.0, 2.0]], [[0.0; 3], [3.0, 0.0, 0.0]]] {
-        let (length, along) = direction(points);
+    for points in [END_POINTS, [[0.0; 3], [0.0, 0.0, 2.0]], [[0.0; 3], [3.0, 0.0, 0.0]]] {
+        let BarAxis { length, along } = bar_axis(points);
         let stiffness = 200.0e6 / length;
         assert_pair(&Part::Stiffness.of(&truss, &points), |i, j| stiffness * along[i] * along[j]);
         let shortened = [[0.0; 3], along.map(|component| -1e-3 * component)].concat();
@@ -50,27 +56,26 @@ fn a_truss_stretches_and_sways_in_space() {
 
 #[test]
 fn axial_springs_and_dashpots_act_along_their_line_in_space() {
-    let (_, along) = direction(POINTS);
+    let along = bar_axis(END_POINTS).along;
     let spring = Spring::axial_in_space([0, 1], 5.0).unwrap();
-    assert_pair(&Part::Stiffness.of(&spring, &POINTS), |i, j| 5.0 * along[i] * along[j]);
+    assert_pair(&Part::Stiffness.of(&spring, &END_POINTS), |i, j| 5.0 * along[i] * along[j]);
     let dashpot = Dashpot::axial_in_space([0, 1], 3.0).unwrap();
     let mut damping = vec![0.0; 36];
-    dashpot.damping(&POINTS, &mut damping);
+    dashpot.damping(&END_POINTS, &mut damping);
     assert_pair(&damping, |i, j| 3.0 * along[i] * along[j]);
     for direction in CLAMPED {
         let spring = Spring::new([0, 1], direction, 5.0).unwrap();
         assert_eq!(spring.directions(), [direction]);
-        assert_eq!(Part::Stiffness.of(&spring, &POINTS), [5.0, -5.0, -5.0, 5.0]);
+        assert_eq!(Part::Stiffness.of(&spring, &END_POINTS), [5.0, -5.0, -5.0, 5.0]);
         let mut damping = vec![0.0; 4];
-        Dashpot::new([0, 1], direction, 3.0).unwrap().damping(&POINTS, &mut damping);
+        Dashpot::new([0, 1], direction, 3.0).unwrap().damping(&END_POINTS, &mut damping);
         assert_eq!(damping, [3.0, -3.0, -3.0, 3.0]);
     }
 }
 
 #[test]
 fn bars_in_a_plane_are_the_bars_of_the_plane() {
-    let [first, second] = [[1.0, -2.0], [4.5, 1.0]];
-    let flat = [first, second].map(|[x, y]| [x, y, 0.0]);
+    let flat = [[1.0, -2.0, 0.0], [4.5, 1.0, 0.0]];
     let pairs: [[Box<dyn Element>; 2]; 2] = [
         [
             Box::new(Truss::new([0, 1], 200.0e9, 1.0e-3, 7800.0).unwrap()),
@@ -83,7 +88,8 @@ fn bars_in_a_plane_are_the_bars_of_the_plane() {
     ];
     for [plane, space] in pairs {
         for part in [Part::Stiffness, Part::Mass(MassKind::Consistent)] {
-            let (plane, space) = (part.of(&plane, &flat), part.of(&space, &flat));
+            let plane = part.of(&plane, &flat);
+            let space = part.of(&space, &flat);
             for i in 0..4 {
                 for j in 0..4 {
                     let place = 6 * (i + i / 2) + j + j / 2;

@@ -2,7 +2,7 @@
 //! SCENE: beams along their orientation, without length, with mechanisms; inverted bricks; negative values.
 //! REFERENCE: the texts of the errors.
 
-use basemat::fem::{BeamSection, Hex8, LumpedMass, Mesh, SpaceBeam, Spring, Truss};
+use basemat::fem::{BeamSection, Direction, Hex8, LumpedMass, Mesh, SpaceBeam, Spring, Truss};
 use basemat_problems::space_beams::{concrete, section};
 use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z};
 
@@ -41,13 +41,14 @@ fn a_beam_needs_a_length_and_an_orientation_across_it() {
     assert!(text(compressed).contains("axial force of the beam is NaN"));
 }
 
+fn released_beam(first: &[Direction], second: &[Direction]) -> basemat::Result<SpaceBeam> {
+    beam([1.0, 0.0, 0.0])
+        .and_then(|beam| beam.with_releases(0, first))
+        .and_then(|beam| beam.with_releases(1, second))
+}
+
 #[test]
 fn releases_that_leave_a_mechanism_are_refused() {
-    let released = |first: &[_], second: &[_]| {
-        beam([1.0, 0.0, 0.0])
-            .and_then(|beam| beam.with_releases(0, first))
-            .and_then(|beam| beam.with_releases(1, second))
-    };
     for (first, second) in [
         (&[X][..], &[X][..]),
         (&[RX], &[RX]),
@@ -56,7 +57,7 @@ fn releases_that_leave_a_mechanism_are_refused() {
         (&[Y, RZ], &[RZ]),
         (&[RY], &[Z, RY]),
     ] {
-        let text = text(released(first, second));
+        let text = text(released_beam(first, second));
         assert!(text.starts_with("beam between nodes 0 and 1: releases of the beam"), "{text}");
     }
     // Different planes, and one end altogether.
@@ -66,26 +67,35 @@ fn releases_that_leave_a_mechanism_are_refused() {
         (&CLAMPED, &[]),
         (&[Y, RZ], &[Z, RY]),
     ] {
-        released(first, second).unwrap();
+        released_beam(first, second).unwrap();
     }
-    let plane = beam([1.0, 0.0, 0.0])
-        .and_then(|beam| beam.with_releases(0, &[basemat::fem::Direction::Rotation]));
+    let plane =
+        beam([1.0, 0.0, 0.0]).and_then(|beam| beam.with_releases(0, &[Direction::Rotation]));
     assert!(text(plane).contains("released direction of the beam"));
     let third = beam([1.0, 0.0, 0.0]).and_then(|beam| beam.with_releases(2, &[X]));
     assert!(text(third).contains("released end of the beam: index 2 must be below 2"));
 }
 
+fn section_error(area: f64, moments: [f64; 2], torsion: f64) -> String {
+    text(BeamSection::new(area, moments, torsion))
+}
+
+fn shear_area_error(areas: [f64; 2]) -> String {
+    text(BeamSection::new(1.0, [1.0; 2], 1.0).and_then(|section| section.with_shear_areas(areas)))
+}
+
 #[test]
 fn values_that_cannot_be_are_refused() {
-    let section = |area, moments, torsion| text(BeamSection::new(area, moments, torsion));
-    assert!(section(0.0, [1.0; 2], 1.0).starts_with("area of the section is 0"));
-    assert!(section(1.0, [-1.0, 1.0], 1.0).starts_with("second moment I_y of the section is -1"));
-    assert!(section(1.0, [1.0, -1.0], 1.0).starts_with("second moment I_z of the section is -1"));
-    assert!(section(1.0, [1.0; 2], f64::NAN).starts_with("torsion constant of the section"));
-    let shear =
-        |areas| text(BeamSection::new(1.0, [1.0; 2], 1.0).and_then(|s| s.with_shear_areas(areas)));
-    assert!(shear([0.0, 1.0]).starts_with("shear area along y of the section is 0"));
-    assert!(shear([1.0, -1.0]).starts_with("shear area along z of the section is -1"));
+    for (error, beginning) in [
+        (section_error(0.0, [1.0; 2], 1.0), "area of the section is 0"),
+        (section_error(1.0, [-1.0, 1.0], 1.0), "second moment I_y of the section is -1"),
+        (section_error(1.0, [1.0, -1.0], 1.0), "second moment I_z of the section is -1"),
+        (section_error(1.0, [1.0; 2], f64::NAN), "torsion constant of the section"),
+        (shear_area_error([0.0, 1.0]), "shear area along y of the section is 0"),
+        (shear_area_error([1.0, -1.0]), "shear area along z of the section is -1"),
+    ] {
+        assert!(error.starts_with(beginning), "{error}");
+    }
     assert!(text(Truss::in_space([0, 1], 1.0, -1.0, 1.0)).contains("area of the truss"));
     assert!(text(Spring::axial_in_space([0, 1], 0.0)).contains("coefficient of the spring"));
     assert!(text(LumpedMass::in_space(0, -1.0, [0.0; 3])).contains("lumped mass"));
@@ -94,25 +104,26 @@ fn values_that_cannot_be_are_refused() {
     assert!(text(turned).contains("LumpedMass::in_space"));
 }
 
+fn add_brick(nodes: [usize; 8], height: f64) -> basemat::Result<usize> {
+    let mut mesh = Mesh::in_space();
+    for z in [0.0, height] {
+        for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            mesh.add_node_at([x, y, z]).unwrap();
+        }
+    }
+    mesh.add(Hex8::new(nodes, concrete()))
+}
+
 #[test]
 fn a_brick_needs_its_nodes_in_order_and_a_volume() {
-    let brick = |nodes: [usize; 8], height: f64| {
-        let mut mesh = Mesh::in_space();
-        for z in [0.0, height] {
-            for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
-                mesh.add_node_at([x, y, z]).unwrap();
-            }
-        }
-        mesh.add(Hex8::new(nodes, concrete()))
-    };
-    brick([0, 1, 2, 3, 4, 5, 6, 7], 1.0).unwrap();
+    add_brick([0, 1, 2, 3, 4, 5, 6, 7], 1.0).unwrap();
     for (nodes, height) in [
         ([0, 3, 2, 1, 4, 7, 6, 5], 1.0),
         ([4, 5, 6, 7, 0, 1, 2, 3], 1.0),
         ([0, 2, 1, 3, 4, 6, 5, 7], 1.0),
         ([0, 1, 2, 3, 4, 5, 6, 7], 0.0),
     ] {
-        let text = text(brick(nodes, height));
+        let text = text(add_brick(nodes, height));
         assert!(text.starts_with(&format!("brick on nodes {nodes:?}: Jacobian")), "{text}");
         assert!(text.contains("counter-clockwise from above"), "{text}");
     }

@@ -9,7 +9,7 @@ use basemat_problems::space_beams::{concrete, sheared};
 use basemat_problems::supported::{Part, RY, RZ};
 use basemat_problems::table;
 
-const CUBE: [[f64; 3]; 8] = [
+const CUBE_CORNERS: [[f64; 3]; 8] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -19,7 +19,7 @@ const CUBE: [[f64; 3]; 8] = [
     [1.0, 1.0, 1.0],
     [0.0, 1.0, 1.0],
 ];
-const PARALLELEPIPED: [[f64; 3]; 8] = [
+const PARALLELEPIPED_CORNERS: [[f64; 3]; 8] = [
     [0.0, 0.0, 0.0],
     [1.409_657, -0.350_151, -1.374_868],
     [1.150_313, 0.488_236, -1.854_294],
@@ -41,10 +41,10 @@ fn compare(file: &str, element: &dyn Element, points: &[[f64; 3]]) {
         ("lumped_mass", Part::Mass(MassKind::Lumped)),
     ] {
         let reference = table.symmetric(name, element.order());
-        let own = part.of(element, points);
+        let computed = part.of(element, points);
         let scale = largest(&reference);
-        let pairs = own.iter().zip(&reference);
-        let error = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        let pairs = computed.iter().zip(&reference);
+        let error = pairs.fold(0.0_f64, |largest, (a, b)| largest.max((a - b).abs()));
         println!("{name}: {error:e} of {scale:e}");
         assert!(error <= 1e-13 * scale, "{name}: {error:e} of {scale:e}");
     }
@@ -78,9 +78,11 @@ fn beams_have_the_matrices_of_the_tables() {
 
 #[test]
 fn bricks_have_the_matrices_of_the_tables() {
-    for (poisson, points, file) in
-        [(0.2, CUBE, "hex8_1"), (0.2, PARALLELEPIPED, "hex8_2"), (0.3, DISTORTED, "hex8_3")]
-    {
+    for (poisson, points, file) in [
+        (0.2, CUBE_CORNERS, "hex8_1"),
+        (0.2, PARALLELEPIPED_CORNERS, "hex8_2"),
+        (0.3, DISTORTED, "hex8_3"),
+    ] {
         let material = Material::new(30.0e9, poisson, 2500.0).unwrap();
         compare(file, &Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material), &points);
     }

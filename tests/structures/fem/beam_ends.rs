@@ -7,22 +7,28 @@ use basemat::fem::{Beam, BeamSection, Direction, Material, Mesh, SpaceBeam, Spri
 use basemat::structure::{BeamRows, FemModel, SectionRows, Structure};
 use basemat_problems::dense::{multiply, noise, solve_held, stiffness};
 
-const E: f64 = 30.0e9;
+const YOUNG_MODULUS: f64 = 30.0e9;
 
 fn value(rows: &SectionRows, displacement: &[f64]) -> f64 {
     assert!(rows.velocity.is_empty() && rows.acceleration.is_empty());
     rows.displacement.value(displacement)
 }
 
-/// Force and moment vectors in x, y, z that a section with the outward normal along the beam has at an end.
-fn vectors(rows: &BeamRows, end: usize, displacement: &[f64]) -> [[f64; 3]; 2] {
-    let own = &rows.ends[end];
-    let forces = [&own.axial, &own.shears[0], &own.shears[1]];
-    let moments = [&own.torque, &own.moments[0], &own.moments[1]];
-    [forces, moments].map(|parts| {
+/// Force and moment in x, y, z of a section with the outward normal along the beam.
+struct EndForces {
+    force: [f64; 3],
+    moment: [f64; 3],
+}
+
+fn end_forces(rows: &BeamRows, end: usize, displacement: &[f64]) -> EndForces {
+    let section = &rows.ends[end];
+    let forces = [&section.axial, &section.shears[0], &section.shears[1]];
+    let moments = [&section.torque, &section.moments[0], &section.moments[1]];
+    let [force, moment] = [forces, moments].map(|parts| {
         let parts = parts.map(|row| value(row, displacement));
         [0, 1, 2].map(|axis| (0..3).map(|k| rows.axes[k][axis] * parts[k]).sum())
-    })
+    });
+    EndForces { force, moment }
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -30,8 +36,18 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 #[track_caller]
-fn near(found: f64, wanted: f64, scale: f64) {
-    assert!((found - wanted).abs() < 1e-8 * scale, "{found} {wanted}");
+fn near(found: f64, expected: f64, scale: f64) {
+    assert!((found - expected).abs() < 1e-8 * scale, "{found} {expected}");
+}
+
+#[track_caller]
+fn near_by_ratio(found: f64, expected: f64) {
+    assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+}
+
+/// The first `count` degrees of freedom, fixed.
+fn fixed_dofs(count: usize) -> Vec<(usize, f64)> {
+    (0..count).map(|index| (index, 0.0)).collect()
 }
 
 #[test]
@@ -39,79 +55,86 @@ fn a_cantilever_in_the_plane_has_its_loads_moments() {
     for angle in [0.0, 0.4, 1.57, 2.9, -1.1_f64] {
         let tip = [5.0 * angle.cos(), 5.0 * angle.sin()];
         let mut mesh = Mesh::new();
-        let [foot, other] = [[0.0, 0.0], [0.1, 0.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
+        let foot = mesh.add_node(0.0, 0.0).unwrap();
+        let other = mesh.add_node(0.1, 0.0).unwrap();
         let end = mesh.add_node(tip[0], tip[1]).unwrap();
-        let stub = Beam::new([foot, other], E, 0.4, 0.02, 0.0).unwrap();
+        let stub = Beam::new([foot, other], YOUNG_MODULUS, 0.4, 0.02, 0.0).unwrap();
         mesh.add(stub).unwrap();
-        let beam = mesh.add(Beam::new([foot, end], E, 0.4, 0.02, 0.0).unwrap()).unwrap();
+        let beam =
+            mesh.add(Beam::new([foot, end], YOUNG_MODULUS, 0.4, 0.02, 0.0).unwrap()).unwrap();
         let model = FemModel::new(mesh, &[foot, other]).unwrap();
         let mut load = vec![0.0; model.dofs()];
-        let [x, y, turn] = [700.0, -300.0, 50.0];
+        let x = 700.0;
+        let y = -300.0;
+        let turn = 50.0;
         for (direction, value) in
             [(Direction::X, x), (Direction::Y, y), (Direction::Rotation, turn)]
         {
             load[model.dof(end, direction).unwrap()] = value;
         }
-        let held: Vec<(usize, f64)> = (0..6).map(|index| (index, 0.0)).collect();
-        let u = solve_held(&stiffness(&model), &load, &held);
+        let u = solve_held(&stiffness(&model), &load, &fixed_dofs(6));
         let rows = model.beam_rows(beam).unwrap();
-        let (c, s) = (angle.cos(), angle.sin());
-        for own in &rows.ends {
-            near(value(&own.axial, &u), c * x + s * y, 1e3);
-            near(value(&own.shears[0], &u), c * y - s * x, 1e3);
-            assert!(own.shears[1].displacement.is_empty() && own.torque.displacement.is_empty());
-            assert_eq!((own.axial.unit, own.moments[1].unit), ("N/m", "N·m/m"));
+        let c = angle.cos();
+        let s = angle.sin();
+        for section in &rows.ends {
+            near(value(&section.axial, &u), c * x + s * y, 1e3);
+            near(value(&section.shears[0], &u), c * y - s * x, 1e3);
+            assert!(section.shears[1].displacement.is_empty());
+            assert!(section.torque.displacement.is_empty());
+            assert_eq!((section.axial.unit, section.moments[1].unit), ("N/m", "N·m/m"));
         }
         near(value(&rows.ends[1].moments[1], &u), turn, 1e3);
         near(value(&rows.ends[0].moments[1], &u), turn + tip[0] * y - tip[1] * x, 1e4);
     }
 }
 
+/// Adds a beam of the portal, hardly extensible.
+fn add_portal_beam(mesh: &mut Mesh, ends: [usize; 2], inertia: f64) -> usize {
+    mesh.add(Beam::new(ends, YOUNG_MODULUS, 1.0e6, inertia, 0.0).unwrap()).unwrap()
+}
+
 /// Kleinlogel, *Rahmenformeln*, frame 38: clamped feet, a force H at the beam's height.
 #[test]
 fn a_clamped_portal_has_kleinlogels_moments() {
-    let (height, span, force) = (4.0, 6.0, 1000.0);
-    let [column, girder] = [0.02, 0.05];
+    let height = 4.0;
+    let span = 6.0;
+    let force = 1000.0;
+    let column = 0.02;
+    let girder = 0.05;
     let mut mesh = Mesh::new();
     let places = [[0.0, 0.0], [span, 0.0], [0.0, height], [span, height]];
     let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
-    // Hardly extensible.
-    let mut add = |ends: [usize; 2], inertia| {
-        mesh.add(Beam::new(ends, E, 1.0e6, inertia, 0.0).unwrap()).unwrap()
-    };
-    let left = add([nodes[0], nodes[2]], column);
-    let right = add([nodes[1], nodes[3]], column);
-    let top = add([nodes[2], nodes[3]], girder);
+    let left = add_portal_beam(&mut mesh, [nodes[0], nodes[2]], column);
+    let right = add_portal_beam(&mut mesh, [nodes[1], nodes[3]], column);
+    let top = add_portal_beam(&mut mesh, [nodes[2], nodes[3]], girder);
     let model = FemModel::new(mesh, &nodes[..2]).unwrap();
     let mut load = vec![0.0; model.dofs()];
     load[model.dof(nodes[2], Direction::X).unwrap()] = force;
-    let held: Vec<(usize, f64)> = (0..6).map(|index| (index, 0.0)).collect();
-    let u = solve_held(&stiffness(&model), &load, &held);
+    let u = solve_held(&stiffness(&model), &load, &fixed_dofs(6));
     let k = girder / column * height / span;
-    let [foot, corner] =
-        [3.0 * k + 1.0, 3.0 * k].map(|part| 0.5 * force * height * part / (6.0 * k + 1.0));
-    let close = |found: f64, wanted: f64| {
-        assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
-    };
+    let foot = 0.5 * force * height * (3.0 * k + 1.0) / (6.0 * k + 1.0);
+    let corner = 0.5 * force * height * (3.0 * k) / (6.0 * k + 1.0);
     for element in [left, right] {
         let rows = model.beam_rows(element).unwrap();
         // x of a column is up, so that its y is to the left.
-        close(value(&rows.ends[0].moments[1], &u), -foot);
-        close(value(&rows.ends[1].moments[1], &u), corner);
-        close(value(&rows.ends[0].shears[0], &u), -0.5 * force);
+        near_by_ratio(value(&rows.ends[0].moments[1], &u), -foot);
+        near_by_ratio(value(&rows.ends[1].moments[1], &u), corner);
+        near_by_ratio(value(&rows.ends[0].shears[0], &u), -0.5 * force);
     }
     let rows = model.beam_rows(top).unwrap();
-    close(value(&rows.ends[0].moments[1], &u), corner);
-    close(value(&rows.ends[1].moments[1], &u), -corner);
+    near_by_ratio(value(&rows.ends[0].moments[1], &u), corner);
+    near_by_ratio(value(&rows.ends[1].moments[1], &u), -corner);
     // The slope of the moment is minus the shear force.
-    close(value(&rows.ends[0].shears[0], &u), 2.0 * corner / span);
-    close(value(&model.beam_rows(left).unwrap().ends[0].axial, &u), 2.0 * corner / span);
+    near_by_ratio(value(&rows.ends[0].shears[0], &u), 2.0 * corner / span);
+    near_by_ratio(value(&model.beam_rows(left).unwrap().ends[0].axial, &u), 2.0 * corner / span);
 }
 
 /// Moment at the foot H tan(kL)/k with k² = P/EI; the force across the undeformed axis stays H.
 #[test]
 fn a_beam_column_has_the_moment_of_its_deformed_state() {
-    let (length, inertia, load) = (8.0, 0.02, 1000.0);
+    let length = 8.0;
+    let inertia = 0.02;
+    let load = 1000.0;
     for compression in [2.0e7, -2.0e7_f64] {
         let mut mesh = Mesh::new();
         let count: usize = 20;
@@ -119,31 +142,31 @@ fn a_beam_column_has_the_moment_of_its_deformed_state() {
             mesh.add_node(0.0, length * k as f64 / count as f64).unwrap();
         }
         for k in 0..count {
-            let beam = Beam::new([k, k + 1], E, 0.4, inertia, 0.0).unwrap();
+            let beam = Beam::new([k, k + 1], YOUNG_MODULUS, 0.4, inertia, 0.0).unwrap();
             mesh.add(beam.with_compression(compression).unwrap()).unwrap();
         }
         let other = mesh.add_node(1.0, 0.0).unwrap();
-        mesh.add(Beam::new([0, other], E, 0.4, inertia, 0.0).unwrap()).unwrap();
+        mesh.add(Beam::new([0, other], YOUNG_MODULUS, 0.4, inertia, 0.0).unwrap()).unwrap();
         let model = FemModel::new(mesh, &[0, other]).unwrap();
         let n = model.dofs();
         let mut force = vec![0.0; n];
         force[model.dof(count, Direction::X).unwrap()] = load;
-        let held = [0, 1, 2, n - 3, n - 2, n - 1].map(|k| (k, 0.0));
-        let u = solve_held(&stiffness(&model), &force, &held);
-        let k = (compression.abs() / (E * inertia)).sqrt();
+        let fixed = [0, 1, 2, n - 3, n - 2, n - 1].map(|k| (k, 0.0));
+        let u = solve_held(&stiffness(&model), &force, &fixed);
+        let k = (compression.abs() / (YOUNG_MODULUS * inertia)).sqrt();
         let curve = if compression > 0.0 { (k * length).tan() } else { (k * length).tanh() };
         let found = value(&model.beam_rows(0).unwrap().ends[0].moments[1], &u);
         assert!((found / (-load * curve / k) - 1.0).abs() < 1e-6, "{compression}: {found}");
         for element in 0..count {
-            for own in model.beam_rows(element).unwrap().ends {
-                near(value(&own.shears[0], &u), -load, 1e4);
+            for section in model.beam_rows(element).unwrap().ends {
+                near(value(&section.shears[0], &u), -load, 1e4);
             }
         }
     }
 }
 
 fn member(nodes: [usize; 2], orientation: [f64; 3]) -> SpaceBeam {
-    let concrete = Material::new(E, 0.2, 2400.0).unwrap();
+    let concrete = Material::new(YOUNG_MODULUS, 0.2, 2400.0).unwrap();
     let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3).unwrap();
     SpaceBeam::new(nodes, concrete, section.with_shear_areas([0.1, 0.09]).unwrap(), orientation)
         .unwrap()
@@ -174,21 +197,21 @@ fn a_cantilever_in_space_has_its_loads_moments() {
         let beam = member([nodes[0], end], orientation).with_offsets(offsets).unwrap();
         let beam = mesh.add(beam).unwrap();
         let model = FemModel::on_faces(mesh, &[nodes]).unwrap();
-        let [force, moment] = [[700.0, -300.0, 150.0], [50.0, 400.0, -250.0]];
+        let force = [700.0, -300.0, 150.0];
+        let moment = [50.0, 400.0, -250.0];
         let mut load = vec![0.0; model.dofs()];
         for (k, &direction) in model.mesh().directions().iter().enumerate() {
             load[model.dof(end, direction).unwrap()] = [force, moment].concat()[k];
         }
-        let held: Vec<(usize, f64)> = (0..24).map(|index| (index, 0.0)).collect();
-        let u = solve_held(&stiffness(&model), &load, &held);
+        let u = solve_held(&stiffness(&model), &load, &fixed_dofs(24));
         let rows = model.beam_rows(beam).unwrap();
         for (index, from) in [[0.0; 3], tip].iter().enumerate() {
             let arm = [0, 1, 2].map(|k| tip[k] - from[k] - offsets[index][k]);
-            let [found_force, found_moment] = vectors(&rows, index, &u);
+            let found = end_forces(&rows, index, &u);
             let about = cross(arm, force);
             for k in 0..3 {
-                near(found_force[k], force[k], 1e4);
-                near(found_moment[k], moment[k] + about[k], 1e4);
+                near(found.force[k], force[k], 1e4);
+                near(found.moment[k], moment[k] + about[k], 1e4);
             }
         }
         assert_eq!((rows.ends[0].axial.unit, rows.ends[1].torque.unit), ("N", "N·m"));
@@ -204,8 +227,8 @@ fn frame() -> FemModel {
     for (storey, height) in [3.0, 5.5].into_iter().enumerate() {
         let mut floor = Vec::new();
         for (k, &node) in below.iter().enumerate() {
-            let [x, y, _] = mesh.nodes()[node];
-            let top = mesh.add_node_at([x + 0.05 * k as f64, y, height]).unwrap();
+            let place = mesh.nodes()[node];
+            let top = mesh.add_node_at([place[0] + 0.05 * k as f64, place[1], height]).unwrap();
             let mut beam = member([node, top], [1.0, 0.3, 0.0]);
             if k == 1 {
                 beam = beam.with_offsets([[0.0, 0.1, 0.2], [0.1, 0.0, -0.3]]).unwrap();
@@ -230,44 +253,54 @@ fn frame() -> FemModel {
     model.with_rigid_link(floors[1][0], &floors[1][1..3]).unwrap()
 }
 
+/// Adds a force on a node to the forces on the degrees of freedom.
+fn add_force(model: &FemModel, forces: &mut [f64], node: usize, direction: Direction, force: f64) {
+    for (dof, weight) in model.row(node, direction).unwrap() {
+        forces[dof] += weight * force;
+    }
+}
+
+/// Elongation of the spring of the frame.
+fn spring_stretch(model: &FemModel, u: &[f64]) -> f64 {
+    let nodes = model.mesh().elements().last().unwrap().nodes();
+    let displacements = [0, 1].map(|k| model.row(nodes[k], Direction::Y).unwrap().value(u));
+    displacements[1] - displacements[0]
+}
+
 /// Beams and springs hold every free node in equilibrium: their sum is the assembled stiffness times u.
 #[test]
 fn end_forces_add_up_to_the_stiffness_of_a_linked_frame() {
     let model = frame();
     let u: Vec<f64> = noise(model.dofs(), 7).iter().map(|value| 1e-3 * value).collect();
     let mut sum = vec![0.0; model.dofs()];
-    let mut add = |node: usize, direction: Direction, force: f64| {
-        for (dof, weight) in model.row(node, direction).unwrap() {
-            sum[dof] += weight * force;
-        }
-    };
     let directions = model.mesh().directions();
     let mut beams = 0;
-    for (element, own) in model.mesh().elements().enumerate() {
+    for (element, beam) in model.mesh().elements().enumerate() {
         let Ok(rows) = model.beam_rows(element) else { continue };
         beams += 1;
         let is_offset = element == 4 + 1 || element == 12 + 1;
         for end in 0..2 {
             let sign = [-1.0, 1.0][end];
-            let [force, moment] = vectors(&rows, end, &u);
+            let EndForces { force, moment } = end_forces(&rows, end, &u);
             let arm = [[[0.0, 0.1, 0.2], [0.1, 0.0, -0.3]][end], [0.0; 3]][usize::from(!is_offset)];
             let about = cross(arm, force);
             for k in 0..3 {
-                add(own.nodes()[end], directions[k], sign * force[k]);
-                add(own.nodes()[end], directions[k + 3], sign * (moment[k] + about[k]));
+                let node = beam.nodes()[end];
+                add_force(&model, &mut sum, node, directions[k], sign * force[k]);
+                let moment = sign * (moment[k] + about[k]);
+                add_force(&model, &mut sum, node, directions[k + 3], moment);
             }
         }
     }
     assert_eq!(beams, 20);
-    let spring = model.mesh().elements().last().unwrap();
-    let stretch = |k: usize| model.row(spring.nodes()[k], Direction::Y).unwrap().value(&u);
-    let force = 3.0e6 * (stretch(1) - stretch(0));
-    add(spring.nodes()[1], Direction::Y, force);
-    add(spring.nodes()[0], Direction::Y, -force);
-    let wanted = multiply(&stiffness(&model), &u);
-    let scale = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    for (found, wanted) in sum.iter().zip(&wanted) {
-        assert!((found - wanted).abs() < 1e-11 * scale, "{found} {wanted}");
+    let spring = model.mesh().elements().last().unwrap().nodes();
+    let force = 3.0e6 * spring_stretch(&model, &u);
+    add_force(&model, &mut sum, spring[1], Direction::Y, force);
+    add_force(&model, &mut sum, spring[0], Direction::Y, -force);
+    let expected = multiply(&stiffness(&model), &u);
+    let scale = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    for (found, expected) in sum.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-11 * scale, "{found} {expected}");
     }
     // A hinged end has no moment; the forces of P–Δ act in the directions of the frame.
     let hinged = &model.beam_rows(4 + 2).unwrap().ends[1];
@@ -282,27 +315,25 @@ fn ends_add_up_to_the_section() {
     let model = frame();
     let u: Vec<f64> = noise(model.dofs(), 3).iter().map(|value| 1e-3 * value).collect();
     let section = model.section_in_space(0.0, [0.7, 0.4]).unwrap();
-    let [mut force, mut moment] = [[0.0; 3]; 2];
+    let mut force = [0.0; 3];
+    let mut moment = [0.0; 3];
     for element in 4..8 {
         let node = model.mesh().elements().nth(element).unwrap().nodes()[0];
         let offset = if element == 5 { [0.0, 0.1, 0.2] } else { [0.0; 3] };
         let place = model.mesh().nodes()[node];
         let arm = [place[0] - 0.7 + offset[0], place[1] - 0.4 + offset[1], offset[2]];
-        let [own_force, own_moment] = vectors(&model.beam_rows(element).unwrap(), 0, &u);
-        let about = cross(arm, own_force);
+        let end = end_forces(&model.beam_rows(element).unwrap(), 0, &u);
+        let about = cross(arm, end.force);
         for k in 0..3 {
-            force[k] += own_force[k];
-            moment[k] += own_moment[k] + about[k];
+            force[k] += end.force[k];
+            moment[k] += end.moment[k] + about[k];
         }
     }
     // The spring stands on the foot, too.
-    let spring = model.mesh().elements().last().unwrap().nodes();
-    let stretch: Vec<f64> =
-        spring.iter().map(|&node| model.row(node, Direction::Y).unwrap().value(&u)).collect();
-    let pull = 3.0e6 * (stretch[1] - stretch[0]);
+    let pull = 3.0e6 * spring_stretch(&model, &u);
     force[1] += pull;
     moment[2] += pull * (0.0 - 0.7);
-    let scale = moment.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let scale = moment.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let found = [
         &section.shear[0],
         &section.shear[1],
@@ -312,9 +343,9 @@ fn ends_add_up_to_the_section() {
         &section.torque,
     ]
     .map(|rows| rows.displacement.value(&u));
-    let wanted = [force[0], force[1], -force[2], moment[0], moment[1], moment[2]];
-    for (found, wanted) in found.iter().zip(wanted) {
-        assert!((found - wanted).abs() < 1e-10 * scale, "{found} {wanted}");
+    let expected = [force[0], force[1], -force[2], moment[0], moment[1], moment[2]];
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-10 * scale, "{found} {expected}");
     }
 }
 

@@ -6,10 +6,10 @@ use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
 use basemat::structure::{FemModel, Structure};
 use basemat_problems::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
 
-const E: f64 = 30.0e9;
-const AREA: f64 = 0.4;
-const INERTIA: f64 = 0.02;
-const DENSITY: f64 = 2400.0;
+const YOUNG_MODULUS: f64 = 30.0e9;
+const SECTION_AREA: f64 = 0.4;
+const SECOND_MOMENT: f64 = 0.02;
+const MASS_DENSITY: f64 = 2400.0;
 
 /// Straight beam of `length` in the direction `angle` with a weak bar that makes a base of two.
 fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> FemModel {
@@ -20,7 +20,8 @@ fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> F
         mesh.add_node(s * cos, s * sin).unwrap();
     }
     for k in 0..elements {
-        let beam = Beam::new([k, k + 1], E, AREA, INERTIA, DENSITY).unwrap();
+        let beam = Beam::new([k, k + 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY)
+            .unwrap();
         let beam = match shear {
             Some(stiffness) => beam.with_shear_stiffness(stiffness).unwrap(),
             None => beam,
@@ -39,24 +40,26 @@ fn free_dofs(model: &FemModel) -> Vec<usize> {
 
 #[test]
 fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
-    let (length, load) = (5.0, 1000.0);
+    let length = 5.0;
+    let load = 1000.0;
     for angle in [0.0_f64, 0.5, 2.0] {
         for shear in [None, Some(2.0e9)] {
             let model = cantilever(length, angle, 3, shear);
             let n = model.dofs();
-            let held: Vec<(usize, f64)> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+            let fixed: Vec<(usize, f64)> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
             let mut force = vec![0.0; n];
-            let [x, y, turn] = [Direction::X, Direction::Y, Direction::Rotation]
-                .map(|direction| model.dof(3, direction).unwrap());
+            let x = model.dof(3, Direction::X).unwrap();
+            let y = model.dof(3, Direction::Y).unwrap();
+            let turn = model.dof(3, Direction::Rotation).unwrap();
             // Across the beam, to the left: turns its tip counter-clockwise.
             force[x] = -load * angle.sin();
             force[y] = load * angle.cos();
-            let found = solve_held(&stiffness(&model), &force, &held);
+            let found = solve_held(&stiffness(&model), &force, &fixed);
             let deflection = -found[x] * angle.sin() + found[y] * angle.cos();
-            let exact = load * length.powi(3) / (3.0 * E * INERTIA)
+            let exact = load * length.powi(3) / (3.0 * YOUNG_MODULUS * SECOND_MOMENT)
                 + shear.map_or(0.0, |stiffness| load * length / stiffness);
             assert!((deflection / exact - 1.0).abs() < 1e-11, "{angle} {shear:?}");
-            let slope = load * length.powi(2) / (2.0 * E * INERTIA);
+            let slope = load * length.powi(2) / (2.0 * YOUNG_MODULUS * SECOND_MOMENT);
             assert!((found[turn] / slope - 1.0).abs() < 1e-11);
             let along = found[x] * angle.cos() + found[y] * angle.sin();
             assert!(along.abs() < 1e-11 * exact);
@@ -64,21 +67,24 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
     }
 }
 
+/// Error of the squared frequency of a cantilever of 8 m.
+fn frequency_error(elements: usize, kind: MassKind) -> f64 {
+    let length = 8.0;
+    let exact = (1.875_104_068_711_961_f64.powi(4)) * YOUNG_MODULUS * SECOND_MOMENT
+        / (MASS_DENSITY * SECTION_AREA * f64::powi(length, 4));
+    let model = cantilever(length, 0.7, elements, None).with_mass(kind);
+    let free = free_dofs(&model);
+    let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
+    found / exact - 1.0
+}
+
 /// First bending frequency of a cantilever, (1.87510407)² √(EI/(ρ A L⁴)): fourth order with
 /// consistent mass, second with lumped.
 #[test]
 fn cantilever_frequency_converges_with_its_order() {
-    let length = 8.0;
-    let exact =
-        (1.875_104_068_711_961_f64.powi(4)) * E * INERTIA / (DENSITY * AREA * f64::powi(length, 4));
-    let error = |elements, kind| {
-        let model = cantilever(length, 0.7, elements, None).with_mass(kind);
-        let free = free_dofs(&model);
-        let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
-        found / exact - 1.0
-    };
     for (kind, order) in [(MassKind::Consistent, 4.0), (MassKind::Lumped, 2.0)] {
-        let [coarse, fine] = [4, 8].map(|elements| error(elements, kind));
+        let coarse = frequency_error(4, kind);
+        let fine = frequency_error(8, kind);
         println!("{kind:?}, square of the frequency, four and eight elements: {coarse:e} {fine:e}");
         assert_eq!(fine > 0.0, kind == MassKind::Consistent, "bound from above or below");
         let found: f64 = (coarse / fine).log2();
@@ -89,7 +95,8 @@ fn cantilever_frequency_converges_with_its_order() {
 /// With very small shear flexibility, Timoshenko's matrices become Euler–Bernoulli's.
 #[test]
 fn timoshenko_tends_to_euler_bernoulli() {
-    let [thin, stiff] = [None, Some(1.0e22)].map(|shear| cantilever(3.0, 0.3, 1, shear));
+    let thin = cantilever(3.0, 0.3, 1, None);
+    let stiff = cantilever(3.0, 0.3, 1, Some(1.0e22));
     for (a, b) in [(stiffness(&thin), stiffness(&stiff)), (mass(&thin), mass(&stiff))] {
         for (x, y) in a.iter().flatten().zip(b.iter().flatten()) {
             assert!((x - y).abs() <= 1e-9 * a[4][4]);
@@ -107,25 +114,25 @@ fn consistent_mass_carries_constant_curvature_exactly() {
         field[4] = length.powi(2);
         field[5] = 2.0 * length;
         let found = form(&field, &mass(&model), &field);
-        let exact = DENSITY * AREA * length.powi(5) / 5.0;
+        let exact = MASS_DENSITY * SECTION_AREA * length.powi(5) / 5.0;
         assert!((found / exact - 1.0).abs() < 1e-13, "{shear:?}");
     }
 }
 
-/// Two bars at 45° under a vertical load: each carries P/√2, the tip sinks by P L/(E A).
+/// Two bars at 45° under a vertical load: each carries P/√2, the tip sinks by P L/(YOUNG_MODULUS A).
 #[test]
 fn bracket_of_two_trusses_sinks_by_its_closed_form() {
     let mut mesh = Mesh::new();
-    let [left, right, top] =
-        [[-2.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
-    for foot in [left, right] {
-        mesh.add(Truss::new([foot, top], E, 0.01, DENSITY).unwrap()).unwrap();
+    let nodes = [[-2.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
+    let top = nodes[2];
+    for foot in [nodes[0], nodes[1]] {
+        mesh.add(Truss::new([foot, top], YOUNG_MODULUS, 0.01, MASS_DENSITY).unwrap()).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
-    let held: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();
+    let fixed: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();
     let load = [0.0, 0.0, 0.0, 0.0, 700.0, -1000.0];
-    let found = solve_held(&stiffness(&model), &load, &held);
-    let flexibility = 8.0_f64.sqrt() / (E * 0.01);
+    let found = solve_held(&stiffness(&model), &load, &fixed);
+    let flexibility = 8.0_f64.sqrt() / (YOUNG_MODULUS * 0.01);
     assert!((found[5] / (-1000.0 * flexibility) - 1.0).abs() < 1e-12);
     assert!((found[4] / (700.0 * flexibility) - 1.0).abs() < 1e-12);
 }

@@ -6,11 +6,11 @@ use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormula
 use basemat::structure::{FemModel, Structure};
 use basemat_problems::dense::{dot, form, solve_held, stiffness};
 
-const E: f64 = 1.0e7;
+const YOUNG_MODULUS: f64 = 1.0e7;
 
 /// Column of `length` and unit width, fixed at its base.
 fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulation) -> FemModel {
-    let material = Material::new(E, nu, 1.0).unwrap();
+    let material = Material::new(YOUNG_MODULUS, nu, 1.0).unwrap();
     let layer = Layer { formulation: kind, ..Layer::new(length, along, material) };
     FemModel::on_base(Mesh::layered_block(-0.5..0.5, across, &[layer]).unwrap()).unwrap()
 }
@@ -27,12 +27,12 @@ fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
     let mut load = vec![0.0; model.dofs()];
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     for (place, &node) in top.iter().enumerate() {
-        let share = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
-        load[model.dof(node, Direction::X).unwrap()] = share / (top.len() - 1) as f64;
+        let part = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
+        load[model.dof(node, Direction::X).unwrap()] = part / (top.len() - 1) as f64;
     }
     let found = solve_held(&stiffness(&model), &load, &fixed_base(&model));
-    let bending = length.powi(3) / (3.0 * E / (1.0 - nu * nu) / 12.0);
-    let shear = length / (5.0 / 6.0 * 0.5 * E / (1.0 + nu));
+    let bending = length.powi(3) / (3.0 * YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
+    let shear = length / (5.0 / 6.0 * 0.5 * YOUNG_MODULUS / (1.0 + nu));
     dot(&load, &found) / (bending + shear)
 }
 
@@ -45,8 +45,8 @@ fn cantilever_locks_with_full_integration_and_not_with_incompatible_modes() {
         println!("{mesh:?}: full, incompatible, one point: {row:?}");
         row
     });
-    for (row, least) in table.iter().zip([0.6, 0.85, 0.95]) {
-        assert!(row[0] > least && row[0] < 0.99, "full: too stiff, converging from below");
+    for (row, lower_bound) in table.iter().zip([0.6, 0.85, 0.95]) {
+        assert!(row[0] > lower_bound && row[0] < 0.99, "full: too stiff, converging from below");
     }
     assert!(table[0][0] < 0.7, "one full element across locks");
     for row in table {
@@ -67,7 +67,7 @@ fn nearly_incompressible_material_locks_only_with_full_integration() {
     assert!((free - fine).abs() < 0.02 && (fine - 1.0).abs() < 0.05, "{free} {fine}");
 }
 
-/// Rectangles in pure bending are exact: rotation at the end M L / (E' I), any aspect ratio.
+/// Rectangles in pure bending are exact: rotation at the end M L / (YOUNG_MODULUS' I), any aspect ratio.
 #[test]
 fn pure_bending_of_rectangles_is_exact() {
     for (rows, nu) in [(1, 0.3), (3, 0.0), (7, 0.45)] {
@@ -78,45 +78,57 @@ fn pure_bending_of_rectangles_is_exact() {
             let node = model.mesh().node_at(x, length).unwrap();
             load[model.dof(node, Direction::Y).unwrap()] = sign;
         }
-        // The base may widen: only its left node is held sideways.
-        let held: Vec<(usize, f64)> =
+        // The base may widen: only its left node is fixed sideways.
+        let fixed: Vec<(usize, f64)> =
             fixed_base(&model).into_iter().filter(|&(index, _)| index != 2).collect();
-        let found = solve_held(&stiffness(&model), &load, &held);
-        let rotation = length / (E / (1.0 - nu * nu) / 12.0);
+        let found = solve_held(&stiffness(&model), &load, &fixed);
+        let rotation = length / (YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
         // The couple of two unit forces 1 m apart does work on the end's rotation.
         assert!((dot(&load, &found) / rotation - 1.0).abs() < 1e-10);
     }
 }
 
 fn element_matrix(kind: QuadFormulation, [a, b]: [f64; 2], nu: f64) -> Vec<Vec<f64>> {
-    let quad = Quad4::new([0, 1, 2, 3], Material::new(E, nu, 1.0).unwrap(), kind);
+    let quad = Quad4::new([0, 1, 2, 3], Material::new(YOUNG_MODULUS, nu, 1.0).unwrap(), kind);
     let mut matrix = vec![0.0; 64];
     quad.stiffness(&[[0.0; 3], [a, 0.0, 0.0], [a, b, 0.0], [0.0, b, 0.0]], &mut matrix);
     matrix.chunks(8).map(<[f64]>::to_vec).collect()
 }
 
-const HOURGLASS: [f64; 8] = [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0];
+const HOURGLASS_PATTERN: [f64; 8] = [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0];
 
 /// Energy of the bending pattern `u_x = 4 x y/(a b)`: `ε_x = κ y` and γ = κ x with κ = 4/(a b) for
-/// full integration; E' I κ² a/2 for a beam.
+/// full integration; YOUNG_MODULUS' I κ² a/2 for a beam.
 #[test]
 fn locking_of_one_rectangle_is_that_of_its_closed_form() {
-    let ([a, b], nu) = ([2.0_f64, 0.7], 0.3);
-    let direct = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    let shear = E / (2.0 * (1.0 + nu));
+    let a = 2.0_f64;
+    let b = 0.7;
+    let nu = 0.3;
+    let direct = YOUNG_MODULUS * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let shear = YOUNG_MODULUS / (2.0 * (1.0 + nu));
     let twice_energy = (4.0 / (a * b)).powi(2) * a * b / 12.0;
-    let full = form(&HOURGLASS, &element_matrix(QuadFormulation::Full, [a, b], nu), &HOURGLASS);
+    let full = form(
+        &HOURGLASS_PATTERN,
+        &element_matrix(QuadFormulation::Full, [a, b], nu),
+        &HOURGLASS_PATTERN,
+    );
     let locked = twice_energy * (direct * b * b + shear * a * a);
     assert!((full / locked - 1.0).abs() < 1e-12);
     let cured = element_matrix(QuadFormulation::IncompatibleModes, [a, b], nu);
-    let exact = twice_energy * E / (1.0 - nu * nu) * b * b;
-    assert!((form(&HOURGLASS, &cured, &HOURGLASS) / exact - 1.0).abs() < 1e-12);
+    let exact = twice_energy * YOUNG_MODULUS / (1.0 - nu * nu) * b * b;
+    assert!((form(&HOURGLASS_PATTERN, &cured, &HOURGLASS_PATTERN) / exact - 1.0).abs() < 1e-12);
     let one = element_matrix(QuadFormulation::OnePoint, [a, b], nu);
-    assert!(form(&HOURGLASS, &one, &HOURGLASS).abs() < 1e-9 * exact, "no resistance");
+    assert!(
+        form(&HOURGLASS_PATTERN, &one, &HOURGLASS_PATTERN).abs() < 1e-9 * exact,
+        "no resistance"
+    );
     for percent in [1, 5, 100] {
         let some = element_matrix(QuadFormulation::Hourglass { percent }, [a, b], nu);
-        let wanted = 0.01 * f64::from(percent) * locked;
-        assert!((form(&HOURGLASS, &some, &HOURGLASS) / wanted - 1.0).abs() < 1e-9, "{percent}");
+        let expected = 0.01 * f64::from(percent) * locked;
+        assert!(
+            (form(&HOURGLASS_PATTERN, &some, &HOURGLASS_PATTERN) / expected - 1.0).abs() < 1e-9,
+            "{percent}"
+        );
     }
 }
 
@@ -127,10 +139,13 @@ fn incompatible_modes_are_one_point_plus_hourglass_stiffness() {
     let cured = element_matrix(QuadFormulation::IncompatibleModes, [2.0, 0.7], 0.3);
     for i in 0..8 {
         for j in 0..8 {
-            let own = cured[i % 2][i % 2] - one[i % 2][i % 2];
-            let sign = HOURGLASS[2 * (i / 2)] * HOURGLASS[2 * (j / 2)];
-            let expected = if i % 2 == j % 2 { sign * own } else { 0.0 };
-            assert!((cured[i][j] - one[i][j] - expected).abs() < 1e-9 * E, "({i}, {j})");
+            let difference = cured[i % 2][i % 2] - one[i % 2][i % 2];
+            let sign = HOURGLASS_PATTERN[2 * (i / 2)] * HOURGLASS_PATTERN[2 * (j / 2)];
+            let expected = if i % 2 == j % 2 { sign * difference } else { 0.0 };
+            assert!(
+                (cured[i][j] - one[i][j] - expected).abs() < 1e-9 * YOUNG_MODULUS,
+                "({i}, {j})"
+            );
         }
     }
 }

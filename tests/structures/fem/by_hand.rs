@@ -41,10 +41,10 @@ impl Structure for FiveStoreys {
 
 #[test]
 fn five_storeys_by_hand_are_a_shear_building() {
-    let own = FiveStoreys { mass: 2.0e4, stiffness: 4.0e7, height: 3.0 };
+    let by_hand = FiveStoreys { mass: 2.0e4, stiffness: 4.0e7, height: 3.0 };
     let storeys = [Storey::new(3.0, 2.0e4, 4.0e7); 5];
     let building = ShearBuilding::new(10.0, 2.0e4, 2.0e5, &storeys).unwrap();
-    assert_eq!(mass(&own), mass(&building));
-    assert_eq!(stiffness(&own), stiffness(&building));
-    assert_eq!(own.base(), building.base());
+    assert_eq!(mass(&by_hand), mass(&building));
+    assert_eq!(stiffness(&by_hand), stiffness(&building));
+    assert_eq!(by_hand.base(), building.base());
 }

@@ -23,32 +23,35 @@ fn ratios_are_met_at_both_frequencies() {
     assert!((equal.stiffness() - 0.1 / (5.0 * tau)).abs() < 1e-17);
 }
 
+/// A column of two quadrilaterals; with a dashpot it has a spring, too.
+fn column_mesh(dashpot: Option<f64>) -> Mesh {
+    let layers = [Layer::new(2.0, 2, Material::new(1.0e7, 0.2, 2000.0).unwrap())];
+    let mut mesh = Mesh::layered_block(0.0..1.0, 1, &layers).unwrap();
+    if let Some(coefficient) = dashpot {
+        mesh.add(Dashpot::new([2, 4], Direction::X, coefficient).unwrap()).unwrap();
+        mesh.add(Spring::axial([0, 3], 9.0e5).unwrap()).unwrap();
+    }
+    mesh
+}
+
 #[test]
 fn damping_matrix_is_alpha_m_plus_beta_k_plus_dashpots() {
-    let mesh = |dashpot: Option<f64>| {
-        let layers = [Layer::new(2.0, 2, Material::new(1.0e7, 0.2, 2000.0).unwrap())];
-        let mut mesh = Mesh::layered_block(0.0..1.0, 1, &layers).unwrap();
-        if let Some(coefficient) = dashpot {
-            mesh.add(Dashpot::new([2, 4], Direction::X, coefficient).unwrap()).unwrap();
-            mesh.add(Spring::axial([0, 3], 9.0e5).unwrap()).unwrap();
-        }
-        mesh
-    };
     let rayleigh = RayleighDamping::new(0.3, 0.002).unwrap();
-    let model = FemModel::on_base(mesh(Some(500.0))).unwrap().with_rayleigh(rayleigh);
+    let model = FemModel::on_base(column_mesh(Some(500.0))).unwrap().with_rayleigh(rayleigh);
     let found = damping(&model);
-    let (m, k) = (mass(&model), stiffness(&model));
+    let m = mass(&model);
+    let k = stiffness(&model);
     for i in 0..found.len() {
         for j in 0..found.len() {
-            let own = match (i, j) {
+            let dashpot = match (i, j) {
                 (4, 4) | (8, 8) => 500.0,
                 (4, 8) | (8, 4) => -500.0,
                 _ => 0.0,
             };
-            let expected = 0.3 * m[i][j] + 0.002 * k[i][j] + own;
+            let expected = 0.3 * m[i][j] + 0.002 * k[i][j] + dashpot;
             assert!((found[i][j] - expected).abs() < 1e-9 * found[i][i], "({i}, {j})");
         }
     }
-    let bare = FemModel::on_base(mesh(None)).unwrap();
+    let bare = FemModel::on_base(column_mesh(None)).unwrap();
     assert!(damping(&bare).iter().flatten().all(|&value| value == 0.0));
 }

@@ -10,8 +10,8 @@ use basemat::fem::{
 use basemat::structure::{FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey};
 use std::fmt::Debug;
 
-const BAD: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
-const BAD_OR_ZERO_ALLOWED: [f64; 3] = [-1.0, f64::NAN, f64::NEG_INFINITY];
+const INVALID_NUMBERS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
+const NEGATIVE_OR_NAN: [f64; 3] = [-1.0, f64::NAN, f64::NEG_INFINITY];
 const NOT_FINITE: [f64; 2] = [f64::NAN, f64::INFINITY];
 
 fn refused<T: Debug>(bad: &[f64], build: impl Fn(f64) -> basemat::Result<T>) {
@@ -38,26 +38,34 @@ fn two_nodes() -> Mesh {
 
 #[test]
 fn elements_refuse_bad_numbers() {
-    refused(&BAD, |x| Material::new(x, 0.2, 1.0));
+    refused(&INVALID_NUMBERS, |x| Material::new(x, 0.2, 1.0));
     refused(&[-1.0, 0.5, 0.7, f64::NAN], |x| Material::new(1.0, x, 1.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| Material::new(1.0, 0.2, x));
-    refused(&BAD, |x| Beam::new([0, 1], x, 1.0, 1.0, 1.0));
-    refused(&BAD, |x| Beam::new([0, 1], 1.0, x, 1.0, 1.0));
-    refused(&BAD, |x| Beam::new([0, 1], 1.0, 1.0, x, 1.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, x));
-    refused(&BAD, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, 1.0)?.with_shear_stiffness(x));
-    refused(&BAD, |x| Truss::new([0, 1], x, 1.0, 1.0));
-    refused(&BAD, |x| Truss::new([0, 1], 1.0, x, 1.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| Truss::new([0, 1], 1.0, 1.0, x));
-    refused(&BAD, |x| Spring::new([0, 1], Direction::X, x));
-    refused(&BAD, |x| Spring::axial([0, 1], x));
-    refused(&BAD, |x| Dashpot::new([0, 1], Direction::X, x));
-    refused(&BAD, |x| Dashpot::axial([0, 1], x));
-    refused(&BAD, |x| LumpedMass::new(0, x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| LumpedMass::new(0, 1.0)?.with_rotary_inertia(x));
+    refused(&NEGATIVE_OR_NAN, |x| Material::new(1.0, 0.2, x));
+    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], x, 1.0, 1.0, 1.0));
+    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, x, 1.0, 1.0));
+    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, 1.0, x, 1.0));
+    refused(&NEGATIVE_OR_NAN, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, x));
+    refused(&INVALID_NUMBERS, |x| Beam::new([0, 1], 1.0, 1.0, 1.0, 1.0)?.with_shear_stiffness(x));
+    refused(&INVALID_NUMBERS, |x| Truss::new([0, 1], x, 1.0, 1.0));
+    refused(&INVALID_NUMBERS, |x| Truss::new([0, 1], 1.0, x, 1.0));
+    refused(&NEGATIVE_OR_NAN, |x| Truss::new([0, 1], 1.0, 1.0, x));
+    refused(&INVALID_NUMBERS, |x| Spring::new([0, 1], Direction::X, x));
+    refused(&INVALID_NUMBERS, |x| Spring::axial([0, 1], x));
+    refused(&INVALID_NUMBERS, |x| Dashpot::new([0, 1], Direction::X, x));
+    refused(&INVALID_NUMBERS, |x| Dashpot::axial([0, 1], x));
+    refused(&INVALID_NUMBERS, |x| LumpedMass::new(0, x));
+    refused(&NEGATIVE_OR_NAN, |x| LumpedMass::new(0, 1.0)?.with_rotary_inertia(x));
     // products that overflow
     assert!(Beam::new([0, 1], 1e200, 1e200, 1.0, 1.0).is_err());
     assert!(Truss::new([0, 1], 1e200, 1e200, 1.0).is_err());
+}
+
+fn add_quad(points: [[f64; 2]; 4]) -> basemat::Result<usize> {
+    let mut mesh = Mesh::new();
+    for [x, y] in points {
+        mesh.add_node(x, y).unwrap();
+    }
+    mesh.add(Quad4::new([0, 1, 2, 3], material(), QuadFormulation::Full))
 }
 
 #[test]
@@ -65,7 +73,7 @@ fn meshes_refuse_bad_nodes_and_shapes() {
     refused(&NOT_FINITE, |x| Mesh::new().add_node(x, 0.0));
     refused(&NOT_FINITE, |x| Mesh::new().add_node(0.0, x));
     refused(&NOT_FINITE, |x| two_nodes().nodes_at_height(x, 0.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| two_nodes().nodes_at_height(0.0, x));
+    refused(&NEGATIVE_OR_NAN, |x| two_nodes().nodes_at_height(0.0, x));
     let far = two_nodes().add(Truss::new([0, 7], 1.0, 1.0, 0.0).unwrap());
     assert_eq!(far, Err(Error::Index { quantity: "node of the element", index: 7, bound: 2 }));
     let twice = two_nodes().add(Truss::new([1, 1], 1.0, 1.0, 0.0).unwrap());
@@ -78,17 +86,24 @@ fn meshes_refuse_bad_nodes_and_shapes() {
     assert!(coincident.add(Dashpot::axial([1, 2], 1.0).unwrap()).is_err());
     assert!(coincident.add(Spring::new([1, 2], Direction::X, 1.0).unwrap()).is_ok());
 
-    let quad = |points: [[f64; 2]; 4]| {
-        let mut mesh = Mesh::new();
-        for [x, y] in points {
-            mesh.add_node(x, y).unwrap();
-        }
-        mesh.add(Quad4::new([0, 1, 2, 3], material(), QuadFormulation::Full))
-    };
-    assert!(quad([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]).is_ok());
-    assert!(quad([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]).is_err(), "clockwise");
-    assert!(quad([[0.0, 0.0], [1.0, 0.0], [0.2, 0.2], [0.0, 1.0]]).is_err(), "not convex");
-    assert!(quad([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]).is_err(), "flat corner");
+    assert!(add_quad([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]).is_ok());
+    assert!(add_quad([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]).is_err(), "clockwise");
+    assert!(add_quad([[0.0, 0.0], [1.0, 0.0], [0.2, 0.2], [0.0, 1.0]]).is_err(), "not convex");
+    assert!(add_quad([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]).is_err(), "flat corner");
+}
+
+#[track_caller]
+fn assert_twice(outcome: basemat::Result<usize>, first: usize, nodes: &[usize]) {
+    let reason = format!("it lies where element {first} is, and would count twice");
+    assert_eq!(outcome, Err(Error::part(format!("element on nodes {nodes:?}"), reason)));
+}
+
+fn beam_of_area(ends: [usize; 2], area: f64) -> Beam {
+    Beam::new(ends, 1e9, area, 1e-2, 2400.0).unwrap()
+}
+
+fn bar_of_density(ends: [usize; 2], density: f64) -> Truss {
+    Truss::new(ends, 1e9, 0.3, density).unwrap()
 }
 
 /// GOAL: an element that counts twice is refused; what acts in parallel is not.
@@ -101,47 +116,45 @@ fn elements_count_once() {
     for [x, y] in [[1.0, 0.5], [0.5, 1.0], [0.0, 0.5]] {
         mesh.add_node(x, y).unwrap();
     }
-    let (full, quad) = (QuadFormulation::Full, Quad4::new);
-    let refused = |outcome: basemat::Result<usize>, first: usize, nodes: &[usize]| {
-        let reason = format!("it lies where element {first} is, and would count twice");
-        assert_eq!(outcome, Err(Error::part(format!("element on nodes {nodes:?}"), reason)));
-    };
-    mesh.add(quad([0, 1, 2, 3], material(), full)).unwrap();
+    let full = QuadFormulation::Full;
+    mesh.add(Quad4::new([0, 1, 2, 3], material(), full)).unwrap();
     let other = Material::new(2.0e7, 0.3, 0.0).unwrap();
-    refused(mesh.add(quad([0, 1, 2, 3], material(), full)), 0, &[0, 1, 2, 3]);
-    refused(mesh.add(quad([2, 3, 0, 1], other, QuadFormulation::OnePoint)), 0, &[2, 3, 0, 1]);
-    let boxed: Box<dyn Element> = Box::new(quad([1, 2, 3, 0], material(), full));
-    refused(mesh.add(boxed), 0, &[1, 2, 3, 0]);
+    assert_twice(mesh.add(Quad4::new([0, 1, 2, 3], material(), full)), 0, &[0, 1, 2, 3]);
+    assert_twice(
+        mesh.add(Quad4::new([2, 3, 0, 1], other, QuadFormulation::OnePoint)),
+        0,
+        &[2, 3, 0, 1],
+    );
+    let boxed: Box<dyn Element> = Box::new(Quad4::new([1, 2, 3, 0], material(), full));
+    assert_twice(mesh.add(boxed), 0, &[1, 2, 3, 0]);
     let eight = [0, 1, 2, 3, 4, 5, 6, 7];
-    refused(mesh.add(Quad8::new(eight, other)), 0, &eight);
+    assert_twice(mesh.add(Quad8::new(eight, other)), 0, &eight);
     assert_eq!(mesh.elements().len(), 1);
 
-    let beam = |ends, area| Beam::new(ends, 1e9, area, 1e-2, 2400.0).unwrap();
-    let bar = |ends, density| Truss::new(ends, 1e9, 0.3, density).unwrap();
     // A beam on an edge, one of another section beside it, and the bar of a tie.
-    assert_eq!(mesh.add(beam([0, 1], 0.1)), Ok(1));
-    assert_eq!(mesh.add(beam([0, 1], 0.2)), Ok(2));
-    assert_eq!(mesh.add(bar([0, 1], 2400.0)), Ok(3));
-    refused(mesh.add(beam([0, 1], 0.2)), 2, &[0, 1]);
-    refused(mesh.add(beam([1, 0], 0.1)), 1, &[1, 0]);
-    refused(mesh.add(bar([1, 0], 2400.0)), 3, &[1, 0]);
-    assert_eq!(mesh.add(beam([0, 2], 0.1)), Ok(4));
-    refused(mesh.add(beam([2, 0], 0.1)), 4, &[2, 0]);
+    assert_eq!(mesh.add(beam_of_area([0, 1], 0.1)), Ok(1));
+    assert_eq!(mesh.add(beam_of_area([0, 1], 0.2)), Ok(2));
+    assert_eq!(mesh.add(bar_of_density([0, 1], 2400.0)), Ok(3));
+    assert_twice(mesh.add(beam_of_area([0, 1], 0.2)), 2, &[0, 1]);
+    assert_twice(mesh.add(beam_of_area([1, 0], 0.1)), 1, &[1, 0]);
+    assert_twice(mesh.add(bar_of_density([1, 0], 2400.0)), 3, &[1, 0]);
+    assert_eq!(mesh.add(beam_of_area([0, 2], 0.1)), Ok(4));
+    assert_twice(mesh.add(beam_of_area([2, 0], 0.1)), 4, &[2, 0]);
     // Springs, dashpots, weightless bars and masses add up.
     for _ in 0..2 {
         mesh.add(Spring::axial([0, 1], 1e6).unwrap()).unwrap();
         mesh.add(Dashpot::new([0, 1], Direction::X, 1e6).unwrap()).unwrap();
-        mesh.add(bar([0, 1], 0.0)).unwrap();
+        mesh.add(bar_of_density([0, 1], 0.0)).unwrap();
         mesh.add(LumpedMass::new(2, 10.0).unwrap()).unwrap();
     }
     assert_eq!(mesh.elements().len(), 13);
     // A clone contains the elements so far.
-    refused(mesh.clone().add(beam([0, 1], 0.1)), 1, &[0, 1]);
+    assert_twice(mesh.clone().add(beam_of_area([0, 1], 0.1)), 1, &[0, 1]);
 }
 
-struct Nothing;
+struct NodelessElement;
 
-impl Element for Nothing {
+impl Element for NodelessElement {
     fn nodes(&self) -> &[usize] {
         &[]
     }
@@ -157,73 +170,89 @@ impl Element for Nothing {
 
 #[test]
 fn element_without_dofs_is_refused() {
-    assert!(matches!(two_nodes().add(Nothing), Err(Error::Size { .. })));
+    assert!(matches!(two_nodes().add(NodelessElement), Err(Error::Size { .. })));
 }
 
 #[test]
 fn blocks_refuse_bad_grids_and_layers() {
-    let block =
-        |width: f64, columns, layers: &[Layer]| Mesh::layered_block(0.0..width, columns, layers);
     let good = [Layer::new(1.0, 1, material())];
-    refused(&BAD, |x| block(x, 2, &good));
+    refused(&INVALID_NUMBERS, |x| Mesh::layered_block(0.0..x, 2, &good));
     refused(&NOT_FINITE, |x| Mesh::layered_block(x..1.0, 2, &good));
-    refused(&BAD, |x| block(1.0, 2, &[Layer::new(x, 1, material())]));
-    assert!(matches!(block(1.0, 0, &good), Err(Error::Size { .. })));
-    assert!(matches!(block(1.0, 1, &[]), Err(Error::Size { .. })));
-    assert!(matches!(block(1.0, 1, &[Layer::new(1.0, 0, material())]), Err(Error::Size { .. })));
+    refused(&INVALID_NUMBERS, |x| {
+        Mesh::layered_block(0.0..1.0, 2, &[Layer::new(x, 1, material())])
+    });
+    let empty = [Layer::new(1.0, 0, material())];
+    for block in [
+        Mesh::layered_block(0.0..1.0, 0, &good),
+        Mesh::layered_block(0.0..1.0, 1, &[]),
+        Mesh::layered_block(0.0..1.0, 1, &empty),
+    ] {
+        assert!(matches!(block, Err(Error::Size { .. })));
+    }
     refused(&NOT_FINITE, |x| Mesh::graded_block(&[0.0, x, 1.0], &good));
     assert!(Mesh::graded_block(&[0.0, 0.5, 0.5], &good).is_err());
     assert!(Mesh::graded_block(&[0.0], &good).is_err());
 }
 
+fn contact_error(contact: &[usize]) -> Error {
+    let block = Mesh::layered_block(0.0..2.0, 2, &[Layer::new(1.0, 1, material())]).unwrap();
+    FemModel::new(block, contact).unwrap_err()
+}
+
 #[test]
 fn contact_lines_are_checked() {
-    let block = || Mesh::layered_block(0.0..2.0, 2, &[Layer::new(1.0, 1, material())]).unwrap();
-    let refusal = |contact: &[usize]| FemModel::new(block(), contact).unwrap_err();
-    assert!(matches!(refusal(&[]), Error::Size { found: 0, .. }));
-    assert!(matches!(refusal(&[1]), Error::Size { found: 1, .. }));
-    assert!(matches!(refusal(&[0, 9]), Error::Index { index: 9, bound: 6, .. }));
-    assert!(matches!(refusal(&[0, 4]), Error::Input { value: 1.0, .. }), "another height");
-    assert!(matches!(refusal(&[1, 0]), Error::Input { value: -1.0, .. }), "to the left");
+    assert!(matches!(contact_error(&[]), Error::Size { found: 0, .. }));
+    assert!(matches!(contact_error(&[1]), Error::Size { found: 1, .. }));
+    assert!(matches!(contact_error(&[0, 9]), Error::Index { index: 9, bound: 6, .. }));
+    assert!(matches!(contact_error(&[0, 4]), Error::Input { value: 1.0, .. }), "another height");
+    assert!(matches!(contact_error(&[1, 0]), Error::Input { value: -1.0, .. }), "to the left");
     assert!(matches!(FemModel::new(two_nodes(), &[0, 1]), Err(Error::Scene { .. })));
     assert!(FemModel::on_base(Mesh::new()).is_err());
 }
 
+fn good_storey() -> Storey {
+    Storey { rotary_inertia: 1.0, ..Storey::new(3.0, 1.0, 1.0) }
+}
+
+/// A building with this second storey.
+fn building_with(storey: Storey) -> basemat::Result<ShearBuilding> {
+    ShearBuilding::new(5.0, 1.0, 1.0, &[good_storey(), storey])
+}
+
 #[test]
 fn structures_refuse_bad_numbers() {
-    refused(&BAD_OR_ZERO_ALLOWED, |x| RayleighDamping::new(x, 0.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| RayleighDamping::new(0.0, x));
-    refused(&BAD, |x| RayleighDamping::from_ratios([1.0, x], [0.1, 0.1]));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| RayleighDamping::from_ratios([1.0, 2.0], [x, 0.1]));
+    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(x, 0.0));
+    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::new(0.0, x));
+    refused(&INVALID_NUMBERS, |x| RayleighDamping::from_ratios([1.0, x], [0.1, 0.1]));
+    refused(&NEGATIVE_OR_NAN, |x| RayleighDamping::from_ratios([1.0, 2.0], [x, 0.1]));
     assert!(RayleighDamping::from_ratios([2.0, 2.0], [0.1, 0.1]).is_err());
     assert!(RayleighDamping::from_ratios([1.0, 2.0], [0.5, 0.01]).is_err(), "negative β");
 
-    refused(&BAD, |x| RigidBlock::new(x, 1.0, 1.0));
-    refused(&BAD, |x| RigidBlock::new(1.0, x, 1.0));
-    refused(&BAD, |x| RigidBlock::new(1.0, 1.0, x));
-    refused(&BAD, |x| RigidBlock::from_mass(1.0, x, 1.0, 1.0));
-    refused(&BAD, |x| RigidBlock::from_mass(1.0, 1.0, x, 1.0));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| RigidBlock::from_mass(1.0, 1.0, 1.0, x));
+    refused(&INVALID_NUMBERS, |x| RigidBlock::new(x, 1.0, 1.0));
+    refused(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, x, 1.0));
+    refused(&INVALID_NUMBERS, |x| RigidBlock::new(1.0, 1.0, x));
+    refused(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, x, 1.0, 1.0));
+    refused(&INVALID_NUMBERS, |x| RigidBlock::from_mass(1.0, 1.0, x, 1.0));
+    refused(&NEGATIVE_OR_NAN, |x| RigidBlock::from_mass(1.0, 1.0, 1.0, x));
     let block = RigidBlock::new(1.0, 1.0, 1.0).unwrap();
     refused(&NOT_FINITE, |x| block.clone().centered_at(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| block.clone().with_p_delta(x));
+    refused(&NEGATIVE_OR_NAN, |x| block.clone().with_p_delta(x));
 
-    let good = Storey { rotary_inertia: 1.0, ..Storey::new(3.0, 1.0, 1.0) };
-    let of = |storey| ShearBuilding::new(5.0, 1.0, 1.0, &[good, storey]);
-    refused(&BAD, |height| of(Storey { height, ..good }));
-    refused(&BAD, |mass| of(Storey { mass, ..good }));
-    refused(&BAD, |stiffness| of(Storey { stiffness, ..good }));
-    refused(&BAD_OR_ZERO_ALLOWED, |rotary_inertia| of(Storey { rotary_inertia, ..good }));
-    refused(&BAD_OR_ZERO_ALLOWED, |damping| of(Storey { damping, ..good }));
-    refused(&BAD, |x| ShearBuilding::new(x, 1.0, 1.0, &[good]));
-    refused(&BAD, |x| ShearBuilding::new(1.0, x, 1.0, &[good]));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| ShearBuilding::new(1.0, 1.0, x, &[good]));
+    let good = good_storey();
+    refused(&INVALID_NUMBERS, |height| building_with(Storey { height, ..good }));
+    refused(&INVALID_NUMBERS, |mass| building_with(Storey { mass, ..good }));
+    refused(&INVALID_NUMBERS, |stiffness| building_with(Storey { stiffness, ..good }));
+    refused(&NEGATIVE_OR_NAN, |rotary_inertia| building_with(Storey { rotary_inertia, ..good }));
+    refused(&NEGATIVE_OR_NAN, |damping| building_with(Storey { damping, ..good }));
+    refused(&INVALID_NUMBERS, |x| ShearBuilding::new(x, 1.0, 1.0, &[good]));
+    refused(&INVALID_NUMBERS, |x| ShearBuilding::new(1.0, x, 1.0, &[good]));
+    refused(&NEGATIVE_OR_NAN, |x| ShearBuilding::new(1.0, 1.0, x, &[good]));
     assert!(matches!(ShearBuilding::new(1.0, 1.0, 1.0, &[]), Err(Error::Size { .. })));
     assert!(ShearBuilding::new(1.0, 1.0, 0.0, &[Storey::new(1.0, 1.0, 1.0)]).is_err());
-    refused(&NOT_FINITE, |x| of(good)?.centered_at(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| of(good)?.with_p_delta(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| of(good)?.with_stiffness_damping(x));
-    let building = of(good).unwrap();
+    refused(&NOT_FINITE, |x| building_with(good)?.centered_at(x));
+    refused(&NEGATIVE_OR_NAN, |x| building_with(good)?.with_p_delta(x));
+    refused(&NEGATIVE_OR_NAN, |x| building_with(good)?.with_stiffness_damping(x));
+    let building = building_with(good).unwrap();
     for found in [building.floor(2).map(drop), building.drift(2).map(drop)] {
         assert!(matches!(found, Err(Error::Index { index: 2, bound: 2, .. })));
     }

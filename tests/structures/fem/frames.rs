@@ -9,21 +9,22 @@ use basemat_problems::dense::{
     dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
 };
 
-const E: f64 = 30.0e9;
-const AREA: f64 = 0.4;
-const INERTIA: f64 = 0.02;
-const DENSITY: f64 = 2400.0;
-const LENGTH: f64 = 8.0;
-const SHEAR: f64 = 4.0e8;
+const YOUNG_MODULUS: f64 = 30.0e9;
+const SECTION_AREA: f64 = 0.4;
+const SECOND_MOMENT: f64 = 0.02;
+const MASS_DENSITY: f64 = 2400.0;
+const COLUMN_LENGTH: f64 = 8.0;
+const SHEAR_STIFFNESS: f64 = 4.0e8;
 
 /// Column of beams on node 0, with a second foot for the base; `change` alters each beam.
 fn column(elements: usize, change: impl Fn(Beam) -> Beam) -> FemModel {
     let mut mesh = Mesh::new();
     for k in 0..=elements {
-        mesh.add_node(0.0, LENGTH * k as f64 / elements as f64).unwrap();
+        mesh.add_node(0.0, COLUMN_LENGTH * k as f64 / elements as f64).unwrap();
     }
     for k in 0..elements {
-        let beam = Beam::new([k, k + 1], E, AREA, INERTIA, DENSITY).unwrap();
+        let beam = Beam::new([k, k + 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY)
+            .unwrap();
         mesh.add(change(beam)).unwrap();
     }
     let other = mesh.add_node(1.0, 0.0).unwrap();
@@ -39,8 +40,9 @@ fn above(model: &FemModel) -> Vec<usize> {
 /// Euler's load of a cantilever, by Engesser with shear: P_E/(1 + P_E/(G A_s)).
 #[test]
 fn columns_buckle_under_eulers_load() {
-    let euler = std::f64::consts::PI.powi(2) * E * INERTIA / (4.0 * LENGTH * LENGTH);
-    for shear in [None, Some(SHEAR)] {
+    let euler = std::f64::consts::PI.powi(2) * YOUNG_MODULUS * SECOND_MOMENT
+        / (4.0 * COLUMN_LENGTH * COLUMN_LENGTH);
+    for shear in [None, Some(SHEAR_STIFFNESS)] {
         let critical = shear.map_or(euler, |stiffness| euler / (1.0 + euler / stiffness));
         for (factor, stands) in [(0.999, true), (1.001, false)] {
             let model = column(8, |beam| {
@@ -68,11 +70,12 @@ fn beam_columns_sway_by_their_closed_form() {
         let mut force = vec![0.0; n];
         let tip = model.dof(20, Direction::X).unwrap();
         force[tip] = load;
-        let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-        let found = solve_held(&stiffness(&model), &force, &held)[tip];
-        let k = (compression.abs() / (E * INERTIA)).sqrt();
-        let curve = if compression > 0.0 { (k * LENGTH).tan() } else { (k * LENGTH).tanh() };
-        let exact = load / compression * (curve / k - LENGTH);
+        let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+        let found = solve_held(&stiffness(&model), &force, &fixed)[tip];
+        let k = (compression.abs() / (YOUNG_MODULUS * SECOND_MOMENT)).sqrt();
+        let curve =
+            if compression > 0.0 { (k * COLUMN_LENGTH).tan() } else { (k * COLUMN_LENGTH).tanh() };
+        let exact = load / compression * (curve / k - COLUMN_LENGTH);
         assert!((found / exact - 1.0).abs() < 1e-6, "{compression}: {found} {exact}");
     }
 }
@@ -81,43 +84,48 @@ fn beam_columns_sway_by_their_closed_form() {
 #[test]
 fn leaning_columns_overturn() {
     let compression = 3.0e6;
-    let bent = |beam: Beam| beam.with_shear_stiffness(SHEAR).unwrap();
-    let model = column(3, |beam| bent(beam).with_compression(compression).unwrap());
+    let model = column(3, |beam| {
+        let flexible = beam.with_shear_stiffness(SHEAR_STIFFNESS).unwrap();
+        flexible.with_compression(compression).unwrap()
+    });
     let matrix = stiffness(&model);
     for direction in [Direction::X, Direction::Y] {
         let shift = model.rigid_motion(direction, [0.0; 3]);
-        assert!(largest(&multiply(&matrix, &shift)) < 1e-12 * E);
+        assert!(largest(&multiply(&matrix, &shift)) < 1e-12 * YOUNG_MODULUS);
     }
     let turn = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     let moment = form(&turn, &matrix, &turn);
-    assert!((moment + compression * LENGTH).abs() < 1e-9 * E * AREA, "{moment}");
+    assert!(
+        (moment + compression * COLUMN_LENGTH).abs() < 1e-9 * YOUNG_MODULUS * SECTION_AREA,
+        "{moment}"
+    );
 }
 
 /// Simply supported Timoshenko beam with rotary inertia (Timoshenko 1921): with k = nπ/L,
 /// ω⁴ ρI/(G A_s) − ω² (1 + k² I/A + k² EI/(G A_s)) + EI k⁴/(ρA) = 0, the lower root.
 #[test]
 fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
-    for (shear, rotary) in [(SHEAR, true), (SHEAR, false), (1e15, true)] {
+    for (shear, rotary) in [(SHEAR_STIFFNESS, true), (SHEAR_STIFFNESS, false), (1e15, true)] {
         let errors = [12, 24].map(|elements| {
             let model = column(elements, |beam| {
                 let beam = beam.with_shear_stiffness(shear).unwrap();
                 if rotary { beam.with_rotary_inertia() } else { beam }
             });
-            let held = [(0, Direction::X), (0, Direction::Y), (elements, Direction::X)]
+            let fixed = [(0, Direction::X), (0, Direction::Y), (elements, Direction::X)]
                 .map(|(node, direction)| model.dof(node, direction).unwrap());
             let free: Vec<usize> =
-                (0..model.dofs() - 2).filter(|dof| !held.contains(dof)).collect();
+                (0..model.dofs() - 2).filter(|dof| !fixed.contains(dof)).collect();
             let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free));
             [1.0, 2.0, 3.0].map(|n| {
-                let k = n * std::f64::consts::PI / LENGTH;
-                let turn = if rotary { k * k * INERTIA / AREA } else { 0.0 };
-                let b = 1.0 + turn + k * k * E * INERTIA / shear;
-                let a = if rotary { DENSITY * INERTIA / shear } else { 0.0 };
-                let c = E * INERTIA * k.powi(4) / (DENSITY * AREA);
+                let k = n * std::f64::consts::PI / COLUMN_LENGTH;
+                let turn = if rotary { k * k * SECOND_MOMENT / SECTION_AREA } else { 0.0 };
+                let b = 1.0 + turn + k * k * YOUNG_MODULUS * SECOND_MOMENT / shear;
+                let a = if rotary { MASS_DENSITY * SECOND_MOMENT / shear } else { 0.0 };
+                let c = YOUNG_MODULUS * SECOND_MOMENT * k.powi(4) / (MASS_DENSITY * SECTION_AREA);
                 let square = 2.0 * c / (b + (b * b - 4.0 * a * c).sqrt());
                 // The nearest one: axial vibrations are among them.
-                let off = found.iter().map(|x| x / square - 1.0);
-                off.min_by(|x, y| x.abs().total_cmp(&y.abs())).unwrap()
+                let errors = found.iter().map(|x| x / square - 1.0);
+                errors.min_by(|x, y| x.abs().total_cmp(&y.abs())).unwrap()
             })
         });
         println!("{shear:e} {rotary}: {errors:?}");
@@ -134,13 +142,16 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
     }
 }
 
+fn trace(matrix: &[Vec<f64>]) -> f64 {
+    (0..matrix.len()).map(|i| matrix[i][i]).sum()
+}
+
 #[test]
 fn lumped_rotary_inertia_is_that_of_the_sections() {
     let with = column(2, Beam::with_rotary_inertia).with_mass(MassKind::Lumped);
     let without = column(2, |beam| beam).with_mass(MassKind::Lumped);
-    let sum = |model: &FemModel| (0..model.dofs()).map(|i| mass(model)[i][i]).sum::<f64>();
-    let more = sum(&with) - sum(&without);
-    assert!((more / (DENSITY * INERTIA * LENGTH) - 1.0).abs() < 1e-9, "{more}");
+    let more = trace(&mass(&with)) - trace(&mass(&without));
+    assert!((more / (MASS_DENSITY * SECOND_MOMENT * COLUMN_LENGTH) - 1.0).abs() < 1e-9, "{more}");
 }
 
 /// All nodes of a block of quadrilaterals tied to one: the rigid block of the same shape.
@@ -155,7 +166,8 @@ fn a_block_of_followers_is_a_rigid_block() {
     let linked = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &all).unwrap();
     assert_eq!(linked.dofs(), 3);
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
-    let (found, expected) = (mass(&linked), mass(&block));
+    let found = mass(&linked);
+    let expected = mass(&block);
     for i in 0..3 {
         for j in 0..3 {
             assert!((found[i][j] - expected[i][j]).abs() < 1e-9 * expected[2][2], "{i} {j}");
@@ -174,62 +186,77 @@ fn a_block_of_followers_is_a_rigid_block() {
     assert!(weight > 0.0);
 }
 
+/// Weighted sum of the displacements.
+fn row_value(row: &DofCombination, displacement: &[f64]) -> f64 {
+    row.iter().map(|&(i, w)| w * displacement[i]).sum()
+}
+
 /// A beam with a rigid arm at its tip: H (L³/3 + L² a + L a²)/EI at the arm's end.
 #[test]
 fn arms_lengthen_a_cantilever() {
     let arm = 1.5;
     let mut mesh = Mesh::new();
-    let nodes: Vec<usize> = [0.0, LENGTH, LENGTH + arm, LENGTH + 2.0 * arm]
+    let nodes: Vec<usize> = [0.0, COLUMN_LENGTH, COLUMN_LENGTH + arm, COLUMN_LENGTH + 2.0 * arm]
         .map(|y| mesh.add_node(0.0, y).unwrap())
         .to_vec();
     let other = mesh.add_node(1.0, 0.0).unwrap();
     mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
     mesh.add(LumpedMass::new(nodes[2], 1.0).unwrap()).unwrap();
-    mesh.add(Beam::new([0, 1], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
+    mesh.add(Beam::new([0, 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap())
+        .unwrap();
     // A beam between the arm and a free end strains nothing and checks the rotation.
-    mesh.add(Beam::new([2, 3], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
+    mesh.add(Beam::new([2, 3], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap())
+        .unwrap();
     let model = FemModel::new(mesh, &[0, other]).unwrap().with_rigid_link(1, &[nodes[2]]).unwrap();
     assert_eq!(model.dof(2, Direction::X), None);
     let n = model.dofs();
     let row = model.row(2, Direction::X).unwrap();
     // The leader's motion and its turn times the arm.
-    let [lead, turn] = [Direction::X, Direction::Rotation].map(|d| model.row(1, d).unwrap());
-    assert_eq!(row, lead + -arm * turn);
+    let leader = model.row(1, Direction::X).unwrap();
+    let turn = model.row(1, Direction::Rotation).unwrap();
+    assert_eq!(row, leader + -arm * turn);
     let mut force = vec![0.0; n];
     for &(index, weight) in &row {
         force[index] += 1000.0 * weight;
     }
-    let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-    let found = solve_held(&stiffness(&model), &force, &held);
-    let at = |row: &DofCombination| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
-    let (l, a) = (LENGTH, arm);
-    let exact = 1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (E * INERTIA);
-    assert!((at(&row) / exact - 1.0).abs() < 1e-10);
-    let turn = at(&model.row(2, Direction::Rotation).unwrap());
+    let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+    let found = solve_held(&stiffness(&model), &force, &fixed);
+    let deflection = row_value(&row, &found);
+    let l = COLUMN_LENGTH;
+    let a = arm;
+    let exact =
+        1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (YOUNG_MODULUS * SECOND_MOMENT);
+    assert!((deflection / exact - 1.0).abs() < 1e-10);
+    let turn = row_value(&model.row(2, Direction::Rotation).unwrap(), &found);
     let tip = found[model.dof(3, Direction::X).unwrap()];
-    assert!((tip - (at(&row) - arm * turn)).abs() < 1e-10 * exact);
+    assert!((tip - (deflection - arm * turn)).abs() < 1e-10 * exact);
     // A rigid motion is still one.
     let shift = model.rigid_motion(Direction::Rotation, [0.0; 3]);
-    assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-12 * E);
+    assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-12 * YOUNG_MODULUS);
     assert!(dot(&shift, &shift) > 0.0);
+}
+
+fn is_scene(result: &basemat::Result<FemModel>) -> bool {
+    matches!(result, Err(Error::Scene { .. }))
 }
 
 #[test]
 fn bad_frames_are_refused() {
-    let beam = || Beam::new([0, 1], E, AREA, INERTIA, DENSITY).unwrap();
+    let beam = Beam::new([0, 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY).unwrap();
     for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(beam().with_compression(bad), Err(Error::Input { .. })));
+        assert!(matches!(beam.clone().with_compression(bad), Err(Error::Input { .. })));
     }
-    let model = || column(3, |beam| beam);
-    let scene = |result: basemat::Result<FemModel>| matches!(result, Err(Error::Scene { .. }));
-    assert!(matches!(model().with_rigid_link(9, &[0]), Err(Error::Index { index: 9, .. })));
-    assert!(matches!(model().with_rigid_link(0, &[9]), Err(Error::Index { index: 9, .. })));
-    assert!(scene(model().with_rigid_link(4, &[0])), "no rotation");
-    assert!(scene(model().with_rigid_link(1, &[1])));
-    assert!(scene(model().with_rigid_link(1, &[2, 2])));
-    let linked = || model().with_rigid_link(1, &[2]).unwrap();
-    assert!(scene(linked().with_rigid_link(2, &[3])), "a follower leads nobody");
-    assert!(scene(linked().with_rigid_link(3, &[1])), "a leader follows nobody");
-    assert!(scene(linked().with_rigid_link(3, &[2])));
-    assert!(linked().with_rigid_link(1, &[3]).is_ok());
+    let model = column(3, |beam| beam);
+    for (leader, follower) in [(9, 0), (0, 9)] {
+        let linked = model.clone().with_rigid_link(leader, &[follower]);
+        assert!(matches!(linked, Err(Error::Index { index: 9, .. })));
+    }
+    assert!(is_scene(&model.clone().with_rigid_link(4, &[0])), "no rotation");
+    assert!(is_scene(&model.clone().with_rigid_link(1, &[1])));
+    assert!(is_scene(&model.clone().with_rigid_link(1, &[2, 2])));
+    let linked = model.with_rigid_link(1, &[2]).unwrap();
+    assert!(is_scene(&linked.clone().with_rigid_link(2, &[3])), "a follower leads nobody");
+    assert!(is_scene(&linked.clone().with_rigid_link(3, &[1])), "a leader follows nobody");
+    assert!(is_scene(&linked.clone().with_rigid_link(3, &[2])));
+    assert!(linked.with_rigid_link(1, &[3]).is_ok());
 }

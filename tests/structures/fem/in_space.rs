@@ -48,10 +48,13 @@ fn nodes_in_space_are_found() {
     }
 }
 
+fn text<T: std::fmt::Debug>(outcome: basemat::Result<T>) -> String {
+    outcome.unwrap_err().to_string()
+}
+
 #[test]
 fn a_mesh_takes_elements_of_its_kind_only() {
     let material = Material::new(1.0e9, 0.2, 2000.0).unwrap();
-    let text = |outcome: basemat::Result<usize>| outcome.unwrap_err().to_string();
     let mut space = cube();
     let direction =
         "direction of the element: x, y, z, rotation_x, rotation_y or rotation_z in space";
@@ -75,8 +78,8 @@ fn a_mesh_takes_elements_of_its_kind_only() {
     let Err(Error::Input { value, .. }) = mesh.add_node_at([0.0, 2.0, 0.5]) else { panic!() };
     assert_eq!(value, 0.5);
     mesh.add(Spring::new([0, 1], Direction::Rotation, 1.0).unwrap()).unwrap();
-    for own in [Direction::Z, Direction::RotationX, Direction::RotationY, Direction::RotationZ] {
-        let refused = text(mesh.add(Spring::new([0, 1], own, 1.0).unwrap()));
+    for absent in [Direction::Z, Direction::RotationX, Direction::RotationY, Direction::RotationZ] {
+        let refused = text(mesh.add(Spring::new([0, 1], absent, 1.0).unwrap()));
         assert_eq!(refused, "direction of the element: x, y or rotation in the plane");
     }
 }
@@ -91,14 +94,17 @@ fn tower() -> FemModel {
 
 /// Rigid motions meet no force, and their inertia is that of 30 kg at the base and 20 kg at the top of each corner.
 fn assert_free(model: &FemModel) {
-    let (stiffness, mass) = (stiffness(model), mass(model));
+    let stiffness = stiffness(model);
+    let mass = mass(model);
     let point = [0.3, -0.2, 1.5];
     for direction in DIRECTIONS {
         let motion = model.rigid_motion(direction, point);
         assert!(largest(&multiply(&stiffness, &motion)) < 1e-13 * 1e12, "{direction:?}");
         let mut exact = 0.0;
-        for [x, y, z] in cube().nodes() {
-            let [x, y, z] = [x - point[0], y - point[1], z - point[2]];
+        for node in cube().nodes() {
+            let x = node[0] - point[0];
+            let y = node[1] - point[1];
+            let z = node[2] - point[2];
             let square = match direction {
                 Direction::RotationX => y * y + z * z,
                 Direction::RotationY => z * z + x * x,
@@ -130,8 +136,8 @@ fn rigid_motions_in_space_meet_no_force() {
     let motion = floor.rigid_motion(Direction::RotationY, [0.0; 3]);
     for element in floor.mesh().elements() {
         let exact = element.nodes().iter().flat_map(|&node| {
-            let [x, _, z] = floor.mesh().nodes()[node];
-            [z, 0.0, -x, 0.0, 1.0, 0.0]
+            let place = floor.mesh().nodes()[node];
+            [place[2], 0.0, -place[0], 0.0, 1.0, 0.0]
         });
         let found = floor.element_displacements(element, &motion).unwrap();
         assert_eq!(found.len(), element.order());
@@ -143,6 +149,13 @@ fn rigid_motions_in_space_meet_no_force() {
             Err(Error::Size { found: 26, needed: 27, .. })
         ));
     }
+}
+
+/// The terms of a row in the order of their degrees of freedom.
+fn sorted(row: &DofCombination) -> Vec<(usize, f64)> {
+    let mut row = row.to_vec();
+    row.sort_by_key(|term| term.0);
+    row
 }
 
 /// The ground meets a shell's underside: u + r × (0, 0, −0.25).
@@ -168,44 +181,38 @@ fn a_mat_stands_on_its_underside() {
     // The linked corner moves with its leader, 2 m to the left and as much in front, and stands as deep.
     let linked = tower().with_rigid_link(7, &[6, 4]).unwrap();
     let Base::Faces(faces) = linked.base() else { panic!("a base in space has faces") };
-    let dof = |direction| linked.dof(7, direction).unwrap();
-    let [x, y, z] = [Direction::X, Direction::Y, Direction::Z].map(dof);
-    let [about_x, about_y, about_z] = [3, 4, 5].map(|k| dof(DIRECTIONS[k]));
-    let sorted = |row: &DofCombination| {
-        let mut row = row.to_vec();
-        row.sort_by_key(|term| term.0);
-        row
-    };
+    let [x, y, z, about_x, about_y, about_z] =
+        [0, 1, 2, 3, 4, 5].map(|k| linked.dof(7, DIRECTIONS[k]).unwrap());
     let corner = &faces[0][2];
     assert_eq!(sorted(&corner.horizontal), [(x, 1.0), (about_y, -0.25), (about_z, -2.0)]);
     assert_eq!(sorted(&corner.across), [(y, 1.0), (about_x, 0.25), (about_z, 2.0)]);
     assert_eq!(sorted(&corner.vertical), [(z, 1.0), (about_x, 2.0), (about_y, -2.0)]);
     // Faces of bare nodes: the same outline from the shell's corners in another order is the shell, three corners
     // are not.
-    let mesh = || tower().mesh().clone();
-    let turned = FemModel::on_faces(mesh(), &[vec![4, 5, 7, 6]]).unwrap();
+    let mesh = tower().mesh().clone();
+    let turned = FemModel::on_faces(mesh.clone(), &[vec![4, 5, 7, 6]]).unwrap();
     assert_eq!(turned.base().nodes().next().unwrap().horizontal.len(), 2);
-    let bare = FemModel::on_faces(mesh(), &[vec![7, 6, 4]]).unwrap();
+    let bare = FemModel::on_faces(mesh, &[vec![7, 6, 4]]).unwrap();
     assert!(bare.base().nodes().all(|node| node.horizontal.len() == 1));
 }
 
 #[test]
 fn a_diaphragm_ties_its_plane_only() {
     let model = tower().with_rigid_diaphragm(3, &[2, 0, 1]).unwrap();
-    let dof = |node, direction| model.dof(node, direction);
-    let [x, y, about_z] =
-        [Direction::X, Direction::Y, Direction::RotationZ].map(|d| dof(3, d).unwrap());
+    let x = model.dof(3, Direction::X).unwrap();
+    let y = model.dof(3, Direction::Y).unwrap();
+    let about_z = model.dof(3, Direction::RotationZ).unwrap();
     // Node 0 lies 2 m to the right of the leader and 2 m behind it.
     assert_eq!(model.row(0, Direction::X).unwrap()[..], [(x, 1.0), (about_z, -2.0)]);
     assert_eq!(model.row(0, Direction::Y).unwrap()[..], [(y, 1.0), (about_z, 2.0)]);
     assert_eq!(model.row(0, Direction::RotationZ).unwrap()[..], [(about_z, 1.0)]);
-    for own in [Direction::X, Direction::Y, Direction::RotationZ] {
-        assert_eq!(dof(0, own), None);
+    for tied in [Direction::X, Direction::Y, Direction::RotationZ] {
+        assert_eq!(model.dof(0, tied), None);
     }
-    for own in [Direction::Z, Direction::RotationX, Direction::RotationY] {
-        assert_eq!(model.row(0, own).unwrap()[..], [(dof(0, own).unwrap(), 1.0)]);
+    for free in [Direction::Z, Direction::RotationX, Direction::RotationY] {
+        let dof = model.dof(0, free).unwrap();
+        assert_eq!(model.row(0, free).unwrap()[..], [(dof, 1.0)]);
     }
-    let text = |outcome: basemat::Result<FemModel>| outcome.unwrap_err().to_string();
     assert_eq!(
         text(tower().with_rigid_diaphragm(3, &[2, 7])),
         "rigid link: the nodes of a diaphragm must lie at one height"
@@ -228,9 +235,15 @@ fn solid() -> Material {
     Material::new(1.0e9, 0.2, 2000.0).unwrap()
 }
 
+/// A brick on the lattice of `brick_mesh` whose first node is this one.
+fn brick_on(first: usize) -> StiffElement {
+    let lower = [first, first + 1, first + 4, first + 3];
+    let nodes: Vec<usize> = lower.into_iter().chain(lower.map(|node| node + 6)).collect();
+    StiffElement::brick(nodes.try_into().unwrap(), 1.0e6, 1.0)
+}
+
 /// Two by one bricks, with a second storey on the left one.
-#[test]
-fn bricks_stand_on_their_lower_sides() {
+fn brick_mesh() -> Mesh {
     let mut mesh = Mesh::in_space();
     for z in [-1.0, 0.0, 1.0] {
         for y in [0.0, 1.0] {
@@ -239,20 +252,34 @@ fn bricks_stand_on_their_lower_sides() {
             }
         }
     }
-    let brick = |first: usize| {
-        let lower = [first, first + 1, first + 4, first + 3];
-        let nodes: Vec<usize> = lower.into_iter().chain(lower.map(|node| node + 6)).collect();
-        StiffElement::brick(nodes.try_into().unwrap(), 1.0e6, 1.0)
-    };
     for first in [6, 1, 0] {
-        mesh.add(brick(first)).unwrap();
+        mesh.add(brick_on(first)).unwrap();
     }
-    let again = mesh.add(brick(1)).unwrap_err().to_string();
+    mesh
+}
+
+/// Places of the nodes of a face.
+fn places(face: &[BaseNode]) -> Vec<[f64; 2]> {
+    face.iter().map(|node| [node.x, node.y]).collect()
+}
+
+/// Number of points that move by this.
+fn count_moved(shape: &DeformedShape, motion: &[f64], by: [f64; 3]) -> usize {
+    shape.displacements(motion).unwrap().iter().filter(|u| **u == by).count()
+}
+
+fn model_on_faces(mesh: &Mesh, faces: &[&[usize]]) -> basemat::Result<FemModel> {
+    let faces: Vec<_> = faces.iter().map(|face| face.to_vec()).collect();
+    FemModel::on_faces(mesh.clone(), &faces)
+}
+
+#[test]
+fn bricks_stand_on_their_lower_sides() {
+    let mut mesh = brick_mesh();
+    let again = mesh.add(brick_on(1)).unwrap_err().to_string();
     assert!(again.contains("it lies where element 1 is, and would count twice"), "{again}");
-    let model = FemModel::on_base(mesh.clone()).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
     let Base::Faces(faces) = model.base() else { panic!("a base in space has faces") };
-    let places =
-        |face: &Vec<BaseNode>| face.iter().map(|node| [node.x, node.y]).collect::<Vec<_>>();
     assert_eq!(places(&faces[0]), [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
     assert_eq!(places(&faces[1]), [[1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 0.0]]);
     assert!(model.base().nodes().all(|node| node.z == 0.0 && node.vertical.len() == 1));
@@ -261,34 +288,33 @@ fn bricks_stand_on_their_lower_sides() {
     assert_eq!((shape.points().len(), shape.cells().len()), (18, 14));
     assert_eq!((shape.points()[4].position, shape.points()[4].away), ([1.0, 0.0], 1.0));
     let rise = model.rigid_motion(Direction::Z, [0.0; 3]);
-    let moved = |motion: &[f64], by: [f64; 3]| {
-        shape.displacements(motion).unwrap().iter().filter(|u| **u == by).count()
-    };
     // Two nodes belong to no element.
-    assert_eq!(moved(&rise, [0.0, 1.0, 0.0]), 16);
+    assert_eq!(count_moved(&shape, &rise, [0.0, 1.0, 0.0]), 16);
     let away = model.rigid_motion(Direction::Y, [0.0; 3]);
-    assert_eq!(moved(&away, [0.0, 0.0, 1.0]), 16);
+    assert_eq!(count_moved(&shape, &away, [0.0, 0.0, 1.0]), 16);
+    let free = model.describe(&[0, 1, 2, 5]).unwrap();
+    assert_eq!(free, "node 0 at (0, 0, -1), node 1 at (1, 0, -1) in Z");
+}
 
-    let text = |outcome: basemat::Result<FemModel>| outcome.unwrap_err().to_string();
-    let faces = |faces: &[&[usize]]| {
-        let faces: Vec<_> = faces.iter().map(|face| face.to_vec()).collect();
-        FemModel::on_faces(mesh.clone(), &faces)
-    };
-    assert!(matches!(faces(&[]), Err(Error::Size { .. })));
-    assert!(matches!(faces(&[&[0, 1]]), Err(Error::Size { .. })));
-    assert!(matches!(faces(&[&[0, 1, 18]]), Err(Error::Index { index: 18, bound: 18, .. })));
-    let Err(Error::Input { value, .. }) = faces(&[&[0, 1, 3], &[1, 2, 10]]) else { panic!() };
+#[test]
+fn faces_on_which_nothing_stands_are_refused() {
+    let mesh = brick_mesh();
+    assert!(matches!(model_on_faces(&mesh, &[]), Err(Error::Size { .. })));
+    assert!(matches!(model_on_faces(&mesh, &[&[0, 1]]), Err(Error::Size { .. })));
+    let outside = model_on_faces(&mesh, &[&[0, 1, 18]]);
+    assert!(matches!(outside, Err(Error::Index { index: 18, bound: 18, .. })));
+    let inclined = model_on_faces(&mesh, &[&[0, 1, 3], &[1, 2, 10]]);
+    let Err(Error::Input { value, .. }) = inclined else { panic!() };
     assert_eq!(value, 0.0);
     // Node 14 is no brick's.
-    assert!(
-        text(faces(&[&[12, 13, 14]])).starts_with("contact node: must have three displacements")
-    );
+    let loose = text(model_on_faces(&mesh, &[&[12, 13, 14]]));
+    assert!(loose.starts_with("contact node: must have three displacements"));
     assert_eq!(
-        text(FemModel::new(mesh.clone(), &[0, 1])),
+        text(FemModel::new(mesh, &[0, 1])),
         "line of contact nodes: must be in a mesh in the plane, but this one is in space"
     );
     let needed = "base of a mesh in space: must have shells or sides of solids at the lowest height of the mesh, which stand \
-                  on the ground: add them there, or name the faces that do";
+on the ground: add them there, or name the faces that do";
     let mut bare = cube();
     bare.add(StiffElement::solid(&[0, 1, 2, 4], 1.0, 1.0)).unwrap();
     assert_eq!(text(FemModel::on_base(bare)), needed);
@@ -297,20 +323,18 @@ fn bricks_stand_on_their_lower_sides() {
         text(FemModel::on_faces(plane, &[vec![0, 1, 2]])),
         "faces of a base: must be in a mesh in space, but this one is in the plane"
     );
-    let free = model.describe(&[0, 1, 2, 5]).unwrap();
-    assert_eq!(free, "node 0 at (0, 0, -1), node 1 at (1, 0, -1) in Z");
 }
 
 /// A column that shortens only, with half of its mass at each end.
-struct Column {
+struct ShorteningColumn {
     nodes: [usize; 2],
     compression: f64,
 }
 
-const AXIAL: f64 = 1.0e9;
-const HALF: f64 = 5.0e3;
+const AXIAL_STIFFNESS: f64 = 1.0e9;
+const HALF_MASS: f64 = 5.0e3;
 
-impl Element for Column {
+impl Element for ShorteningColumn {
     fn nodes(&self) -> &[usize] {
         &self.nodes
     }
@@ -321,7 +345,7 @@ impl Element for Column {
 
     fn stiffness(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
         for (i, j, sign) in [(2, 2, 1.0), (5, 5, 1.0), (2, 5, -1.0), (5, 2, -1.0)] {
-            matrix[6 * i + j] += sign * AXIAL;
+            matrix[6 * i + j] += sign * AXIAL_STIFFNESS;
         }
     }
 
@@ -335,7 +359,7 @@ impl Element for Column {
     }
 
     fn in_static_state(&self, _: &[[f64; 3]], u: &[f64], _: f64) -> Option<Box<dyn Element>> {
-        let compression = AXIAL * (u[2] - u[5]);
+        let compression = AXIAL_STIFFNESS * (u[2] - u[5]);
         Some(Box::new(Self { nodes: self.nodes, compression }))
     }
 
@@ -345,7 +369,7 @@ impl Element for Column {
 
     fn mass(&self, _: &[[f64; 3]], _: MassKind, matrix: &mut [f64]) {
         for i in 0..6 {
-            matrix[7 * i] += HALF;
+            matrix[7 * i] += HALF_MASS;
         }
     }
 }
@@ -355,12 +379,12 @@ impl Element for Column {
 fn weight_in_space_acts_down() {
     let mut mesh = tower().mesh().clone();
     let top = mesh.add_node_at([0.0, 0.0, 3.0]).unwrap();
-    mesh.add(Column { nodes: [7, top], compression: 0.0 }).unwrap();
+    mesh.add(ShorteningColumn { nodes: [7, top], compression: 0.0 }).unwrap();
     mesh.add(Spring::new([3, top], Direction::X, 6.0e5).unwrap()).unwrap();
     mesh.add(Spring::new([3, top], Direction::Y, 1.2e5).unwrap()).unwrap();
     let model = FemModel::on_base(mesh).unwrap().with_p_delta(9.81).unwrap();
     let column = model.mesh().elements().nth(2).unwrap();
-    let weight = HALF * 9.81;
+    let weight = HALF_MASS * 9.81;
     assert!((column.compression().unwrap() / weight - 1.0).abs() < 1e-6);
     let factor = model.buckling_factor().unwrap();
     assert!((factor / (1.2e5 * 2.0 / weight) - 1.0).abs() < 1e-6, "{factor}");

@@ -14,7 +14,7 @@ fn material() -> Material {
 }
 
 /// One element of 2 m × 3 m.
-fn eight() -> FemModel {
+fn block_of_eight_nodes() -> FemModel {
     let mut mesh = Mesh::new();
     let places = [
         [0.0, 0.0],
@@ -33,7 +33,7 @@ fn eight() -> FemModel {
 
 #[test]
 fn pressure_does_the_work_of_quadratic_displacements() {
-    let model = eight();
+    let model = block_of_eight_nodes();
     // Down the left side, u_x = y²: ∫ y² dy = 9.
     let side = [3, 7, 0];
     let row = model.pressure_row(&side).unwrap();
@@ -76,7 +76,7 @@ fn wind_on_a_wall_meets_the_ground() {
 
 #[test]
 fn lines_that_are_none_are_refused() {
-    let model = eight();
+    let model = block_of_eight_nodes();
     assert!(matches!(model.pressure_row(&[0]), Err(Error::Size { found: 1, .. })));
     assert!(matches!(model.pressure_row(&[0, 99]), Err(Error::Index { index: 99, .. })));
     assert!(matches!(model.pressure_row(&[0, 0]), Err(Error::Input { .. })));

@@ -15,50 +15,62 @@ fn concrete() -> Material {
 }
 
 /// Places of a mesh and, element by element, its nodes.
-type Parts = (Vec<[f64; 3]>, Vec<Vec<usize>>);
+type MeshParts = (Vec<[f64; 3]>, Vec<Vec<usize>>);
 
-/// An element on nodes, of which a number of kinds exist.
-type Make = fn(&[usize]) -> Box<dyn Element>;
+/// Makes an element of one kind on these nodes.
+type MakeElement = fn(&[usize]) -> Box<dyn Element>;
 
-/// Mesh on common nodes, and one with nodes of its own for each element, which are off by up to a hundredth of a millimetre.
-fn meshes((places, elements): &Parts, makes: &[Make], in_space: bool) -> [Mesh; 2] {
-    let empty = || if in_space { Mesh::in_space() } else { Mesh::new() };
-    let (mut common, mut apart) = (empty(), empty());
-    for &place in places {
-        common.add_node_at(place).unwrap();
-    }
-    let mut count = 0;
-    for (nodes, make) in elements.iter().zip(makes) {
-        common.add(make(nodes)).unwrap();
-        let mut own = Vec::new();
-        for &node in nodes {
-            let mut place = places[node];
-            count += 1;
-            place[0] += 1e-5 * f64::from(count % 3 - 1);
-            own.push(apart.add_node_at(place).unwrap());
+/// A mesh on common nodes, and the same elements on separate ones.
+struct MeshPair {
+    common: Mesh,
+    separate: Mesh,
+}
+
+impl MeshPair {
+    /// The separate nodes are off by up to a hundredth of a millimetre.
+    fn new((places, elements): &MeshParts, makes: &[MakeElement], in_space: bool) -> Self {
+        let mut common = if in_space { Mesh::in_space() } else { Mesh::new() };
+        let mut separate = common.clone();
+        for &place in places {
+            common.add_node_at(place).unwrap();
         }
-        apart.add(make(&own)).unwrap();
+        let mut count = 0;
+        for (nodes, make) in elements.iter().zip(makes) {
+            common.add(make(nodes)).unwrap();
+            let mut separate_nodes = Vec::new();
+            for &node in nodes {
+                let mut place = places[node];
+                count += 1;
+                place[0] += 1e-5 * f64::from(count % 3 - 1);
+                separate_nodes.push(separate.add_node_at(place).unwrap());
+            }
+            separate.add(make(&separate_nodes)).unwrap();
+        }
+        Self { common, separate }
     }
-    [common, apart]
+}
+
+fn rectangle(z: f64) -> [[f64; 3]; 4] {
+    [[0.0, 0.0, z], [2.0, 0.0, z], [2.0, 1.0, z], [0.0, 1.0, z]]
 }
 
 /// A table with legs, a brick below it, a spring and a mass.
-fn in_space() -> (Parts, Vec<Make>) {
-    let square = |z: f64| [[0.0, 0.0, z], [2.0, 0.0, z], [2.0, 1.0, z], [0.0, 1.0, z]];
-    let places = [square(0.0), square(1.0), square(3.0)].concat();
-    let beam: Make = |nodes| {
+fn in_space() -> (MeshParts, Vec<MakeElement>) {
+    let places = [rectangle(0.0), rectangle(1.0), rectangle(3.0)].concat();
+    let beam: MakeElement = |nodes| {
         let section = BeamSection::new(0.16, [2.1e-3, 2.1e-3], 3.6e-3).unwrap();
         Box::new(
             SpaceBeam::new([nodes[0], nodes[1]], concrete(), section, [1.0, 0.0, 0.0]).unwrap(),
         )
     };
-    let shell: Make = |nodes| Box::new(Shell::new(nodes, concrete(), 0.2).unwrap());
-    let brick: Make = |nodes| Box::new(Hex8::new(nodes.try_into().unwrap(), concrete()));
-    let spring: Make =
+    let shell: MakeElement = |nodes| Box::new(Shell::new(nodes, concrete(), 0.2).unwrap());
+    let brick: MakeElement = |nodes| Box::new(Hex8::new(nodes.try_into().unwrap(), concrete()));
+    let spring: MakeElement =
         |nodes| Box::new(Spring::new([nodes[0], nodes[1]], Direction::Z, 1e6).unwrap());
-    let truss: Make =
+    let truss: MakeElement =
         |nodes| Box::new(Truss::in_space([nodes[0], nodes[1]], 2e11, 1e-3, 7800.0).unwrap());
-    let weight: Make = |nodes| Box::new(LumpedMass::in_space(nodes[0], 500.0, [1.0; 3]).unwrap());
+    let weight: MakeElement =
+        |nodes| Box::new(LumpedMass::in_space(nodes[0], 500.0, [1.0; 3]).unwrap());
     let elements = vec![
         (0..8).collect(),
         vec![4, 8],
@@ -76,66 +88,72 @@ fn in_space() -> (Parts, Vec<Make>) {
     ((places, elements), makes)
 }
 
-fn in_plane() -> (Parts, Vec<Make>) {
+fn in_plane() -> (MeshParts, Vec<MakeElement>) {
     let places =
         [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [1.0, 4.0]];
     let mut places: Vec<[f64; 3]> = places.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     for [x, y] in [[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]] {
         places.push([x, y, 0.0]);
     }
-    let quad: Make = |nodes| {
+    let quad: MakeElement = |nodes| {
         Box::new(Quad4::new(nodes.try_into().unwrap(), concrete(), QuadFormulation::default()))
     };
-    let curved: Make = |nodes| Box::new(Quad8::new(nodes.try_into().unwrap(), concrete()));
-    let beam: Make =
+    let curved: MakeElement = |nodes| Box::new(Quad8::new(nodes.try_into().unwrap(), concrete()));
+    let beam: MakeElement =
         |nodes| Box::new(Beam::new([nodes[0], nodes[1]], 30.0e9, 0.4, 0.02, 2400.0).unwrap());
     let elements =
         vec![vec![0, 1, 4, 3, 7, 8, 9, 10], vec![1, 2, 5, 4], vec![4, 6], vec![4, 5], vec![6, 5]];
     ((places, elements), vec![curved, quad, beam, beam, beam])
 }
 
+/// Degrees of freedom of the node at a place.
+fn dofs_at(model: &FemModel, place: [f64; 3]) -> Vec<usize> {
+    let nearest = model.mesh().nearest_node_to(place).unwrap();
+    let directions = model.mesh().directions();
+    directions.iter().filter_map(|&direction| model.dof(nearest, direction)).collect()
+}
+
 #[test]
 fn merged_meshes_are_those_on_common_nodes() {
     for (depth, (parts, makes)) in [(true, in_space()), (false, in_plane())] {
-        let [common, mut apart] = meshes(&parts, &makes, depth);
-        let before = apart.nodes().len();
+        let MeshPair { common, mut separate } = MeshPair::new(&parts, &makes, depth);
+        let before = separate.nodes().len();
         assert!(before > common.nodes().len() + 5);
-        let merged = apart.merge_nodes(1e-3).unwrap();
+        let merged = separate.merge_nodes(1e-3).unwrap();
         assert_eq!(
-            (merged.count, apart.nodes().len()),
+            (merged.count, separate.nodes().len()),
             (before - common.nodes().len(), common.nodes().len())
         );
         assert_eq!(
-            (merged.indices.len(), apart.elements().len()),
+            (merged.indices.len(), separate.elements().len()),
             (before, common.elements().len())
         );
         // Again: nothing to do.
-        assert_eq!(apart.clone().merge_nodes(1e-3).unwrap().count, 0);
+        assert_eq!(separate.clone().merge_nodes(1e-3).unwrap().count, 0);
         // Types remain, so that forces of beams and shells can be asked for.
-        let model = |mesh: Mesh| FemModel::on_base(mesh).unwrap();
-        let [common, apart] = [common, apart].map(model);
-        assert_eq!(common.dofs(), apart.dofs());
-        for place in &parts.0 {
+        let expected_model = FemModel::on_base(common).unwrap();
+        let merged_model = FemModel::on_base(separate).unwrap();
+        assert_eq!(expected_model.dofs(), merged_model.dofs());
+        for &place in &parts.0 {
             // Nodes come in another order.
-            let [a, b] = [&common, &apart].map(|model| {
-                let nearest = model.mesh().nearest_node_to(*place).unwrap();
-                model
-                    .mesh()
-                    .directions()
-                    .iter()
-                    .filter_map(|&own| model.dof(nearest, own))
-                    .collect::<Vec<_>>()
-            });
+            let expected_dofs = dofs_at(&expected_model, place);
+            let merged_dofs = dofs_at(&merged_model, place);
             for matrix in [stiffness, mass] {
-                let [one, two] = [matrix(&common), matrix(&apart)];
-                for (&i, &j) in a.iter().zip(&b) {
-                    let (found, wanted) = (two[j][j], one[i][i]);
-                    assert!((found / wanted - 1.0).abs() < 1e-3, "{place:?}: {found} {wanted}");
+                let expected_matrix = matrix(&expected_model);
+                let merged_matrix = matrix(&merged_model);
+                for (&i, &j) in expected_dofs.iter().zip(&merged_dofs) {
+                    let found = merged_matrix[j][j];
+                    let expected = expected_matrix[i][i];
+                    assert!((found / expected - 1.0).abs() < 1e-3, "{place:?}: {found} {expected}");
                 }
             }
         }
-        assert_eq!(apart.beam_rows(2).is_ok(), common.beam_rows(2).is_ok());
+        assert_eq!(merged_model.beam_rows(2).is_ok(), expected_model.beam_rows(2).is_ok());
     }
+}
+
+fn merge_error(mesh: &mut Mesh, tolerance: f64) -> String {
+    mesh.merge_nodes(tolerance).unwrap_err().to_string()
 }
 
 #[test]
@@ -145,13 +163,12 @@ fn degenerate_elements_and_rows_of_nodes_are_named() {
         [0.0, 0.5, 1.0, 5.0].iter().map(|&x| mesh.add_node(x, 0.0).unwrap()).collect();
     mesh.add(Beam::new([nodes[0], nodes[1]], 30.0e9, 0.4, 0.02, 0.0).unwrap()).unwrap();
     let unchanged = mesh.nodes().to_vec();
-    let error = |mesh: &mut Mesh, tolerance| mesh.merge_nodes(tolerance).unwrap_err().to_string();
-    let row = error(&mut mesh, 0.6);
+    let row = merge_error(&mut mesh, 0.6);
     assert!(row.contains("nodes") && row.contains("tolerance"), "{row}");
     let mut short = Mesh::new();
     let ends = [short.add_node(0.0, 0.0).unwrap(), short.add_node(0.01, 0.0).unwrap()];
     short.add(Beam::new(ends, 30.0e9, 0.4, 0.02, 0.0).unwrap()).unwrap();
-    let degenerate = error(&mut short, 0.05);
+    let degenerate = merge_error(&mut short, 0.05);
     assert!(degenerate.contains("element 0 on nodes [0, 1]"), "{degenerate}");
     for tolerance in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(mesh.merge_nodes(tolerance), Err(Error::Input { .. })));
@@ -163,11 +180,11 @@ fn degenerate_elements_and_rows_of_nodes_are_named() {
         let ends = [0.0, 3.0].map(|x| double.add_node(x, 0.0).unwrap());
         double.add(Beam::new(ends, 30.0e9, 0.4, 0.02, 2400.0).unwrap()).unwrap();
     }
-    let twice = error(&mut double, 1e-6);
+    let twice = merge_error(&mut double, 1e-6);
     assert!(twice.contains("element 1") && twice.contains("count twice"), "{twice}");
     // An element of a user without new nodes.
     mesh.add(Tie([nodes[2], nodes[3]])).unwrap();
-    let tie = error(&mut mesh, 1e-6);
+    let tie = merge_error(&mut mesh, 1e-6);
     assert!(tie.contains("element 1") && tie.contains("with_nodes"), "{tie}");
 }
 

@@ -33,7 +33,8 @@ fn layered_block_runs_from_the_base_upwards() {
     assert_eq!(mesh.elements().len(), 12);
     // A clone grows by itself.
     let mut larger = mesh.clone();
-    let [low, high] = [0.0, 1.0].map(|y| larger.add_node(5.0, y).unwrap());
+    let low = larger.add_node(5.0, 0.0).unwrap();
+    let high = larger.add_node(5.0, 1.0).unwrap();
     larger.add(Quad4::new([3, low, high, 7], stiff, QuadFormulation::OnePoint)).unwrap();
     assert_eq!((mesh.elements().len(), larger.elements().len()), (12, 13));
     let last = larger.elements().last().unwrap();
@@ -66,7 +67,7 @@ fn a_node_is_where_it_is_looked_for_or_nowhere() {
         assert!(matches!(model.mesh().node_at(0.0, bad), Err(Error::Input { .. })));
     }
     assert!(matches!(Mesh::new().node_at(0.0, 0.0), Err(Error::Size { .. })));
-    // A single node has no size: only its own place will do.
+    // A single node has no size: only its exact place will do.
     let mut point = Mesh::new();
     point.add_node(1.0, 2.0).unwrap();
     assert_eq!(point.node_at(1.0, 2.0), Ok(0));
@@ -108,6 +109,10 @@ fn only_used_directions_are_numbered() {
     assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().dofs(), 7);
 }
 
+fn ring_thickness(row: usize) -> f64 {
+    if row < 2 { 0.5 } else { 0.2 }
+}
+
 /// The triangles at the pole of a surface of revolution are matched to the ring of quadrilaterals.
 #[test]
 fn shells_of_a_grid_are_matched() {
@@ -115,11 +120,10 @@ fn shells_of_a_grid_are_matched() {
     let mut mesh = Mesh::in_space();
     let meridian = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
     let grid = mesh.revolve([0.0; 2], &meridian, 6).unwrap();
-    let thickness = |row: usize| if row < 2 { 0.5 } else { 0.2 };
-    let shells = grid.shells(concrete, thickness).unwrap();
+    let shells = grid.shells(concrete, ring_thickness).unwrap();
     let mut by_hand: Vec<Shell> = grid
         .cells()
-        .map(|(row, cell)| Shell::new(cell, concrete, thickness(row)).unwrap())
+        .map(|(row, cell)| Shell::new(cell, concrete, ring_thickness(row)).unwrap())
         .collect();
     assert!(shells.len() == 18 && shells[..6].iter().zip(&by_hand).all(|(a, b)| a != b));
     Shell::match_sides(&mut by_hand);

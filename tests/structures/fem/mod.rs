@@ -15,7 +15,7 @@ mod line_loads;
 mod merging;
 mod meshes;
 mod modal_damping;
-mod own_element;
+
 mod p_delta;
 mod p_delta_in_space;
 mod p_delta_links;
@@ -27,3 +27,4 @@ mod section;
 mod shear_building;
 mod shells;
 mod space_section;
+mod user_element;

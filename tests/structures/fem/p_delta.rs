@@ -1,5 +1,5 @@
 //! GOAL: axial forces from the weight, and their effect on statics, buckling loads and frequencies.
-//! SCENE: cantilevers, portals and braced columns under their own weight and masses.
+//! SCENE: cantilevers, portals and braced columns under their weight and masses.
 //! REFERENCE: Greenhill 1881, Euler, Kleinlogel, power series of 40 digits.
 
 use basemat::Error;
@@ -13,24 +13,32 @@ use basemat_problems::dense::{
     damping, eigenvalues, form, largest, mass, multiply, part, stiffness,
 };
 
-const E: f64 = 30.0e9;
-const AREA: f64 = 0.4;
-const INERTIA: f64 = 0.02;
-const DENSITY: f64 = 2400.0;
-const LENGTH: f64 = 8.0;
-const BENDING: f64 = E * INERTIA;
-/// Greenhill 1881: q L³/EI of the uniform cantilever that buckles under its own weight q per length.
-const GREENHILL: f64 = 7.837_347_438_943_484;
+const YOUNG_MODULUS: f64 = 30.0e9;
+const SECTION_AREA: f64 = 0.4;
+const SECOND_MOMENT: f64 = 0.02;
+const MASS_DENSITY: f64 = 2400.0;
+const COLUMN_LENGTH: f64 = 8.0;
+const BENDING_STIFFNESS: f64 = YOUNG_MODULUS * SECOND_MOMENT;
+/// Greenhill 1881: q L³/EI of the uniform cantilever that buckles under its weight q per length.
+const GREENHILL_FACTOR: f64 = 7.837_347_438_943_484;
 
-/// Cantilever of so many beams on a rigid basemat 2 m wide, with a mass at its tip or none, and the
-/// degrees of freedom above the basemat.
-fn cantilever(elements: usize, density: f64, tip: f64) -> (FemModel, Vec<usize>) {
+/// A column and its degrees of freedom above the basemat.
+struct CantileverColumn {
+    model: FemModel,
+    free: Vec<usize>,
+}
+
+/// CantileverColumn of so many beams on a rigid basemat 2 m wide, with a mass at its tip or none.
+fn cantilever(elements: usize, density: f64, tip: f64) -> CantileverColumn {
     let mut mesh = Mesh::new();
     for k in 0..=elements {
-        mesh.add_node(0.0, LENGTH * k as f64 / elements as f64).unwrap();
+        mesh.add_node(0.0, COLUMN_LENGTH * k as f64 / elements as f64).unwrap();
     }
     for k in 0..elements {
-        mesh.add(Beam::new([k, k + 1], E, AREA, INERTIA, density).unwrap()).unwrap();
+        mesh.add(
+            Beam::new([k, k + 1], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, density).unwrap(),
+        )
+        .unwrap();
     }
     if tip > 0.0 {
         mesh.add(LumpedMass::new(elements, tip).unwrap()).unwrap();
@@ -41,15 +49,15 @@ fn cantilever(elements: usize, density: f64, tip: f64) -> (FemModel, Vec<usize>)
         end
     });
     let model = FemModel::new(mesh, &ends).unwrap().with_rigid_link(0, &ends).unwrap();
-    let above = (3..model.dofs()).collect();
-    (model, above)
+    let free = (3..model.dofs()).collect();
+    CantileverColumn { model, free }
 }
 
 fn compressions(model: &FemModel) -> Vec<f64> {
     model.mesh().elements().filter_map(basemat::fem::Element::compression).collect()
 }
 
-/// Lowest circular frequency squared with the degrees of freedom below `free` held.
+/// Lowest circular frequency squared with the degrees of freedom below `free` fixed.
 fn lowest(model: &FemModel, free: &[usize]) -> f64 {
     eigenvalues(&part(&stiffness(model), free), &part(&mass(model), free))[0]
 }
@@ -58,14 +66,16 @@ fn lowest(model: &FemModel, free: &[usize]) -> f64 {
 /// the buckling factor tends to the closed form from above with the fourth power of the beams' length,
 /// and what stands below it and what does not is told apart.
 #[test]
-fn a_column_buckles_under_its_own_weight_as_greenhill_says() {
-    let critical = GREENHILL * BENDING / LENGTH.powi(3) / (DENSITY * AREA);
+fn a_column_buckles_under_its_weight_as_greenhill_says() {
+    let critical = GREENHILL_FACTOR * BENDING_STIFFNESS
+        / COLUMN_LENGTH.powi(3)
+        / (MASS_DENSITY * SECTION_AREA);
     let errors = [4, 8, 16].map(|elements| {
-        let (model, _) = cantilever(elements, DENSITY, 0.0);
+        let model = cantilever(elements, MASS_DENSITY, 0.0).model;
         let model = model.with_p_delta(0.3 * critical).unwrap();
         for (k, found) in compressions(&model).into_iter().enumerate() {
-            let above = (1.0 - (k as f64 + 0.5) / elements as f64) * LENGTH;
-            let exact = DENSITY * AREA * 0.3 * critical * above;
+            let above = (1.0 - (k as f64 + 0.5) / elements as f64) * COLUMN_LENGTH;
+            let exact = MASS_DENSITY * SECTION_AREA * 0.3 * critical * above;
             assert!((found / exact - 1.0).abs() < 1e-9, "{k}: {found} {exact}");
         }
         0.3 * model.buckling_factor().unwrap() - 1.0
@@ -76,7 +86,7 @@ fn a_column_buckles_under_its_own_weight_as_greenhill_says() {
         assert!((pair[0] / pair[1] - 16.0).abs() < 2.0, "{errors:?}");
     }
     for (factor, stands) in [(0.9999, true), (1.0001, false)] {
-        let (model, _) = cantilever(16, DENSITY, 0.0);
+        let model = cantilever(16, MASS_DENSITY, 0.0).model;
         match model.with_p_delta(factor * critical) {
             Ok(_) => assert!(stands, "{factor}"),
             Err(Error::Structure(StructureError::Buckling { factor: found })) => {
@@ -91,20 +101,24 @@ fn a_column_buckles_under_its_own_weight_as_greenhill_says() {
 /// 40 digits gives ω² at 0, ¼, ½ and ¾ of Greenhill's weight: 1 − q/q_cr within 0.3 %.
 #[test]
 fn frequencies_of_a_heavy_column_drop_with_its_weight() {
-    const EXACT: [f64; 4] = [
+    const EXACT_SQUARES: [f64; 4] = [
         12.362_363_368_326_19,
         9.281_520_763_530_467,
         6.194_481_561_640_118,
         3.100_805_439_912_750_6,
     ];
-    let critical = GREENHILL * BENDING / LENGTH.powi(3) / (DENSITY * AREA);
-    let unit = BENDING / (DENSITY * AREA * LENGTH.powi(4));
-    for (quarters, exact) in EXACT.into_iter().enumerate() {
-        let share = quarters as f64 / 4.0;
-        let (model, above) = cantilever(20, DENSITY, 0.0);
-        let found = lowest(&model.with_p_delta(share * critical).unwrap(), &above) / unit;
-        assert!((found / exact - 1.0).abs() < 2e-6, "{share}: {found} {exact}");
-        assert!((found / (EXACT[0] * (1.0 - share)) - 1.0).abs() < 5e-3, "{share}: {found}");
+    let critical = GREENHILL_FACTOR * BENDING_STIFFNESS
+        / COLUMN_LENGTH.powi(3)
+        / (MASS_DENSITY * SECTION_AREA);
+    let unit = BENDING_STIFFNESS / (MASS_DENSITY * SECTION_AREA * COLUMN_LENGTH.powi(4));
+    for (quarters, exact) in EXACT_SQUARES.into_iter().enumerate() {
+        let weight_ratio = quarters as f64 / 4.0;
+        let CantileverColumn { model, free } = cantilever(20, MASS_DENSITY, 0.0);
+        let loaded = model.with_p_delta(weight_ratio * critical).unwrap();
+        let found = lowest(&loaded, &free) / unit;
+        assert!((found / exact - 1.0).abs() < 2e-6, "{weight_ratio}: {found} {exact}");
+        let linear = EXACT_SQUARES[0] * (1.0 - weight_ratio);
+        assert!((found / linear - 1.0).abs() < 5e-3, "{weight_ratio}: {found}");
     }
 }
 
@@ -112,48 +126,52 @@ fn frequencies_of_a_heavy_column_drop_with_its_weight() {
 /// ω² = P/(m (tan κL/κ − L)), κ² = P/EI, nearly 1 − P/P_cr.
 #[test]
 fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
-    let euler = std::f64::consts::PI.powi(2) * BENDING / (4.0 * LENGTH * LENGTH);
+    let euler =
+        std::f64::consts::PI.powi(2) * BENDING_STIFFNESS / (4.0 * COLUMN_LENGTH * COLUMN_LENGTH);
     let tip = 1.0e5;
-    let gravity = |share: f64| share * euler / tip;
-    for share in [0.1, 0.5, 0.9] {
-        let (model, above) = cantilever(8, 0.0, tip);
-        let model = model.with_p_delta(gravity(share)).unwrap();
+    for load_ratio in [0.1, 0.5, 0.9] {
+        let CantileverColumn { model, free } = cantilever(8, 0.0, tip);
+        let model = model.with_p_delta(load_ratio * euler / tip).unwrap();
         let factor = model.buckling_factor().unwrap();
-        assert!((factor * share - 1.0).abs() < 1e-5, "{factor} {share}");
-        // Statical condensation: the tip's flexibility.
-        let free = part(&stiffness(&model), &above);
-        let at = model.dof(8, Direction::X).unwrap() - above[0];
-        let mut load = vec![0.0; free.len()];
+        assert!((factor * load_ratio - 1.0).abs() < 1e-5, "{factor} {load_ratio}");
+        // Static condensation: the tip's flexibility.
+        let free_stiffness = part(&stiffness(&model), &free);
+        let at = model.dof(8, Direction::X).unwrap() - free[0];
+        let mut load = vec![0.0; free_stiffness.len()];
         load[at] = 1.0;
-        let found = 1.0 / basemat_problems::dense::solve(&free, &load)[at] / tip;
-        let (force, k) = (share * euler, (share * euler / BENDING).sqrt());
-        let exact = force / (tip * ((k * LENGTH).tan() / k - LENGTH));
-        assert!((found / exact - 1.0).abs() < 1e-5 / (1.0 - share), "{share}: {found} {exact}");
-        let straight = 3.0 * BENDING / (tip * LENGTH.powi(3)) * (1.0 - share);
-        assert!((found / straight - 1.0).abs() < 0.02, "{share}: {found} {straight}");
+        let flexibility = basemat_problems::dense::solve(&free_stiffness, &load)[at];
+        let found = 1.0 / flexibility / tip;
+        let force = load_ratio * euler;
+        let k = (load_ratio * euler / BENDING_STIFFNESS).sqrt();
+        let exact = force / (tip * ((k * COLUMN_LENGTH).tan() / k - COLUMN_LENGTH));
+        let tolerance = 1e-5 / (1.0 - load_ratio);
+        assert!((found / exact - 1.0).abs() < tolerance, "{load_ratio}: {found} {exact}");
+        let straight = 3.0 * BENDING_STIFFNESS / (tip * COLUMN_LENGTH.powi(3)) * (1.0 - load_ratio);
+        assert!((found / straight - 1.0).abs() < 0.02, "{load_ratio}: {found} {straight}");
     }
-    let (model, _) = cantilever(8, 0.0, tip);
-    let fallen = model.with_p_delta(gravity(1.25));
+    let model = cantilever(8, 0.0, tip).model;
+    let fallen = model.with_p_delta(1.25 * euler / tip);
     assert!(
         matches!(fallen, Err(Error::Structure(StructureError::Buckling { factor })) if (factor - 0.8).abs() < 1e-5)
     );
 }
 
-const SPAN: f64 = 6.0;
-const HEIGHT: f64 = 4.0;
+const PORTAL_SPAN: f64 = 6.0;
+const PORTAL_HEIGHT: f64 = 4.0;
 
 /// Portal on hinged feet, each member of four beams, with a mass (kg) at a quarter of its girder. The
 /// area is such that members hardly shorten.
 fn portal(load: f64, change: impl Fn(usize, Beam) -> Beam) -> FemModel {
     let mut mesh = Mesh::new();
-    let mut path: Vec<[f64; 2]> = (0..=4).map(|k| [0.0, HEIGHT * f64::from(k) / 4.0]).collect();
-    path.extend((1..=4).map(|k| [SPAN * f64::from(k) / 4.0, HEIGHT]));
-    path.extend((1..=4).map(|k| [SPAN, HEIGHT * f64::from(4 - k) / 4.0]));
+    let mut path: Vec<[f64; 2]> =
+        (0..=4).map(|k| [0.0, PORTAL_HEIGHT * f64::from(k) / 4.0]).collect();
+    path.extend((1..=4).map(|k| [PORTAL_SPAN * f64::from(k) / 4.0, PORTAL_HEIGHT]));
+    path.extend((1..=4).map(|k| [PORTAL_SPAN, PORTAL_HEIGHT * f64::from(4 - k) / 4.0]));
     for [x, y] in path {
         mesh.add_node(x, y).unwrap();
     }
     for k in 0..12 {
-        let beam = Beam::new([k, k + 1], E, 4.0e4, INERTIA, 0.02).unwrap();
+        let beam = Beam::new([k, k + 1], YOUNG_MODULUS, 4.0e4, SECOND_MOMENT, 0.02).unwrap();
         mesh.add(change(k, beam)).unwrap();
     }
     mesh.add(LumpedMass::new(5, load).unwrap()).unwrap();
@@ -169,18 +187,21 @@ fn axial_forces_of_a_portal_are_those_of_statics() {
     let load = 5.0e3;
     let model = portal(load, |_, beam| beam).with_p_delta(gravity).unwrap();
     let found = compressions(&model);
-    let (w, weight) = (4.0e4 * 0.02 * gravity, load * gravity);
-    let quarter = HEIGHT / 4.0;
+    let w = 4.0e4 * 0.02 * gravity;
+    let weight = load * gravity;
+    let quarter = PORTAL_HEIGHT / 4.0;
     for k in 0..4 {
-        let column = w * (HEIGHT - (k as f64 + 0.5) * quarter);
-        let left = column + 0.5 * w * SPAN + 0.75 * weight;
-        let right = column + 0.5 * w * SPAN + 0.25 * weight;
+        let column = w * (PORTAL_HEIGHT - (k as f64 + 0.5) * quarter);
+        let left = column + 0.5 * w * PORTAL_SPAN + 0.75 * weight;
+        let right = column + 0.5 * w * PORTAL_SPAN + 0.25 * weight;
         assert!((found[k] / left - 1.0).abs() < 1e-6, "{k}: {} {left}", found[k]);
         assert!((found[11 - k] / right - 1.0).abs() < 1e-6, "{k}: {} {right}", found[11 - k]);
     }
-    let (k, a, b) = (HEIGHT / SPAN, 0.25 * SPAN, 0.75 * SPAN);
-    let thrust = w * SPAN * SPAN / (4.0 * HEIGHT * (2.0 * k + 3.0))
-        + 3.0 * weight * a * b / (2.0 * HEIGHT * SPAN * (2.0 * k + 3.0));
+    let k = PORTAL_HEIGHT / PORTAL_SPAN;
+    let a = 0.25 * PORTAL_SPAN;
+    let b = 0.75 * PORTAL_SPAN;
+    let thrust = w * PORTAL_SPAN * PORTAL_SPAN / (4.0 * PORTAL_HEIGHT * (2.0 * k + 3.0))
+        + 3.0 * weight * a * b / (2.0 * PORTAL_HEIGHT * PORTAL_SPAN * (2.0 * k + 3.0));
     for (place, girder) in found[4..8].iter().enumerate() {
         assert!((girder / thrust - 1.0).abs() < 1e-5, "{place}: {girder} {thrust}");
     }
@@ -195,25 +216,28 @@ fn axial_forces_of_a_portal_are_those_of_statics() {
     assert_eq!(without.buckling_factor(), Ok(f64::INFINITY));
 }
 
-#[test]
-fn forces_given_by_hand_stay() {
-    let by_hand = |k: usize, beam: Beam| match k {
+/// Forces at the feet of the portal that a user gives.
+fn with_given_feet(k: usize, beam: Beam) -> Beam {
+    match k {
         0 => beam.with_compression(123.0).unwrap(),
         11 => beam.with_compression(0.0).unwrap(),
         _ => beam,
-    };
-    let found = compressions(&portal(5.0e3, by_hand).with_p_delta(10.0).unwrap());
+    }
+}
+
+#[test]
+fn forces_given_by_hand_stay() {
+    let found = compressions(&portal(5.0e3, with_given_feet).with_p_delta(10.0).unwrap());
     let all = compressions(&portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap());
     assert_eq!((found[0], found[11]), (123.0, 0.0));
     assert_eq!(found[1..11], all[1..11]);
     // Too much by hand is found as well.
-    let heavy = |_, beam: Beam| beam.with_compression(1.0e10).unwrap();
-    let model = portal(5.0e3, heavy);
-    let share = model.buckling_factor().unwrap();
-    assert!(share > 0.0 && share < 1.0, "{share}");
+    let model = portal(5.0e3, |_, beam| beam.with_compression(1.0e10).unwrap());
+    let factor = model.buckling_factor().unwrap();
+    assert!(factor > 0.0 && factor < 1.0, "{factor}");
     assert_eq!(
         model.with_p_delta(0.0).unwrap_err(),
-        Error::Structure(StructureError::Buckling { factor: share })
+        Error::Structure(StructureError::Buckling { factor })
     );
 }
 
@@ -232,8 +256,10 @@ fn p_delta_overturns_but_does_not_hold() {
     }
     let turn = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     let moment = form(&turn, &matrix, &turn);
-    let (w, weight) = (4.0e4 * 0.02 * 10.0, 5.0e3 * 10.0);
-    let exact = -(2.0 * w * HEIGHT * 0.5 * HEIGHT + (w * SPAN + weight) * HEIGHT);
+    let w = 4.0e4 * 0.02 * 10.0;
+    let weight = 5.0e3 * 10.0;
+    let exact = -(2.0 * w * PORTAL_HEIGHT * 0.5 * PORTAL_HEIGHT
+        + (w * PORTAL_SPAN + weight) * PORTAL_HEIGHT);
     assert!((moment / exact - 1.0).abs() < 1e-4, "{moment} {exact}");
     // Each weight acts on its node, and the base on the ground.
     let mut force = multiply(&matrix, &turn);
@@ -249,11 +275,11 @@ fn p_delta_overturns_but_does_not_hold() {
     let undamped = portal(5.0e3, |_, beam| beam)
         .with_rayleigh(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
     assert_eq!(damping(&model), damping(&undamped));
-    // Nothing is held: it marches, and leans by its own weight where the ground is soft.
+    // Nothing is fixed: it marches, and leans by its weight where the ground is soft.
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     let built = Simulation::builder(0.01)
         .structure(model)
-        .ground(ElasticGround::new(soil, Strip::uniform(0.0..SPAN, 6).unwrap()).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(0.0..PORTAL_SPAN, 6).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .gravity(10.0)
         .build();
@@ -271,29 +297,35 @@ fn links_after_p_delta_find_the_forces_anew() {
     assert_eq!(stiffness(&after), stiffness(&before));
 }
 
+const BRACED_HEIGHT: f64 = 3.0;
+const COLUMN_STIFFNESS: f64 = 2.0e8;
+const BRACE_STIFFNESS: f64 = 1.0e7;
+
+/// A hinged column with a mass on its top and a diagonal.
+fn braced_column(load: f64) -> FemModel {
+    let mut mesh = Mesh::new();
+    let places = [[0.0, 0.0], [0.0, BRACED_HEIGHT], [BRACED_HEIGHT, 0.0]];
+    let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
+    mesh.add(Truss::new([nodes[0], nodes[1]], COLUMN_STIFFNESS, 1.0, 0.0).unwrap()).unwrap();
+    mesh.add(Truss::new([nodes[1], nodes[2]], BRACE_STIFFNESS, 1.0, 0.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(nodes[1], load).unwrap()).unwrap();
+    FemModel::new(mesh, &[nodes[0], nodes[2]]).unwrap()
+}
+
 /// PROBLEM: a hinged column with a mass on its top, leaning on a weightless diagonal of stiffness k_b at
 /// 45°. RESULT: the diagonal carries nothing, and it buckles at P/h = ½ k_b k_c/(½ k_b + k_c).
 #[test]
 fn a_leaning_column_needs_its_brace() {
-    let (height, load) = (3.0, 1.0e4);
-    let [column, brace] = [2.0e8, 1.0e7];
-    let leaning = || {
-        let mut mesh = Mesh::new();
-        let [foot, top, other] =
-            [[0.0, 0.0], [0.0, height], [height, 0.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
-        mesh.add(Truss::new([foot, top], column, 1.0, 0.0).unwrap()).unwrap();
-        mesh.add(Truss::new([top, other], brace, 1.0, 0.0).unwrap()).unwrap();
-        mesh.add(LumpedMass::new(top, load).unwrap()).unwrap();
-        FemModel::new(mesh, &[foot, other]).unwrap()
-    };
-    let [kc, kb] = [column / height, 0.5 * brace / (height * 2.0_f64.sqrt())];
-    let critical = height * kb * kc / (kb + kc);
-    let model = leaning().with_p_delta(10.0).unwrap();
+    let load = 1.0e4;
+    let kc = COLUMN_STIFFNESS / BRACED_HEIGHT;
+    let kb = 0.5 * BRACE_STIFFNESS / (BRACED_HEIGHT * 2.0_f64.sqrt());
+    let critical = BRACED_HEIGHT * kb * kc / (kb + kc);
+    let model = braced_column(load).with_p_delta(10.0).unwrap();
     let found = compressions(&model);
     assert!((found[0] / (load * 10.0) - 1.0).abs() < 1e-12 && found[1].abs() < 1e-9 * found[0]);
     let factor = model.buckling_factor().unwrap();
     assert!((factor * found[0] / critical - 1.0).abs() < 1e-8, "{factor}");
-    let fallen = leaning().with_p_delta(1.01 * critical / load);
+    let fallen = braced_column(load).with_p_delta(1.01 * critical / load);
     assert!(matches!(fallen, Err(Error::Structure(StructureError::Buckling { .. }))));
 }
 
@@ -305,13 +337,14 @@ fn what_has_no_p_delta_is_refused() {
             Err(Error::Input { quantity: "acceleration of gravity", .. })
         ));
     }
-    // A column hinged on the ground, beside a foot of its own: a mechanism.
+    // A column hinged on the ground, beside a separate foot: a mechanism.
     let mut mesh = Mesh::new();
-    let [foot, top, other] =
-        [[0.0, 0.0], [0.0, 3.0], [1.0, 0.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
-    mesh.add(Beam::new([foot, top], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
-    mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
-    let model = FemModel::new(mesh, &[foot, other]).unwrap();
+    let nodes = [[0.0, 0.0], [0.0, 3.0], [1.0, 0.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
+    let column =
+        Beam::new([nodes[0], nodes[1]], YOUNG_MODULUS, SECTION_AREA, SECOND_MOMENT, MASS_DENSITY);
+    mesh.add(column.unwrap()).unwrap();
+    mesh.add(LumpedMass::new(nodes[2], 1.0).unwrap()).unwrap();
+    let model = FemModel::new(mesh, &[nodes[0], nodes[2]]).unwrap();
     let refused = model.with_p_delta(9.81);
     assert!(
         matches!(
@@ -323,13 +356,13 @@ fn what_has_no_p_delta_is_refused() {
     );
 }
 
-/// A rod that takes the static state as a reason to go elsewhere.
-struct Deserter {
+/// A rod that goes elsewhere in the static state.
+struct MovingRod {
     nodes: [usize; 2],
     directions: &'static [Direction],
 }
 
-impl Element for Deserter {
+impl Element for MovingRod {
     fn nodes(&self) -> &[usize] {
         &self.nodes
     }
@@ -354,7 +387,7 @@ fn elements_stay_where_they_are_in_the_static_state() {
         }
         mesh.add(Beam::new([0, 1], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
         mesh.add(Beam::new([0, 2], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
-        mesh.add(Deserter { nodes: ends, directions }).unwrap();
+        mesh.add(MovingRod { nodes: ends, directions }).unwrap();
         let fault = FemModel::on_base(mesh).unwrap().with_p_delta(9.81).unwrap_err();
         assert!(matches!(fault, Error::Scene { quantity, .. } if quantity.contains("static")));
     }

@@ -15,9 +15,9 @@ use basemat::structure::FemModel;
 use basemat_problems::dense::{form, largest, mass, multiply, stiffness};
 use basemat_problems::random::Random;
 
-const GRAVITY: f64 = 9.81;
-const TRANSLATIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
-const ROTATIONS: [Direction; 3] =
+const GRAVITY_ACCELERATION: f64 = 9.81;
+const TRANSLATION_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+const ROTATION_DIRECTIONS: [Direction; 3] =
     [Direction::RotationX, Direction::RotationY, Direction::RotationZ];
 
 fn concrete() -> Material {
@@ -28,10 +28,11 @@ fn concrete() -> Material {
 ///
 /// Translations and the rotation about the vertical meet no force, the others the moment of the weights.
 fn assert_rotates(model: &FemModel, point: [f64; 3], scene: &str) {
-    let (stiffness, mass) = (stiffness(model), mass(model));
-    let [translations, rotations] =
-        [TRANSLATIONS, ROTATIONS].map(|own| own.map(|own| model.rigid_motion(own, point)));
-    let weight = GRAVITY * form(&translations[2], &mass, &translations[2]);
+    let stiffness = stiffness(model);
+    let mass = mass(model);
+    let translations = TRANSLATION_DIRECTIONS.map(|direction| model.rigid_motion(direction, point));
+    let rotations = ROTATION_DIRECTIONS.map(|direction| model.rigid_motion(direction, point));
+    let weight = GRAVITY_ACCELERATION * form(&translations[2], &mass, &translations[2]);
     let height = form(&translations[0], &mass, &rotations[1])
         / form(&translations[0], &mass, &translations[0]);
     let scale = weight * height.max(1.0);
@@ -68,9 +69,10 @@ fn frame(random: &mut Random) -> FemModel {
     let mut floors = Vec::new();
     for storey in 0..2 {
         let tops = feet.map(|foot| {
-            let [x, y, _] = mesh.nodes()[foot];
+            let place = mesh.nodes()[foot];
             let aside = random.within(-0.4, 0.4);
-            mesh.add_node_at([x + aside, y - 0.5 * aside, 4.0 * f64::from(storey + 1)]).unwrap()
+            let height = 4.0 * f64::from(storey + 1);
+            mesh.add_node_at([place[0] + aside, place[1] - 0.5 * aside, height]).unwrap()
         });
         for k in 0..4 {
             let side = section(random.within(0.4, 0.8));
@@ -109,7 +111,8 @@ fn frame(random: &mut Random) -> FemModel {
     }
     let kind = random.pick(&[MassKind::Consistent, MassKind::Lumped]);
     let model = FemModel::on_base(mesh).unwrap().with_mass(kind);
-    let [lower, upper] = [floors[0], floors[1]];
+    let lower = floors[0];
+    let upper = floors[1];
     let model = if random.chance(0.4) {
         model.with_rigid_link(lower[0], &lower[1..]).unwrap()
     } else {
@@ -126,7 +129,7 @@ fn frame(random: &mut Random) -> FemModel {
 #[test]
 fn a_rotation_of_a_frame_about_the_vertical_meets_no_force() {
     for number in 0..60 {
-        let model = frame(&mut Random(71 + number)).with_p_delta(GRAVITY).unwrap();
+        let model = frame(&mut Random(71 + number)).with_p_delta(GRAVITY_ACCELERATION).unwrap();
         assert_rotates(&model, [0.0, 0.0, -0.5], &format!("frame {number}"));
     }
 }
@@ -135,14 +138,14 @@ fn a_rotation_of_a_frame_about_the_vertical_meets_no_force() {
 #[test]
 fn frames_stand_without_friction() {
     for number in 0..10 {
-        let model = || frame(&mut Random(71 + number)).with_p_delta(GRAVITY).unwrap();
         for stage in [GravityStage::Frictionless, GravityStage::Frictional] {
-            let ground = SpringGround::under(&model(), 6, 5e7, 4e7).unwrap();
+            let model = frame(&mut Random(71 + number)).with_p_delta(GRAVITY_ACCELERATION).unwrap();
+            let ground = SpringGround::under(&model, 6, 5e7, 4e7).unwrap();
             let built = Simulation::builder(0.005)
-                .gravity(GRAVITY)
+                .gravity(GRAVITY_ACCELERATION)
                 .gravity_stage(stage)
                 .ground(ground.with_dashpots(4e5, 3e5).unwrap())
-                .structure(model())
+                .structure(model)
                 .interface(Coulomb::new(0.0).unwrap())
                 .build();
             assert!(built.is_ok(), "{number}: {}", built.err().unwrap());
@@ -161,8 +164,8 @@ fn a_frame_on_a_rigid_basemat_rotates_freely() {
     let mut tops = Vec::new();
     for (k, &corner) in corners.iter().enumerate() {
         mesh.add(LumpedMass::in_space(corner, 5e3, [1.0; 3]).unwrap()).unwrap();
-        let [x, y, _] = mesh.nodes()[corner];
-        let top = mesh.add_node_at([0.8 * x, 0.7 * y, 5.0]).unwrap();
+        let place = mesh.nodes()[corner];
+        let top = mesh.add_node_at([0.8 * place[0], 0.7 * place[1], 5.0]).unwrap();
         let column = section(0.3 + 0.1 * k as f64);
         mesh.add(SpaceBeam::new([corner, top], concrete(), column, [1.0, 0.0, 0.0]).unwrap())
             .unwrap();
@@ -175,7 +178,11 @@ fn a_frame_on_a_rigid_basemat_rotates_freely() {
         mesh.add(beam).unwrap();
     }
     let model = FemModel::on_faces(mesh, &[corners.to_vec()]).unwrap();
-    let model = model.with_rigid_link(leader, &corners).unwrap().with_p_delta(GRAVITY).unwrap();
+    let model = model
+        .with_rigid_link(leader, &corners)
+        .unwrap()
+        .with_p_delta(GRAVITY_ACCELERATION)
+        .unwrap();
     assert_rotates(&model, [0.0; 3], "rigid basemat");
 }
 
@@ -200,8 +207,9 @@ fn solids() -> [FemModel; 2] {
         let next: Vec<usize> = row
             .iter()
             .map(|&node| {
-                let [x, y, _] = mesh.nodes()[node];
-                mesh.add_node_at([x, y + 0.1 * level as f64, 1.5 * level as f64]).unwrap()
+                let place = mesh.nodes()[node];
+                let level = level as f64;
+                mesh.add_node_at([place[0], place[1] + 0.1 * level, 1.5 * level]).unwrap()
             })
             .collect();
         for k in 0..row.len() - 1 {
@@ -228,7 +236,7 @@ fn bricks_and_shells_rotate_with_their_forces() {
         .zip(["bricks", "shells"])
         .map(|((model, depth), name)| (model, depth, name))
     {
-        let model = model.with_p_delta(GRAVITY).unwrap();
+        let model = model.with_p_delta(GRAVITY_ACCELERATION).unwrap();
         assert_rotates(&model, [1.0, 1.0, -depth], name);
     }
 }
@@ -237,7 +245,8 @@ fn bricks_and_shells_rotate_with_their_forces() {
 /// bricks' height.
 #[test]
 fn a_column_of_bricks_buckles_as_euler_says() {
-    let (length, side) = (12.0_f64, 0.5_f64);
+    let length = 12.0_f64;
+    let side = 0.5_f64;
     let light = Material::new(30e9, 0.0, 1e-3).unwrap();
     let euler = std::f64::consts::PI.powi(2) * 30e9 * side.powi(4) / 12.0 / (4.0 * length * length);
     let errors = [6, 12].map(|count| {
@@ -252,8 +261,8 @@ fn a_column_of_bricks_buckles_as_euler_says() {
         for node in mesh.nodes_at_height(length, 1e-6).unwrap() {
             mesh.add(LumpedMass::in_space(node, 1e3, [0.0; 3]).unwrap()).unwrap();
         }
-        let model = FemModel::on_base(mesh).unwrap().with_p_delta(GRAVITY).unwrap();
-        model.buckling_factor().unwrap() * 4e3 * GRAVITY / euler - 1.0
+        let model = FemModel::on_base(mesh).unwrap().with_p_delta(GRAVITY_ACCELERATION).unwrap();
+        model.buckling_factor().unwrap() * 4e3 * GRAVITY_ACCELERATION / euler - 1.0
     });
     println!("{errors:?}");
     assert!(errors[1].abs() < 0.01, "{errors:?}");
@@ -263,8 +272,10 @@ fn a_column_of_bricks_buckles_as_euler_says() {
 /// Timoshenko & Gere, Theory of Elastic Stability, eq. 6-24). Before, nothing but axial forces buckled a beam.
 #[test]
 fn a_narrow_cantilever_buckles_sideways() {
-    let (length, mass) = (5.0, 100.0);
-    let [lateral, torsion] = [2.0e-7, 6.0e-7];
+    let length = 5.0;
+    let mass = 100.0;
+    let lateral = 2.0e-7;
+    let torsion = 6.0e-7;
     let light = Material::new(200e9, 0.25, 1e-6).unwrap();
     let exact = 4.0126 * 200e9 * (lateral * torsion / 2.5_f64).sqrt() / (length * length);
     let errors = [8, 16].map(|count| {
@@ -285,21 +296,21 @@ fn a_narrow_cantilever_buckles_sideways() {
             last = next;
         }
         mesh.add(LumpedMass::in_space(last, mass, [0.0; 3]).unwrap()).unwrap();
-        let held = mesh.node_at_point([0.0; 3]).unwrap();
-        mesh.add(LumpedMass::in_space(held, 1.0, [1.0; 3]).unwrap()).unwrap();
+        let leader = mesh.node_at_point([0.0; 3]).unwrap();
+        mesh.add(LumpedMass::in_space(leader, 1.0, [1.0; 3]).unwrap()).unwrap();
         let corners: Vec<usize> = mesh
             .nodes_at_height(0.0, 1e-6)
             .unwrap()
             .into_iter()
             .filter(|&node| {
-                let [x, y, _] = mesh.nodes()[node];
-                node != held && x <= 1.0 && (y - 0.5).abs() > 0.4
+                let place = mesh.nodes()[node];
+                node != leader && place[0] <= 1.0 && (place[1] - 0.5).abs() > 0.4
             })
             .chain([root])
             .collect();
-        let model = FemModel::on_base(mesh).unwrap().with_rigid_link(held, &corners).unwrap();
-        let model = model.with_p_delta(GRAVITY).unwrap();
-        model.buckling_factor().unwrap() * mass * GRAVITY / exact - 1.0
+        let model = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &corners).unwrap();
+        let model = model.with_p_delta(GRAVITY_ACCELERATION).unwrap();
+        model.buckling_factor().unwrap() * mass * GRAVITY_ACCELERATION / exact - 1.0
     });
     println!("{errors:?}");
     assert!(errors[1].abs() < 0.01 && errors[1].abs() < 0.4 * errors[0].abs(), "{errors:?}");

@@ -7,50 +7,67 @@ use basemat::structure::FemModel;
 use basemat_problems::dense::stiffness;
 use basemat_problems::directions::IN_SPACE;
 
-const GRAVITY: f64 = 9.81;
+const GRAVITY_ACCELERATION: f64 = 9.81;
 
-/// Potential of a rigid slab with masses on inclined bars, beyond first order, at displacements and a rotation vector of
-/// its leader.
-fn slab_potential(
-    bars: &[([f64; 3], [f64; 3], f64, f64)],
-    masses: &[([f64; 3], f64)],
-) -> impl Fn(&[f64; 6]) -> f64 {
-    let (bars, masses) = (bars.to_vec(), masses.to_vec());
-    move |u: &[f64; 6]| {
-        let moved = |arm: [f64; 3]| -> [f64; 3] {
-            // Rodrigues' formula.
-            let vector = [u[3], u[4], u[5]];
-            let angle = (vector.iter().map(|x| x * x).sum::<f64>()).sqrt();
-            let [a, b] = if angle > 0.0 {
-                [angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle)]
-            } else {
-                [1.0, 0.5]
-            };
-            let cross = |p: [f64; 3], q: [f64; 3]| {
-                [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-            };
-            let once = cross(vector, arm);
-            let twice = cross(vector, once);
-            std::array::from_fn(|k| u[k] + arm[k] + a * once[k] + b * twice[k])
-        };
-        let distance =
-            |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+/// A bar from a foot to a node at the end of an arm of the slab.
+struct SlabBar {
+    foot: [f64; 3],
+    arm: [f64; 3],
+    stiffness: f64,
+    compression: f64,
+}
+
+/// A rigid slab with masses at the ends of its arms, on inclined bars.
+struct LinkedSlab {
+    bars: Vec<SlabBar>,
+    masses: Vec<([f64; 3], f64)>,
+}
+
+fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+}
+
+fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
+    (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// End of an arm after the displacement and the rotation vector of its leader, by Rodrigues' formula.
+fn moved(arm: [f64; 3], u: &[f64; 6]) -> [f64; 3] {
+    let vector = [u[3], u[4], u[5]];
+    let angle = (vector.iter().map(|x| x * x).sum::<f64>()).sqrt();
+    let [a, b] = if angle > 0.0 {
+        [angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle)]
+    } else {
+        [1.0, 0.5]
+    };
+    let once = cross(vector, arm);
+    let twice = cross(vector, once);
+    std::array::from_fn(|k| u[k] + arm[k] + a * once[k] + b * twice[k])
+}
+
+impl LinkedSlab {
+    /// Potential beyond first order at displacements and a rotation vector of the leader.
+    fn potential(&self, u: &[f64; 6]) -> f64 {
         let mut potential = 0.0;
-        for &(foot, arm, stiffness, compression) in &bars {
-            let stretch = distance(moved(arm), foot) - distance(arm, foot);
-            potential += 0.5 * stiffness * stretch * stretch - compression * stretch;
+        for bar in &self.bars {
+            let stretch = distance(moved(bar.arm, u), bar.foot) - distance(bar.arm, bar.foot);
+            potential += 0.5 * bar.stiffness * stretch * stretch - bar.compression * stretch;
         }
-        for &(arm, mass) in &masses {
-            potential += mass * GRAVITY * moved(arm)[2];
+        for &(arm, mass) in &self.masses {
+            potential += mass * GRAVITY_ACCELERATION * moved(arm, u)[2];
         }
         potential
     }
 }
 
-/// PROBLEM: a rigid slab of linked nodes on inclined bars. RESULT: the second derivatives of its potential, by finite
-/// differences of finite rotations. Before, the links had no part in P–Δ.
-#[test]
-fn linked_nodes_move_by_finite_rotations() {
+/// The model of a slab, and the node that its arms follow.
+struct LinkedModel {
+    slab: LinkedSlab,
+    model: FemModel,
+    leader: usize,
+}
+
+fn linked_model() -> LinkedModel {
     let mut mesh = Mesh::in_space();
     let feet = [[-3.0, -2.0, 0.0], [3.0, -2.0, 0.0], [3.0, 2.5, 0.0], [-3.0, 2.0, 0.0]]
         .map(|place| mesh.add_node_at(place).unwrap());
@@ -85,31 +102,46 @@ fn linked_nodes_move_by_finite_rotations() {
         }
     }
     let model = FemModel::on_faces(mesh, &[feet.to_vec()]).unwrap();
-    let model = model.with_rigid_link(leader, &followers).unwrap().with_p_delta(GRAVITY).unwrap();
-    let mut forces = model.mesh().elements().filter_map(Element::compression);
+    let model = model
+        .with_rigid_link(leader, &followers)
+        .unwrap()
+        .with_p_delta(GRAVITY_ACCELERATION)
+        .unwrap();
+    let forces: Vec<f64> = model.mesh().elements().filter_map(Element::compression).collect();
+    let mut forces = forces.into_iter();
     for (foot, k) in ends {
         let foot = model.mesh().nodes()[feet[foot]];
         let foot: [f64; 3] = std::array::from_fn(|axis| foot[axis] - origin[axis]);
         let length = (0..3).map(|axis| (arms[k][axis] - foot[axis]).powi(2)).sum::<f64>().sqrt();
-        bars.push((foot, arms[k], 1e8 / length, forces.next().unwrap()));
+        let stiffness = 1e8 / length;
+        let compression = forces.next().unwrap();
+        bars.push(SlabBar { foot, arm: arms[k], stiffness, compression });
     }
-    let potential = slab_potential(&bars, &masses);
-    let dofs = IN_SPACE.map(|own| model.dof(leader, own).unwrap());
+    let slab = LinkedSlab { bars, masses };
+    LinkedModel { slab, model, leader }
+}
+
+/// PROBLEM: a rigid slab of linked nodes on inclined bars. RESULT: the second derivatives of its potential, by finite
+/// differences of finite rotations. Before, the links had no part in P–Δ.
+#[test]
+fn linked_nodes_move_by_finite_rotations() {
+    let LinkedModel { slab, model, leader } = linked_model();
+    let dofs = IN_SPACE.map(|direction| model.dof(leader, direction).unwrap());
     let found = stiffness(&model);
     // Equilibrium.
     for i in 0..6 {
-        let step = |sign: f64| {
+        let [above, below] = [1.0, -1.0].map(|sign| {
             let mut u = [0.0; 6];
             u[i] = sign * 1e-4;
-            potential(&u)
-        };
-        let slope = (step(1.0) - step(-1.0)) / 2e-4;
+            slab.potential(&u)
+        });
+        let slope = (above - below) / 2e-4;
         assert!(slope.abs() < 1e-4 * 3e5, "{i}: {slope}");
     }
-    let weight: f64 = masses.iter().map(|(_, mass)| mass * GRAVITY).sum();
+    let weight: f64 = slab.masses.iter().map(|(_, mass)| mass * GRAVITY_ACCELERATION).sum();
     for i in 0..6 {
         for j in 0..6 {
-            let exact = crate::structures::curvature(&potential, [i, j], 1e-4);
+            let exact = crate::structures::curvature(|u| slab.potential(u), [i, j], 1e-4);
             let error = (found[dofs[i]][dofs[j]] - exact).abs();
             assert!(error < 1e-3 * weight, "{i} {j}: {} {exact}", found[dofs[i]][dofs[j]]);
         }

@@ -42,8 +42,8 @@ fn constant_strain_is_reproduced_on_distorted_quads() {
             let model = patch(formulation, poisson);
             let stiffness = collect(&model, |k| model.stiffness(k));
             let exact = exact(&model);
-            let held: Vec<(usize, f64)> = (0..8).map(|index| (index, exact[index])).collect();
-            let found = solve_held(&stiffness, &[0.0; 16], &held);
+            let prescribed: Vec<(usize, f64)> = (0..8).map(|index| (index, exact[index])).collect();
+            let found = solve_held(&stiffness, &[0.0; 16], &prescribed);
             let error: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
             assert!(largest(&error) < 1e-11 * largest(&exact), "{formulation:?} {poisson}");
         }

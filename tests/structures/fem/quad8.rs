@@ -8,7 +8,8 @@ use basemat::structure::{FemModel, Structure};
 use basemat_problems::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
 use basemat_problems::patch::{POINTS, QUADS};
 
-const BOTH: [Quad8Integration; 2] = [Quad8Integration::Reduced, Quad8Integration::Full];
+const INTEGRATION_RULES: [Quad8Integration; 2] =
+    [Quad8Integration::Reduced, Quad8Integration::Full];
 
 /// Mesh of eight-node quadrilaterals from corners: a node in the middle of every edge, moved by
 /// `bulge` times the edge's length to its left.
@@ -29,10 +30,10 @@ fn refined(
         for k in 0..4 {
             let mut ends = [quad[k], quad[(k + 1) % 4]];
             ends.sort_unstable();
-            let known = middles.iter().find(|(edge, _)| *edge == ends).map(|(_, node)| *node);
+            let existing = middles.iter().find(|(edge, _)| *edge == ends).map(|(_, node)| *node);
             let [[x0, y0], [x1, y1]] = ends.map(|node| corners[node]);
             nodes[k] = quad[k];
-            nodes[k + 4] = known.unwrap_or_else(|| {
+            nodes[k + 4] = existing.unwrap_or_else(|| {
                 let x = 0.5 * (x0 + x1) - bulge * (y1 - y0);
                 let node = mesh.add_node(x, 0.5 * (y0 + y1) + bulge * (x1 - x0)).unwrap();
                 middles.push((ends, node));
@@ -44,12 +45,20 @@ fn refined(
     mesh
 }
 
+/// Whether a point of the patch lies at its outline, corners and bulged middles of the outer edges included.
+fn is_on_outline([x, y, _]: [f64; 3]) -> bool {
+    [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01)
+}
+
 /// The patch of `MacNeal` & Harder, straight and with curved inner edges.
 #[test]
 fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
-    for (integration, poisson, bulge) in
-        [(BOTH[0], 0.3, 0.0), (BOTH[1], 0.3, 0.0), (BOTH[0], 0.3, 0.03), (BOTH[1], 0.4999, 0.03)]
-    {
+    for (integration, poisson, bulge) in [
+        (INTEGRATION_RULES[0], 0.3, 0.0),
+        (INTEGRATION_RULES[1], 0.3, 0.0),
+        (INTEGRATION_RULES[0], 0.3, 0.03),
+        (INTEGRATION_RULES[1], 0.4999, 0.03),
+    ] {
         let material = Material::new(1.0e6, poisson, 1.0).unwrap();
         let mesh = refined(&POINTS, &QUADS, material, integration, bulge);
         let nodes = mesh.nodes().to_vec();
@@ -59,26 +68,30 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
             field[model.dof(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
             field[model.dof(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
         }
-        // Corners and the middles of the outer edges, bulged or not.
-        let on_edge =
-            |[x, y, _]: [f64; 3]| [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01);
-        let held: Vec<(usize, f64)> = nodes
+        let prescribed: Vec<(usize, f64)> = nodes
             .iter()
             .enumerate()
-            .filter(|(_, place)| on_edge(**place))
+            .filter(|(_, place)| is_on_outline(**place))
             .flat_map(|(node, _)| [2 * node, 2 * node + 1])
             .map(|dof| (dof, field[dof]))
             .collect();
-        assert!(held.len() < field.len(), "something is free");
-        let found = solve_held(&stiffness(&model), &vec![0.0; field.len()], &held);
-        let off: Vec<f64> = found.iter().zip(&field).map(|(a, b)| a - b).collect();
-        assert!(largest(&off) < 1e-12, "{integration:?} {poisson} {bulge}: {:e}", largest(&off));
+        assert!(prescribed.len() < field.len(), "something is free");
+        let found = solve_held(&stiffness(&model), &vec![0.0; field.len()], &prescribed);
+        let error: Vec<f64> = found.iter().zip(&field).map(|(a, b)| a - b).collect();
+        let error = largest(&error);
+        assert!(error < 1e-12, "{integration:?} {poisson} {bulge}: {error:e}");
     }
+}
+
+/// Inertia of a rigid motion.
+fn inertia(model: &FemModel, direction: Direction) -> f64 {
+    let motion = model.rigid_motion(direction, [0.0; 3]);
+    form(&motion, &mass(model), &motion)
 }
 
 #[test]
 fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
-    for integration in BOTH {
+    for integration in INTEGRATION_RULES {
         let material = Material::new(1.0e6, 0.3, 5.0).unwrap();
         let mesh = refined(&POINTS, &QUADS, material, integration, 0.04);
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
@@ -93,22 +106,19 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
     let material = Material::new(1.0e6, 0.3, 5.0).unwrap();
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 3.0], [0.0, 3.0]];
     for (kind, turns) in [(MassKind::Consistent, true), (MassKind::Lumped, false)] {
-        let mesh = refined(&corners, &[[0, 1, 2, 3]], material, BOTH[0], 0.0);
+        let mesh = refined(&corners, &[[0, 1, 2, 3]], material, INTEGRATION_RULES[0], 0.0);
         let model = FemModel::new(mesh, &[0, 1]).unwrap().with_mass(kind);
-        let inertia = |direction| {
-            let shift = model.rigid_motion(direction, [0.0; 3]);
-            form(&shift, &mass(&model), &shift)
-        };
-        assert!((inertia(Direction::X) - 30.0).abs() < 1e-12);
-        assert!((inertia(Direction::Y) - 30.0).abs() < 1e-12);
-        assert_eq!((inertia(Direction::Rotation) - 130.0).abs() < 1e-11, turns);
+        assert!((inertia(&model, Direction::X) - 30.0).abs() < 1e-12);
+        assert!((inertia(&model, Direction::Y) - 30.0).abs() < 1e-12);
+        assert_eq!((inertia(&model, Direction::Rotation) - 130.0).abs() < 1e-11, turns);
         assert!((0..16).all(|i| mass(&model)[i][i] > 0.0));
     }
 }
 
 /// Tip deflection of a cantilever 1 × 10 under a unit shear, relative to Timoshenko's beam.
 fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
-    let (young, length) = (1.0e7, 10.0);
+    let young = 1.0e7;
+    let length = 10.0;
     let material = Material::new(young, nu, 1.0).unwrap();
     let corners: Vec<[f64; 2]> = (0..=elements)
         .flat_map(|k| {
@@ -121,17 +131,17 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
     let mesh = refined(&corners, &quads, material, integration, 0.0);
     let model = FemModel::on_base(mesh).unwrap();
     assert_eq!(model.base().nodes().count(), 3);
-    let held: Vec<(usize, f64)> = model
+    let fixed: Vec<(usize, f64)> = model
         .base()
         .nodes()
         .flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)])
         .collect();
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     let mut load = vec![0.0; model.dofs()];
-    for (&node, share) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
-        load[model.dof(node, Direction::X).unwrap()] = share;
+    for (&node, part) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
+        load[model.dof(node, Direction::X).unwrap()] = part;
     }
-    let found = solve_held(&stiffness(&model), &load, &held);
+    let found = solve_held(&stiffness(&model), &load, &fixed);
     let bending = length.powi(3) / (3.0 * young / (1.0 - nu * nu) / 12.0);
     let shear = length / (5.0 / 6.0 * 0.5 * young / (1.0 + nu));
     dot(&load, &found) / (bending + shear)
@@ -157,8 +167,9 @@ fn one_row_bends_as_it_should() {
 /// in a rectangle 1 × 3 is κ² E/(1−ν²)/12 · 3/2.
 #[test]
 fn pure_bending_is_exact() {
-    let (young, nu) = (1.0e7, 0.3);
-    for integration in BOTH {
+    let young = 1.0e7;
+    let nu = 0.3;
+    for integration in INTEGRATION_RULES {
         let material = Material::new(young, nu, 1.0).unwrap();
         let corners = [[-0.5, 0.0], [0.5, 0.0], [0.5, 3.0], [-0.5, 3.0]];
         let mesh = refined(&corners, &[[0, 1, 2, 3]], material, integration, 0.0);
@@ -176,7 +187,7 @@ fn pure_bending_is_exact() {
 
 #[test]
 fn bad_shapes_are_refused() {
-    let quad = || Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], Material::new(1.0, 0.3, 1.0).unwrap());
+    let quad = Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], Material::new(1.0, 0.3, 1.0).unwrap());
     let good = [
         [0.0, 0.0],
         [2.0, 0.0],
@@ -188,18 +199,18 @@ fn bad_shapes_are_refused() {
         [0.0, 0.5],
     ]
     .map(|[x, y]| [x, y, 0.0]);
-    assert!(quad().check(&good).is_ok());
-    assert!(matches!(quad().check(&good[..7]), Err(Error::Size { .. })));
+    assert!(quad.check(&good).is_ok());
+    assert!(matches!(quad.check(&good[..7]), Err(Error::Size { .. })));
     let mut clockwise = good;
     clockwise.swap(1, 3);
     clockwise.swap(4, 7);
     clockwise.swap(5, 6);
-    assert!(matches!(quad().check(&clockwise), Err(Error::Input { .. })));
+    assert!(matches!(quad.check(&clockwise), Err(Error::Input { .. })));
     // The node of an edge beyond its quarter: the map folds at the corner.
     let mut folded = good;
     folded[4][0] = 0.4;
-    assert!(matches!(quad().check(&folded), Err(Error::Input { .. })));
+    assert!(matches!(quad.check(&folded), Err(Error::Input { .. })));
     let mut missing = good;
     missing[2][0] = f64::NAN;
-    assert!(matches!(quad().check(&missing), Err(Error::Input { .. })));
+    assert!(matches!(quad.check(&missing), Err(Error::Input { .. })));
 }

@@ -11,7 +11,7 @@ use basemat_problems::dense::{
     assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness,
 };
 
-const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
+const PLANE_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
 
 /// One of every element, shaken out of all symmetry.
 fn menagerie(formulation: QuadFormulation, seed: u64) -> FemModel {
@@ -48,7 +48,7 @@ fn rigid_motions_meet_no_force() {
             for matrix in [stiffness(&model), damping(&model)] {
                 assert_symmetric(&matrix);
                 let scale = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
-                for direction in DIRECTIONS {
+                for direction in PLANE_DIRECTIONS {
                     let motion = model.rigid_motion(direction, [0.7, -0.2, 0.0]);
                     let force = multiply(&matrix, &motion);
                     assert!(largest(&force) < 1e-13 * scale * largest(&motion), "{direction:?}");
@@ -58,17 +58,25 @@ fn rigid_motions_meet_no_force() {
     }
 }
 
+fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
+    (p[0] - q[0]).hypot(p[1] - q[1])
+}
+
+/// Twice the area of a triangle with the origin.
+fn cross(p: [f64; 3], q: [f64; 3]) -> f64 {
+    p[0] * q[1] - q[0] * p[1]
+}
+
 #[test]
 fn mass_of_the_whole_is_the_sum_of_its_parts() {
     for kind in [MassKind::Consistent, MassKind::Lumped] {
         let model = menagerie(QuadFormulation::Full, 3).with_mass(kind);
         let p = model.mesh().nodes();
-        let length = |i: usize, j: usize| (p[i][0] - p[j][0]).hypot(p[i][1] - p[j][1]);
-        let cross = |i: usize, j: usize| p[i][0] * p[j][1] - p[j][0] * p[i][1];
-        let area = 0.5 * (cross(0, 1) + cross(1, 2) + cross(2, 3) + cross(3, 0));
+        let area =
+            0.5 * (cross(p[0], p[1]) + cross(p[1], p[2]) + cross(p[2], p[3]) + cross(p[3], p[0]));
         let total = 2000.0 * area
-            + 2400.0 * 0.2 * (length(3, 4) + length(4, 5))
-            + 7800.0 * 0.1 * length(2, 5)
+            + 2400.0 * 0.2 * (distance(p[3], p[4]) + distance(p[4], p[5]))
+            + 7800.0 * 0.1 * distance(p[2], p[5])
             + 1300.0;
         let matrix = mass(&model);
         assert_symmetric(&matrix);

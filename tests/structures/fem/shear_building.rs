@@ -16,14 +16,11 @@ fn uneven() -> ShearBuilding {
     ShearBuilding::new(8.0, 2000.0, 5000.0, &uneven_storeys()).unwrap()
 }
 
+fn storey(height: f64, mass: f64, stiffness: f64, damping: f64) -> Storey {
+    Storey { height, mass, rotary_inertia: 0.7 * mass, stiffness, damping }
+}
+
 fn uneven_storeys() -> [Storey; 3] {
-    let storey = |height, mass, stiffness, damping| Storey {
-        height,
-        mass,
-        rotary_inertia: 0.7 * mass,
-        stiffness,
-        damping,
-    };
     [
         storey(4.0, 900.0, 8.0e5, 2.0e3),
         storey(3.0, 700.0, 6.0e5, 0.0),
@@ -32,12 +29,14 @@ fn uneven_storeys() -> [Storey; 3] {
 }
 
 /// Unit rigid rotation about the middle of the base: a floor at height z moves by −z.
-const TURN: [f64; 6] = [0.0, 0.0, 1.0, -4.0, -7.0, -10.5];
+const UNIT_ROTATION: [f64; 6] = [0.0, 0.0, 1.0, -4.0, -7.0, -10.5];
 
 /// `ω_j = 2 √(k/m) sin((2j−1)π/(2(2N+1)))`, fixed base.
 #[test]
 fn uniform_building_has_its_closed_form_frequencies() {
-    let (m, k, n) = (20.0e3, 40.0e6, 5_u32);
+    let m = 20.0e3;
+    let k = 40.0e6;
+    let n = 5_u32;
     let building = ShearBuilding::new(10.0, 1.0e4, 1.0e4, &[Storey::new(3.0, m, k); 5]).unwrap();
     let floors: Vec<usize> = (3..8).collect();
     let found =
@@ -66,12 +65,12 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
         assert_symmetric(&matrix);
     }
     let shift = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-    for motion in [shift, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], TURN] {
+    for motion in [shift, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], UNIT_ROTATION] {
         assert!(largest(&multiply(&stiffness(&building), &motion)) < 1e-9);
         assert!(largest(&multiply(&damping(&building), &motion)) < 1e-9);
     }
     let inertia = 5000.0 + 0.7 * 2000.0 + 900.0 * 16.0 + 700.0 * 49.0 + 400.0 * 10.5 * 10.5;
-    assert!((form(&TURN, &mass(&building), &TURN) / inertia - 1.0).abs() < 1e-14);
+    assert!((form(&UNIT_ROTATION, &mass(&building), &UNIT_ROTATION) / inertia - 1.0).abs() < 1e-14);
     let rise = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     for motion in [shift, rise] {
         assert!((form(&motion, &mass(&building), &motion) / 4000.0 - 1.0).abs() < 1e-14);
@@ -81,10 +80,12 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
 /// Force on the floors from `storey` upwards = shear that they pass on to what is below.
 #[test]
 fn storey_shear_is_the_sum_of_the_forces_above() {
-    let bare = || uneven().with_stiffness_damping(0.03).unwrap();
-    for building in [bare(), bare().with_p_delta(9.81).unwrap()] {
-        let (u, v) = (noise(6, 1), noise(6, 2));
-        let (k, c) = (stiffness(&building), damping(&building));
+    let bare = uneven().with_stiffness_damping(0.03).unwrap();
+    for building in [bare.clone(), bare.with_p_delta(9.81).unwrap()] {
+        let u = noise(6, 1);
+        let v = noise(6, 2);
+        let k = stiffness(&building);
+        let c = damping(&building);
         let force: Vec<f64> =
             multiply(&k, &u).iter().zip(multiply(&c, &v)).map(|(a, b)| a + b).collect();
         for storey in 0..3 {
@@ -92,12 +93,12 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
             let found = building.shear(storey).unwrap().value(&u, &v, &[]);
             assert!((found - above).abs() < 1e-9 * largest(&force), "{storey}");
         }
-        // The force on the base is the opposite of the force that holds it.
+        // The force on the base is the opposite of the support's force.
         let base = building.shear(0).unwrap().value(&u, &v, &[]);
         assert!((base + force[0]).abs() < 1e-9 * largest(&force));
     }
     let drift = uneven().drift(1).unwrap();
-    assert_eq!(row_value(&drift, &TURN), 0.0);
+    assert_eq!(row_value(&drift, &UNIT_ROTATION), 0.0);
     assert_eq!(row_value(&drift, &[0.0, 0.0, 0.0, 1.0, 3.0, 0.0]), 2.0);
 }
 
@@ -105,38 +106,42 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
 fn damping_ratio_is_that_of_the_first_mode() {
     let damped = uneven().with_stiffness_damping(0.04).unwrap();
     let floors = [3, 4, 5];
-    let (k, c) = (stiffness(&damped), damping(&damped));
+    let k = stiffness(&damped);
+    let c = damping(&damped);
     let extra = c[5][5] - damping(&uneven())[5][5];
     let omega = eigenvalues(&part(&k, &floors), &part(&mass(&damped), &floors))[0].sqrt();
     assert!((extra / k[5][5] * omega / 2.0 - 0.04).abs() < 1e-10);
+}
+
+/// Potential energy of the weights on inextensible columns.
+fn potential_energy(u: &[f64; 6]) -> f64 {
+    let mut height = 0.0;
+    let mut below = u[0];
+    let mut sum = 0.0;
+    for (storey, &floor) in uneven_storeys().iter().zip(&u[3..]) {
+        height += (storey.height.powi(2) - (floor - below).powi(2)).sqrt();
+        sum += 9.81 * storey.mass * height;
+        below = floor;
+    }
+    sum
 }
 
 /// Weight times the height of floors on inextensible columns, differentiated twice by steps.
 #[test]
 fn p_delta_is_the_curvature_of_the_potential_energy() {
     let building = uneven().with_p_delta(9.81).unwrap();
-    let (with, without) = (stiffness(&building), stiffness(&uneven()));
-    let energy = |u: &[f64; 6]| {
-        let mut height = 0.0;
-        let mut below = u[0];
-        let mut sum = 0.0;
-        for (storey, &floor) in uneven_storeys().iter().zip(&u[3..]) {
-            height += (storey.height.powi(2) - (floor - below).powi(2)).sqrt();
-            sum += 9.81 * storey.mass * height;
-            below = floor;
-        }
-        sum
-    };
+    let with = stiffness(&building);
+    let without = stiffness(&uneven());
     for i in 0..6 {
         for j in 0..6 {
-            let curvature = curvature(energy, [i, j], 1e-3);
+            let curvature = curvature(potential_energy, [i, j], 1e-3);
             let found = with[i][j] - without[i][j];
             assert!((found - curvature).abs() < 0.02, "({i}, {j}): {found} {curvature}");
         }
     }
     // Turning as a rigid body: −m g z for every floor.
     let moment = 9.81 * (900.0 * 4.0 + 700.0 * 7.0 + 400.0 * 10.5);
-    assert!((form(&TURN, &with, &TURN) / -moment - 1.0).abs() < 1e-10);
+    assert!((form(&UNIT_ROTATION, &with, &UNIT_ROTATION) / -moment - 1.0).abs() < 1e-10);
 }
 
 #[test]
@@ -157,12 +162,12 @@ fn sway_is_the_sum_of_the_drifts_below() {
         drifts += building.drift(storey).unwrap().value(&moved);
         let sway = building.total_drift(storey).unwrap();
         assert!((sway.value(&moved) - drifts).abs() < 1e-14, "{storey}");
-        assert!(sway.value(&TURN).abs() < 1e-14);
+        assert!(sway.value(&UNIT_ROTATION).abs() < 1e-14);
         let floor = DofCombination::from(building.floor(storey).unwrap());
         let by_base = floor.total_drift(&building, height).unwrap();
         assert!((by_base.value(&moved) - drifts).abs() < 1e-14, "{storey}");
-        let apart = floor.relative_to_base(&building).unwrap().value(&moved);
-        assert!((apart - (moved[3 + storey] - 0.3)).abs() < 1e-14);
+        let relative = floor.relative_to_base(&building).unwrap().value(&moved);
+        assert!((relative - (moved[3 + storey] - 0.3)).abs() < 1e-14);
     }
     assert_eq!(building.roof(), building.floor(2).unwrap());
     assert!(building.total_drift(3).is_err());
@@ -180,10 +185,10 @@ fn rigid_motions_are_no_sway() {
         let motion = model.rigid_motion(direction, [0.7, -0.3, 0.0]);
         assert!(sway.value(&motion).abs() < 1e-14, "{direction:?}");
     }
-    // Relative to the base alone, a turn is left: −6 m times it.
+    // Relative to the base alone, a turn gives −6 m times it.
     let turn = model.rigid_motion(Direction::Rotation, [3.0, 0.0, 0.0]);
-    let apart = corner.relative_to_base(&model).unwrap().value(&turn);
-    assert!((apart + 6.0).abs() < 1e-14);
+    let relative = corner.relative_to_base(&model).unwrap().value(&turn);
+    assert!((relative + 6.0).abs() < 1e-14);
     for bad in [f64::NAN, f64::INFINITY] {
         assert!(matches!(corner.total_drift(&model, bad), Err(Error::Input { .. })));
     }

@@ -1,6 +1,6 @@
 //! GOAL: six resultants across a cut in space.
 //! SCENE: a column on a rigid pedestal, bricks in any motion, floors in plan.
-//! REFERENCE: statics by hand, and momenta of the part above from the matrices of models of its own.
+//! REFERENCE: statics by hand, and momenta of the part above from the matrices of separate models.
 
 use basemat::Error;
 use basemat::fem::{BeamSection, Dashpot, Hex8, LumpedMass, Material, Mesh, Shell, SpaceBeam};
@@ -13,14 +13,12 @@ use basemat_problems::supported::CLAMPED as DIRECTIONS;
 
 /// Forces and moments along the six directions; the compression acts downwards.
 fn rows(section: &SpaceSection) -> [(&SectionRows, f64); 6] {
-    let [along, across] = &section.shear;
-    let [about_x, about_y] = &section.moments;
     [
-        (along, 1.0),
-        (across, 1.0),
+        (&section.shear[0], 1.0),
+        (&section.shear[1], 1.0),
         (&section.compression, -1.0),
-        (about_x, 1.0),
-        (about_y, 1.0),
+        (&section.moments[0], 1.0),
+        (&section.moments[1], 1.0),
         (&section.torque, 1.0),
     ]
 }
@@ -38,28 +36,31 @@ fn static_load_passes_through_every_section() {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
     let mat = corners.map(|[x, y]| mesh.add_node_at([x, y, 0.0]).unwrap());
     let head = [2.0, -1.0, 5.5];
-    let [foot, middle, top, mass] = [[0.5, 0.5, 1.0], [0.5, 0.5, 3.0], [0.5, 0.5, 5.0], head]
+    let nodes = [[0.5, 0.5, 1.0], [0.5, 0.5, 3.0], [0.5, 0.5, 5.0], head]
         .map(|p| mesh.add_node_at(p).unwrap());
+    let top = nodes[2];
+    let mass = nodes[3];
     mesh.add(Shell::new(mat, concrete, 0.5).unwrap()).unwrap();
     let section = BeamSection::new(0.2, [4.0e-3, 2.0e-3], 5.0e-3).unwrap();
-    for ends in [[foot, middle], [middle, top]] {
+    for ends in [[nodes[0], nodes[1]], [nodes[1], top]] {
         mesh.add(SpaceBeam::new(ends, concrete, section, [1.0, 0.5, 0.0]).unwrap()).unwrap();
     }
     mesh.add(LumpedMass::in_space(mass, 10.0, [1.0; 3]).unwrap()).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
-    let model = model.with_rigid_link(mat[0], &[foot]).unwrap();
+    let model = model.with_rigid_link(mat[0], &[nodes[0]]).unwrap();
     let model = model.with_rigid_link(top, &[mass]).unwrap();
     assert_eq!(model.dofs(), 36);
 
-    let (force, moment) = ([700.0, -400.0, -300.0], [50.0, -80.0, 120.0]);
+    let force = [700.0, -400.0, -300.0];
+    let moment = [50.0, -80.0, 120.0];
     let mut load = vec![0.0; 36];
     for (direction, value) in DIRECTIONS.into_iter().zip(force.into_iter().chain(moment)) {
         for &(dof, weight) in &model.row(mass, direction).unwrap() {
             load[dof] += weight * value;
         }
     }
-    let held: Vec<(usize, f64)> = (0..24).map(|dof| (dof, 0.0)).collect();
-    let u = solve_held(&stiffness(&model), &load, &held);
+    let fixed: Vec<(usize, f64)> = (0..24).map(|dof| (dof, 0.0)).collect();
+    let u = solve_held(&stiffness(&model), &load, &fixed);
     for height in [0.0, 1.0, 3.0] {
         let section = model.section_in_space(height, [0.3, -0.2]).unwrap();
         let turning = cross([head[0] - 0.3, head[1] + 0.2, head[2] - height], force);
@@ -70,10 +71,10 @@ fn static_load_passes_through_every_section() {
         }
         assert_eq!(rows(&section).map(|(rows, _)| rows.unit), ["N", "N", "N", "N·m", "N·m", "N·m"]);
     }
-    let fault = |height: f64, place: f64| model.section_in_space(height, [0.0, place]).unwrap_err();
     // No nodes, within a beam, nothing above.
     for (height, place) in [(0.5, 0.0), (2.0, 0.0), (5.5, 0.0), (f64::NAN, 0.0), (0.0, f64::NAN)] {
-        assert!(matches!(fault(height, place), Error::Input { .. }), "{height} {place}");
+        let fault = model.section_in_space(height, [0.0, place]).unwrap_err();
+        assert!(matches!(fault, Error::Input { .. }), "{height} {place}");
     }
     assert!(matches!(model.section(1.0, 0.0), Err(Error::Scene { .. })));
 }
@@ -84,11 +85,12 @@ fn pier(lowest: usize) -> FemModel {
     let concrete = Material::new(2.0e8, 0.2, 2400.0).unwrap();
     let mut mesh = Mesh::in_space();
     let plan = [[[0.0, 0.0], [2.0, 0.1]], [[0.2, 1.5], [2.1, 1.8]]];
-    let place = |row: usize, column: usize| {
-        let [x, y]: [f64; 2] = plan[row][column];
-        [x, y, levels[lowest]]
-    };
-    let foot = mesh.add_grid(2, 2, place).unwrap();
+    let foot = mesh
+        .add_grid(2, 2, |row, column| {
+            let place: [f64; 2] = plan[row][column];
+            [place[0], place[1], levels[lowest]]
+        })
+        .unwrap();
     let above: Vec<f64> = levels[lowest + 1..].iter().map(|z| z - levels[lowest]).collect();
     for brick in foot.extrude(&mut mesh, &above).unwrap() {
         mesh.add(Hex8::new(brick, concrete)).unwrap();
@@ -102,7 +104,8 @@ fn pier(lowest: usize) -> FemModel {
 /// Any motion: the force on the nodes above less the rate of momentum of the upper part is what the section passes on.
 #[test]
 fn moving_structure_keeps_the_balance_of_its_upper_part() {
-    let (model, upper) = (pier(0), pier(1));
+    let model = pier(0);
+    let upper = pier(1);
     let n = model.dofs();
     let skip = n - upper.dofs();
     assert_eq!(skip, 12);
@@ -124,6 +127,34 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
     }
 }
 
+/// φᵀ M a over the degrees of freedom of a part of the building.
+fn momentum(part: &dyn Structure, motion: &[f64], acceleration: &[f64]) -> f64 {
+    let count = part.dofs();
+    form(&motion[..count], &mass(part), &acceleration[..count])
+}
+
+/// Motion of the building as a rigid body, with this shift and turn of the point at a reference and a height.
+fn rigid_building_motion(
+    storeys: &[PlanStorey],
+    reference: [f64; 3],
+    shift: [f64; 3],
+    turn: [f64; 3],
+) -> Vec<f64> {
+    let mut level = 0.0;
+    let mut motion = Vec::new();
+    for storey in std::iter::once(None).chain(storeys.iter().map(Some)) {
+        level += storey.map_or(0.0, |storey| storey.height);
+        let turned = cross(turn, [-reference[0], -reference[1], level - reference[2]]);
+        let displacement = [0, 1, 2].map(|k| shift[k] + turned[k]);
+        if storey.is_none() {
+            motion.extend(displacement.into_iter().chain(turn));
+        } else {
+            motion.extend([displacement[0], displacement[1], turn[2]]);
+        }
+    }
+    motion
+}
+
 /// Floors above a storey's foot: the momentum of the building less the momentum of the part below.
 #[test]
 fn floors_pass_on_their_inertia() {
@@ -140,7 +171,7 @@ fn floors_pass_on_their_inertia() {
     let acceleration = noise(building.dofs(), 5);
     let reference = [0.7, -1.2];
     for storey in 0..3 {
-        let height: f64 = storeys[..storey].iter().map(|own| own.height).sum();
+        let height: f64 = storeys[..storey].iter().map(|below| below.height).sum();
         let below: Box<dyn Structure> = match storey {
             0 => Box::new(mat.clone()),
             _ => Box::new(StoreyBuilding::new(mat.clone(), &storeys[..storey]).unwrap()),
@@ -148,28 +179,17 @@ fn floors_pass_on_their_inertia() {
         let section = building.section(storey, reference).unwrap();
         assert_eq!(section.height, height);
         for (axis, (rows, sign)) in rows(&section).into_iter().enumerate() {
-            let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
+            let mut shift = [0.0; 3];
+            let mut turn = [0.0; 3];
             if axis < 3 {
                 shift[axis] = 1.0;
             } else {
                 turn[axis - 3] = 1.0;
             }
-            let at = |z: f64| {
-                let turned = cross(turn, [-reference[0], -reference[1], z - height]);
-                [0, 1, 2].map(|k| shift[k] + turned[k])
-            };
-            let mut motion = [at(0.0), turn].concat();
-            let mut level = 0.0;
-            for own in &storeys {
-                level += own.height;
-                let [x, y, _] = at(level);
-                motion.extend([x, y, turn[2]]);
-            }
-            let momentum = |part: &dyn Structure| {
-                let count = part.dofs();
-                form(&motion[..count], &mass(part), &acceleration[..count])
-            };
-            let exact = momentum(below.as_ref()) - momentum(&building);
+            let place = [reference[0], reference[1], height];
+            let motion = rigid_building_motion(&storeys, place, shift, turn);
+            let exact = momentum(below.as_ref(), &motion, &acceleration)
+                - momentum(&building, &motion, &acceleration);
             let found = sign * rows.value(&[], &[], &acceleration);
             assert!((found - exact).abs() < 1e-9 * 1.0e8, "{storey} {axis} {found} {exact}");
             assert!(found.abs() > 1e3, "the balance is not an empty one");

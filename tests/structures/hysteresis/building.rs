@@ -19,11 +19,11 @@ fn five_storeys() -> ShearBuilding {
     building.with_stiffness_damping(0.02).unwrap()
 }
 
-const LEVEL: IsolationLevel =
+const ISOLATION_LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
 
 fn isolated(law: impl Hysteresis + 'static) -> ShearBuilding {
-    five_storeys().isolated(LEVEL, law).unwrap()
+    five_storeys().isolated(ISOLATION_LEVEL, law).unwrap()
 }
 
 /// All storeys yield at 0.15 of the weight above.
@@ -36,8 +36,23 @@ fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
     building
 }
 
-/// Builds a structure anew.
-type Make = Box<dyn Fn() -> ShearBuilding>;
+/// Makes a new structure.
+type MakeBuilding = Box<dyn Fn() -> ShearBuilding>;
+
+fn bilinear_storeys() -> ShearBuilding {
+    yielding(|force| Box::new(Bilinear::new(40e6, force, 0.03).unwrap()))
+}
+
+fn bouc_wen_storeys(hardening: f64) -> ShearBuilding {
+    yielding(|force| Box::new(BoucWen::new(40e6, force, hardening).unwrap()))
+}
+
+/// Forces of the laws at these displacements.
+fn law_force(building: &ShearBuilding, u: &[f64; 8]) -> [f64; 8] {
+    let mut force = [0.0; 8];
+    building.nonlinear().unwrap().force(u, &mut force).unwrap();
+    force
+}
 
 fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBuilder {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
@@ -49,47 +64,40 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
         .gravity(STANDARD_GRAVITY)
 }
 
-/// A clone has the laws with their internal variables, and from then on its own.
+/// A clone has the laws with their internal variables, and changes separately from then on.
 #[test]
 fn clones_yield_by_themselves() {
-    let mut building = yielding(|force| Box::new(BoucWen::new(40e6, force, 0.05).unwrap()));
-    let (past, now) = ([0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05], [0.0; 8]);
-    let force = |building: &ShearBuilding| {
-        let mut force = [0.0; 8];
-        building.nonlinear().unwrap().force(&now, &mut force).unwrap();
-        force
-    };
-    let new = force(&building);
+    let mut building = bouc_wen_storeys(0.05);
+    let past = [0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05];
+    let now = [0.0; 8];
+    let new = law_force(&building, &now);
     building.nonlinear_mut().unwrap().commit(&past);
     let mut clone = building.clone();
-    let yielded = force(&building);
-    assert!(yielded != new && force(&clone) == yielded);
+    let yielded = law_force(&building, &now);
+    assert!(yielded != new && law_force(&clone, &now) == yielded);
     clone.nonlinear_mut().unwrap().commit(&now);
     clone.nonlinear_mut().unwrap().commit(&past.map(|u| -u));
-    assert!(force(&clone) != yielded && force(&building) == yielded);
+    assert!(law_force(&clone, &now) != yielded && law_force(&building, &now) == yielded);
 }
 
 /// ∂f/∂u of the whole structure by central differences, where no law is near a kink.
 #[test]
 fn tangents_are_consistent() {
-    let mut building = yielding(|force| Box::new(BoucWen::new(40e6, force, 0.05).unwrap()));
+    let mut building = bouc_wen_storeys(0.05);
     building.nonlinear_mut().unwrap().commit(&[0.0, 0.0, 0.0, 0.004, 0.01, 0.012, 0.011, 0.015]);
     let u = [0.001, 0.002, 1e-4, 0.003, 0.012, 0.0125, 0.0115, 0.0162];
     let mut matrix = Triplets::new(8);
-    let law = building.nonlinear().unwrap();
-    law.tangent(&u, &mut matrix).unwrap();
+    building.nonlinear().unwrap().tangent(&u, &mut matrix).unwrap();
     let mut tangent = [[0.0; 8]; 8];
     for &(i, j, value) in matrix.entries() {
         tangent[i][j] += value;
     }
     for j in 0..8 {
-        let force = |step: f64| {
-            let (mut u, mut force) = (u, [0.0; 8]);
-            u[j] += step;
-            law.force(&u, &mut force).unwrap();
-            force
-        };
-        let (above, below) = (force(1e-7), force(-1e-7));
+        let [above, below] = [1e-7, -1e-7].map(|step| {
+            let mut moved = u;
+            moved[j] += step;
+            law_force(&building, &moved)
+        });
         for i in 0..8 {
             let found = (above[i] - below[i]) / 2e-7;
             let expected = tangent[i][j];
@@ -101,17 +109,11 @@ fn tangents_are_consistent() {
 /// All laws in the coupled integrator with uplift and friction: Newton converges, the energy balance closes,
 /// and the laws take energy and give none back.
 #[test]
-fn runs_converge_and_every_joule_is_booked() {
+fn runs_converge_and_the_energy_balance_closes() {
     let weight = STANDARD_GRAVITY * 130.0e3;
-    let runs: Vec<(&str, Make)> = vec![
-        (
-            "bilinear storeys",
-            Box::new(|| yielding(|f| Box::new(Bilinear::new(40e6, f, 0.03).unwrap()))),
-        ),
-        (
-            "Bouc–Wen storeys",
-            Box::new(|| yielding(|f| Box::new(BoucWen::new(40e6, f, 0.03).unwrap()))),
-        ),
+    let runs: Vec<(&str, MakeBuilding)> = vec![
+        ("bilinear storeys", Box::new(bilinear_storeys)),
+        ("Bouc–Wen storeys", Box::new(|| bouc_wen_storeys(0.03))),
         (
             "friction pendulum",
             Box::new(move || isolated(FrictionPendulum::new(weight, 2.0, 0.06).unwrap())),
@@ -143,15 +145,16 @@ fn runs_converge_and_every_joule_is_booked() {
     }
 }
 
+fn run_of(builder: SimulationBuilder) -> Run {
+    builder.build().unwrap().run(800, |_| {}).unwrap()
+}
+
 #[test]
 fn other_time_schemes_march_too() {
-    let structure = || yielding(|f| Box::new(Bilinear::new(40e6, f, 0.03).unwrap()));
-    let run =
-        |builder: SimulationBuilder| -> Run { builder.build().unwrap().run(800, |_| {}).unwrap() };
     let schemes = [
-        run(on_soil(structure(), 0.005)),
-        run(on_soil(structure(), 0.005).scheme(Newmark::default())),
-        run(on_soil(structure(), 0.005).scheme(Theta::new(0.55).unwrap())),
+        run_of(on_soil(bilinear_storeys(), 0.005)),
+        run_of(on_soil(bilinear_storeys(), 0.005).scheme(Newmark::default())),
+        run_of(on_soil(bilinear_storeys(), 0.005).scheme(Theta::new(0.55).unwrap())),
     ];
     for run in &schemes {
         assert!(run.energy_error < 1e-9);
@@ -160,7 +163,7 @@ fn other_time_schemes_march_too() {
     }
 }
 
-/// Ground displacement of the shaken single storey: two frequencies, starting from rest.
+/// Displacement, velocity and acceleration of the ground under the single storey: two frequencies from rest.
 fn ground(t: f64) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (amplitude, w) in [(0.03, 4.0), (0.01, 9.0_f64)] {
@@ -171,52 +174,73 @@ fn ground(t: f64) -> [f64; 3] {
     sum
 }
 
+const STOREY_MASS: f64 = 2.0e4;
+const STOREY_STIFFNESS: f64 = 2.0e6;
+const STOREY_STRENGTH: f64 = 1.2e4;
+const STOREY_HARDENING: f64 = 0.1;
+const MOTION_DURATION: f64 = 3.0;
+
+/// Rates of `[x, v, z]` at time t.
+fn storey_rates(t: f64, y: [f64; 3]) -> [f64; 3] {
+    let g = ground(t);
+    let d = y[0] - g[0];
+    let v = y[1] - g[1];
+    let force =
+        STOREY_HARDENING * STOREY_STIFFNESS * d + (1.0 - STOREY_HARDENING) * STOREY_STRENGTH * y[2];
+    let sign = if v * y[2] > 0.0 { 1.0 } else { -1.0 };
+    let dy = STOREY_STRENGTH / STOREY_STIFFNESS;
+    let z = (1.0 - (0.6 * sign + 0.4) * y[2].abs().powf(1.5)) * v / dy;
+    [y[1], -force / STOREY_MASS, z]
+}
+
+fn shifted(y: [f64; 3], rates: [f64; 3], h: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| y[i] + h * rates[i])
+}
+
+/// Displacement of the floor at the end by Runge and Kutta.
+fn integrated_floor_displacement() -> f64 {
+    let fine = 300_000_u32;
+    let mut y = [0.0; 3];
+    let h = MOTION_DURATION / f64::from(fine);
+    for step in 0..fine {
+        let t = f64::from(step) * h;
+        let a = storey_rates(t, y);
+        let b = storey_rates(t + 0.5 * h, shifted(y, a, 0.5 * h));
+        let c = storey_rates(t + 0.5 * h, shifted(y, b, 0.5 * h));
+        let d = storey_rates(t + h, shifted(y, c, h));
+        y = [0, 1, 2].map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
+    }
+    y[0]
+}
+
+/// Displacement of the floor at the end by so many coupled steps.
+fn marched_floor_displacement(steps: u32) -> f64 {
+    let law = BoucWen::new(STOREY_STIFFNESS, STOREY_STRENGTH, STOREY_HARDENING).unwrap();
+    let law = law.with_shape(1.5, 0.6).unwrap();
+    let storey = Storey::new(1e-3, STOREY_MASS, STOREY_STIFFNESS);
+    let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
+    // Rock: so stiff that the base does what the ground does.
+    let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
+    let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
+    let mut simulation = Simulation::builder(MOTION_DURATION / f64::from(steps))
+        .structure(building.with_law(0, law).unwrap())
+        .ground(rock)
+        .interface(Bonded)
+        .motion(motion)
+        .build()
+        .unwrap();
+    simulation.run(steps as usize, |_| {}).unwrap();
+    simulation.state().absolute_displacement()[3]
+}
+
 /// One storey on rock against m ẍ = −F(x − x_g), ż = …, integrated by Runge–Kutta in fine steps: the
 /// coupled march must converge to it with the square of the step.
 #[test]
 fn yielding_storey_converges_to_its_differential_equation() {
-    let (mass, stiffness, strength, alpha) = (2.0e4, 2.0e6, 1.2e4, 0.1);
-    let dy = strength / stiffness;
-    let end = 3.0;
-    // y = [x, v, z]
-    let rate = |t: f64, y: [f64; 3]| {
-        let g = ground(t);
-        let (d, v) = (y[0] - g[0], y[1] - g[1]);
-        let force = alpha * stiffness * d + (1.0 - alpha) * strength * y[2];
-        let sign = if v * y[2] > 0.0 { 1.0 } else { -1.0 };
-        let z = (1.0 - (0.6 * sign + 0.4) * y[2].abs().powf(1.5)) * v / dy;
-        [y[1], -force / mass, z]
-    };
-    let (fine, mut y) = (300_000_u32, [0.0; 3]);
-    let h = end / f64::from(fine);
-    for step in 0..fine {
-        let t = f64::from(step) * h;
-        let go = |y: [f64; 3], k: [f64; 3], h: f64| [0, 1, 2].map(|i| y[i] + h * k[i]);
-        let a = rate(t, y);
-        let b = rate(t + 0.5 * h, go(y, a, 0.5 * h));
-        let c = rate(t + 0.5 * h, go(y, b, 0.5 * h));
-        let d = rate(t + h, go(y, c, h));
-        y = [0, 1, 2].map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
-    }
-    let error = |steps: u32| {
-        let law = BoucWen::new(stiffness, strength, alpha).unwrap().with_shape(1.5, 0.6).unwrap();
-        let storey = Storey::new(1e-3, mass, stiffness);
-        let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
-        // Rock: so stiff that the base does what the ground does.
-        let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
-        let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
-        let mut simulation = Simulation::builder(end / f64::from(steps))
-            .structure(building.with_law(0, law).unwrap())
-            .ground(rock)
-            .interface(Bonded)
-            .motion(motion)
-            .build()
-            .unwrap();
-        simulation.run(steps as usize, |_| {}).unwrap();
-        simulation.state().absolute_displacement()[3] - y[0]
-    };
-    let errors = [150, 300, 600, 1200, 2400, 4800].map(error);
-    println!("floor at the end {:.4} m, errors {errors:?}", y[0]);
+    let expected = integrated_floor_displacement();
+    let errors =
+        [150, 300, 600, 1200, 2400, 4800].map(|steps| marched_floor_displacement(steps) - expected);
+    println!("floor at the end {expected:.4} m, errors {errors:?}");
     assert!(errors[5].abs() < 1e-6, "{errors:?}");
     // The mean order over five halvings; single ones wander with where in a step the motion turns.
     let order = (errors[0] / errors[5]).abs().log2() / 5.0;
@@ -227,7 +251,8 @@ fn yielding_storey_converges_to_its_differential_equation() {
 #[test]
 fn bearings_pass_no_more_than_their_law() {
     let weight = STANDARD_GRAVITY * 130.0e3;
-    let (radius, friction) = (2.0, 0.06);
+    let radius = 2.0;
+    let friction = 0.06;
     let structure = isolated(FrictionPendulum::new(weight, radius, friction).unwrap());
     let drift = structure.drift(0).unwrap();
     let shear = structure.shear(0).unwrap();
@@ -236,10 +261,12 @@ fn bearings_pass_no_more_than_their_law() {
         .probe(Probe::section("shear", &shear))
         .build()
         .unwrap();
-    let (mut before, mut slid) = (0.0, 0);
+    let mut before = 0.0;
+    let mut slid = 0;
     simulation
         .run(3000, |state| {
-            let [bearing, force] = [state.probes[0], state.probes[1]];
+            let bearing = state.probes[0];
+            let force = state.probes[1];
             let middle = 0.5 * (before + bearing);
             let friction_part = force - weight / radius * middle;
             assert!(friction_part.abs() < friction * weight * (1.0 + 1e-6), "{friction_part}");
@@ -258,16 +285,12 @@ fn bearings_pass_no_more_than_their_law() {
 
 #[test]
 fn checkpoints_carry_the_laws() {
-    let scene = || {
-        let law = |f| -> Box<dyn Hysteresis> { Box::new(BoucWen::new(40e6, f, 0.03).unwrap()) };
-        on_soil(yielding(law), 0.01).build().unwrap()
-    };
-    let mut whole = scene();
+    let mut whole = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
     whole.run(250, |_| {}).unwrap();
     let saved = whole.checkpoint().unwrap();
     assert!(whole.state().energy_balance.hysteresis > 0.0);
     whole.run(100, |_| {}).unwrap();
-    let mut resumed = scene();
+    let mut resumed = on_soil(bouc_wen_storeys(0.03), 0.01).build().unwrap();
     resumed.resume(&saved).unwrap();
     resumed.run(100, |_| {}).unwrap();
     assert_eq!(resumed.state(), whole.state());

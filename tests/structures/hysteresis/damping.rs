@@ -1,6 +1,6 @@
-//! GOAL: viscous damping of structures with hysteretic springs follows their initial stiffness. SCENE: laws that never
-//! yield; one storey set in motion on rock. REFERENCE: the linear building; the closed form of a damped rigid-plastic
-//! slide.
+//! GOAL: viscous damping of structures with hysteretic springs follows their initial stiffness.
+//! SCENE: laws that never yield; one storey set in motion on rock.
+//! REFERENCE: the linear building; the closed form of a damped rigid-plastic slide.
 
 use basemat::Simulation;
 use basemat::Soil;
@@ -14,19 +14,20 @@ use basemat::structure::{
 };
 use std::f64::consts::PI;
 
-const STIFFNESS: f64 = 40.0e6;
-const STOREYS: usize = 5;
+const STOREY_STIFFNESS: f64 = 40.0e6;
+const STOREY_COUNT: usize = 5;
 
-fn linear(ratio: f64) -> ShearBuilding {
-    let storeys = [Storey { damping: 1.0e4, ..Storey::new(3.0, 20.0e3, STIFFNESS) }; STOREYS];
+fn linear_building(ratio: f64) -> ShearBuilding {
+    let storeys =
+        [Storey { damping: 1.0e4, ..Storey::new(3.0, 20.0e3, STOREY_STIFFNESS) }; STOREY_COUNT];
     let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
     building.with_stiffness_damping(ratio).unwrap()
 }
 
 /// Columns of the same stiffness that never yield, in all storeys.
 fn strong(building: ShearBuilding, below: usize) -> ShearBuilding {
-    (below..below + STOREYS).fold(building, |building, storey| {
-        building.with_law(storey, Bilinear::new(STIFFNESS, 1e12, 0.1).unwrap()).unwrap()
+    (below..below + STOREY_COUNT).fold(building, |building, storey| {
+        building.with_law(storey, Bilinear::new(STOREY_STIFFNESS, 1e12, 0.1).unwrap()).unwrap()
     })
 }
 
@@ -41,27 +42,34 @@ fn damping(structure: &dyn Structure) -> Vec<f64> {
     matrix
 }
 
+/// Drifts of the lowest storey under El Centro.
+fn drifts(structure: impl Structure + 'static) -> Vec<f64> {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    let drift = linear_building(0.05).drift(0).unwrap();
+    let mut simulation = Simulation::builder(0.005)
+        .structure(structure)
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 8).unwrap()).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(el_centro_1940())
+        .probe(Probe::displacement("drift", drift))
+        .build()
+        .unwrap();
+    let mut drifts = Vec::new();
+    simulation.run(2000, |state| drifts.push(state.probes[0])).unwrap();
+    drifts
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
 #[test]
 fn columns_that_never_yield_are_linear() {
-    let drifts = |structure: Box<dyn Structure>| {
-        let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-        let drift = linear(0.05).drift(0).unwrap();
-        let mut simulation = Simulation::builder(0.005)
-            .structure(structure)
-            .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 8).unwrap()).unwrap())
-            .interface(Coulomb::new(0.4).unwrap())
-            .motion(el_centro_1940())
-            .probe(Probe::displacement("drift", drift))
-            .build()
-            .unwrap();
-        let mut drifts = Vec::new();
-        simulation.run(2000, |state| drifts.push(state.probes[0])).unwrap();
-        drifts
-    };
-    let expected = drifts(Box::new(linear(0.05)));
-    let found = drifts(Box::new(strong(linear(0.05), 0)));
-    let peak = expected.iter().fold(0.0, |most: f64, drift| most.max(drift.abs()));
-    let error = expected.iter().zip(&found).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+    let expected = drifts(linear_building(0.05));
+    let found = drifts(strong(linear_building(0.05), 0));
+    let peak = largest(&expected);
+    let errors: Vec<f64> = expected.iter().zip(&found).map(|(a, b)| a - b).collect();
+    let error = largest(&errors);
     println!("peak drift {:.3} mm, laws that never yield off by {:.1e}", 1e3 * peak, error / peak);
     assert!(error < 1e-11 * peak, "{error:e} of {peak}");
 }
@@ -70,32 +78,33 @@ fn columns_that_never_yield_are_linear() {
 /// the damping of the building on them.
 #[test]
 fn laws_leave_the_damping_matrix_alone() {
-    let yielding = || strong(linear(0.05), 0);
-    let expected = damping(&linear(0.05));
-    assert_eq!(damping(&yielding()), expected);
-    let drift = linear(0.05).drift(0).unwrap();
-    let law = || Bilinear::new(5.0e6, 2.0e4, 0.0).unwrap();
-    let sprung = WithSprings::new(yielding()).spring(drift, law()).unwrap();
+    let expected = damping(&linear_building(0.05));
+    assert_eq!(damping(&strong(linear_building(0.05), 0)), expected);
+    let drift = linear_building(0.05).drift(0).unwrap();
+    let law = Bilinear::new(5.0e6, 2.0e4, 0.0).unwrap();
+    let yielding = strong(linear_building(0.05), 0);
+    let sprung = WithSprings::new(yielding).spring(drift, law).unwrap();
     assert_eq!(damping(&sprung), expected);
     let group = StructureGroup::new().with(sprung, 0.0).unwrap();
     assert_eq!(damping(&group), expected);
 
-    // Modal damping belongs to the first tangent's modes, in addition to the structure's own damping.
+    // Modal damping belongs to the first tangent's modes, in addition to the structure's damping matrix.
     let modal = ModalDamping::new(&[0.03]).unwrap();
-    let (one, other) = (modal.on(linear(0.05)).unwrap(), modal.on(yielding()).unwrap());
-    let largest = expected.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let one = modal.on(linear_building(0.05)).unwrap();
+    let other = modal.on(strong(linear_building(0.05), 0)).unwrap();
+    let largest = largest(&expected);
     for (a, b) in damping(&one).into_iter().zip(damping(&other)) {
         assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
     }
 
     let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 2e5, damping: 7.0e3 };
-    let stiff = || Bilinear::new(1.0e9, 2.0e4, 0.0).unwrap();
-    let isolated = linear(0.05).isolated(level, stiff()).unwrap();
+    let stiff = Bilinear::new(1.0e9, 2.0e4, 0.0).unwrap();
+    let isolated = linear_building(0.05).isolated(level, stiff).unwrap();
     let matrix = damping(&strong(isolated, 1));
-    let n = STOREYS + 4;
+    let n = STOREY_COUNT + 4;
     // The slab is degree of freedom 3: the bearings' dampers and the columns above meet in it.
     assert_eq!(matrix[3], -level.damping);
-    let column = -expected[3 * (STOREYS + 3) + 4];
+    let column = -expected[3 * (STOREY_COUNT + 3) + 4];
     assert!(((matrix[3 * n + 3] - level.damping) / column - 1.0).abs() < 1e-14);
 }
 
@@ -103,10 +112,11 @@ fn laws_leave_the_damping_matrix_alone() {
 #[test]
 fn dashpots_can_stand_for_stiffness_proportional_damping() {
     let ratio = 0.05;
-    let plain = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 2e4, STIFFNESS); 5]);
+    let plain =
+        ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 2e4, STOREY_STIFFNESS); 5]);
     let plain = plain.unwrap();
-    let dashpot = ratio * STIFFNESS / (PI * plain.fixed_base_frequency());
-    let storey = Storey { damping: dashpot, ..Storey::new(3.0, 2e4, STIFFNESS) };
+    let dashpot = ratio * STOREY_STIFFNESS / (PI * plain.fixed_base_frequency());
+    let storey = Storey { damping: dashpot, ..Storey::new(3.0, 2e4, STOREY_STIFFNESS) };
     let with_dashpots = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[storey; 5]).unwrap();
     let expected = damping(&plain.with_stiffness_damping(ratio).unwrap());
     for (found, expected) in damping(&with_dashpots).into_iter().zip(expected) {
@@ -114,36 +124,51 @@ fn dashpots_can_stand_for_stiffness_proportional_damping() {
     }
 }
 
+const FLOOR_MASS: f64 = 2.0e4;
+const COLUMN_STIFFNESS: f64 = 2.0e6;
+const YIELD_FORCE: f64 = 1.0e4;
+const INITIAL_SPEED: f64 = 0.5;
+
+/// Elastic drift of the floor at time t.
+fn elastic_drift(ratio: f64, t: f64) -> f64 {
+    let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
+    let damped = omega * f64::sqrt(1.0 - ratio * ratio);
+    INITIAL_SPEED / damped * (-ratio * omega * t).exp() * (damped * t).sin()
+}
+
+/// Largest drift of the floor, which yields on its way.
+fn sliding_drift(ratio: f64) -> f64 {
+    let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
+    let damped = omega * f64::sqrt(1.0 - ratio * ratio);
+    let mut below = 0.0;
+    let mut above = 0.5 / omega;
+    assert!(elastic_drift(ratio, above) > YIELD_FORCE / COLUMN_STIFFNESS);
+    for _ in 0..100 {
+        let middle = 0.5 * (below + above);
+        let yields = elastic_drift(ratio, middle) > YIELD_FORCE / COLUMN_STIFFNESS;
+        *(if yields { &mut above } else { &mut below }) = middle;
+    }
+    let t = below;
+    let swing = (damped * t).cos() - ratio * omega / damped * (damped * t).sin();
+    let speed = INITIAL_SPEED * (-ratio * omega * t).exp() * swing;
+    let c = 2.0 * ratio * omega * FLOOR_MASS;
+    let way = FLOOR_MASS / c * speed
+        - FLOOR_MASS * YIELD_FORCE / (c * c) * (c * speed / YIELD_FORCE).ln_1p();
+    YIELD_FORCE / COLUMN_STIFFNESS + way
+}
+
 /// A floor of mass m leaves its place with the speed v₀. Elastic: d = v₀/ω_d e^(−ζωt) sin ω_d t, up to
 /// the drift F/k. From there m d̈ + c ḋ + F = 0 until it stands, (m/c) v₁ − (m F/c²) ln(1 + c v₁/F)
 /// further on; then it swings about F/k less and stays elastic.
 #[test]
 fn a_storey_that_yields_slides_as_far_as_its_damping_lets_it() {
-    let (mass, stiffness, ratio, speed) = (2.0e4, 2.0e6, 0.1, 0.5);
-    let force = 1.0e4;
-    let omega = f64::sqrt(stiffness / mass);
-    let slide = |ratio: f64| {
-        let damped = omega * f64::sqrt(1.0 - ratio * ratio);
-        let drift = |t: f64| speed / damped * (-ratio * omega * t).exp() * (damped * t).sin();
-        let (mut below, mut above) = (0.0, 0.5 / omega);
-        assert!(drift(above) > force / stiffness);
-        for _ in 0..100 {
-            let middle = 0.5 * (below + above);
-            let yields = drift(middle) > force / stiffness;
-            *(if yields { &mut above } else { &mut below }) = middle;
-        }
-        let t = below;
-        let swing = (damped * t).cos() - ratio * omega / damped * (damped * t).sin();
-        let speed = speed * (-ratio * omega * t).exp() * swing;
-        let c = 2.0 * ratio * omega * mass;
-        let way = mass / c * speed - mass * force / (c * c) * (c * speed / force).ln_1p();
-        force / stiffness + way
-    };
-    let storey = Storey::new(3.0, mass, stiffness);
+    let ratio = 0.1;
+    let omega = f64::sqrt(COLUMN_STIFFNESS / FLOOR_MASS);
+    let storey = Storey::new(3.0, FLOOR_MASS, COLUMN_STIFFNESS);
     let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[storey]).unwrap();
     assert!((building.fixed_base_frequency() * 2.0 * PI / omega - 1.0).abs() < 1e-12);
     let building = building.with_stiffness_damping(ratio).unwrap();
-    let law = Bilinear::new(stiffness, force, 0.0).unwrap();
+    let law = Bilinear::new(COLUMN_STIFFNESS, YIELD_FORCE, 0.0).unwrap();
     let drift = building.drift(0).unwrap();
     let structure = building.with_law(0, law).unwrap();
     let mut simulation = Simulation::builder(2.0e-4)
@@ -151,21 +176,23 @@ fn a_storey_that_yields_slides_as_far_as_its_damping_lets_it() {
         // Rock: so stiff that the base stays where it is.
         .ground(SpringGround::new(-5.0..5.0, 2, 1e13, 1e13).unwrap())
         .interface(Bonded)
-        .initial_velocity([0.0, 0.0, 0.0, speed])
+        .initial_velocity([0.0, 0.0, 0.0, INITIAL_SPEED])
         .probe(Probe::displacement("drift", drift))
         .build()
         .unwrap();
-    let (mut largest, mut last) = (0.0_f64, 0.0);
+    let mut largest = 0.0_f64;
+    let mut last = 0.0;
     let run = simulation
         .run(50_000, |state| {
             last = state.probes[0];
             largest = largest.max(last);
         })
         .unwrap();
-    let (expected, undamped) = (slide(ratio), slide(1e-6));
+    let expected = sliding_drift(ratio);
+    let undamped = sliding_drift(1e-6);
     println!("peak {largest:.6} m, {expected:.6} m expected, {undamped:.6} m without damping");
     assert!((largest / expected - 1.0).abs() < 1e-4, "{largest} {expected}");
-    let rest = expected - force / stiffness;
+    let rest = expected - YIELD_FORCE / COLUMN_STIFFNESS;
     assert!((last / rest - 1.0).abs() < 2e-4, "{last} {rest}");
     assert!(undamped > 1.3 * expected && run.energy_error < 1e-9);
 }

@@ -3,6 +3,7 @@
 //! REFERENCE: differential equations, energies, closed-form loops.
 
 mod biaxial;
+mod biaxial_springs;
 mod building;
 mod damping;
 mod laws;

@@ -15,9 +15,9 @@ use basemat::structure::{
 };
 use basemat::{Error, Simulation, Soil};
 
-const LEVEL: IsolationLevel =
+const ISOLATION_LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
-const WEIGHT: f64 = STANDARD_GRAVITY * 130.0e3;
+const ISOLATED_WEIGHT: f64 = STANDARD_GRAVITY * 130.0e3;
 
 fn building(gravity: f64) -> ShearBuilding {
     let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
@@ -27,7 +27,7 @@ fn building(gravity: f64) -> ShearBuilding {
 
 /// El Centro on soil, the base free to uplift and slide; the probe is the drift of the isolators.
 fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
-    let structure = building(gravity).isolated(LEVEL, law).unwrap();
+    let structure = building(gravity).isolated(ISOLATION_LEVEL, law).unwrap();
     let drift = structure.drift(0).unwrap();
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(5e-3)
@@ -43,80 +43,93 @@ fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
         .unwrap()
 }
 
-/// The weight's own stiffness of bearings 0.3 m high would be −4.2 MN/m, and theirs 0.6 to 0.9 MN/m.
+/// Largest drift of the isolators.
+fn largest_drift(gravity: f64, law: impl Hysteresis + 'static) -> f64 {
+    let run = shaken(gravity, law);
+    assert!(run.energy_error < 1e-9);
+    run.probe("drift").unwrap().magnitude()
+}
+
+/// The weight alone would give bearings 0.3 m high −4.2 MN/m, against their 0.6 to 0.9 MN/m.
 #[test]
 fn isolators_drift_as_they_do_without_p_delta() {
-    let pendulum = || FrictionPendulum::new(WEIGHT, 2.0, 0.06).unwrap();
-    let rubber = || LeadRubber::from_strength(0.6e6, 0.05 * WEIGHT).unwrap();
+    let pendulum = FrictionPendulum::new(ISOLATED_WEIGHT, 2.0, 0.06).unwrap();
+    let rubber = LeadRubber::from_strength(0.6e6, 0.05 * ISOLATED_WEIGHT).unwrap();
     let pairs = [
-        [shaken(0.0, pendulum()), shaken(STANDARD_GRAVITY, pendulum())],
-        [shaken(0.0, rubber()), shaken(STANDARD_GRAVITY, rubber())],
+        [largest_drift(0.0, pendulum.clone()), largest_drift(STANDARD_GRAVITY, pendulum)],
+        [largest_drift(0.0, rubber.clone()), largest_drift(STANDARD_GRAVITY, rubber)],
     ];
-    for pair in pairs {
-        let [without, with] = pair.map(|run| {
-            assert!(run.energy_error < 1e-9);
-            run.probe("drift").unwrap().magnitude()
-        });
+    for [without, with] in pairs {
         println!("{:.1} mm, with P–Δ {:.1} mm", 1e3 * without, 1e3 * with);
         assert!((0.03..0.2).contains(&without));
         assert!((with / without - 1.0).abs() < 0.1, "{without} {with}");
     }
 }
 
+/// Stiffness matrix of the isolated building.
+fn isolated_stiffness(gravity: f64) -> [[f64; 9]; 9] {
+    let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
+    let isolated = building(gravity).isolated(ISOLATION_LEVEL, law).unwrap();
+    let mut triplets = Triplets::new(9);
+    isolated.stiffness(&mut triplets).unwrap();
+    let mut full = [[0.0; 9]; 9];
+    for &(i, j, value) in triplets.entries() {
+        full[i][j] += value;
+    }
+    full
+}
+
+/// Potential energy of the weights on inextensible columns.
+fn potential_energy(u: &[f64; 9]) -> f64 {
+    let (sin, cos) = u[2].sin_cos();
+    // Along the turned plane the slider stands where it makes the slab move by u_3.
+    let along = (u[3] - u[0] + ISOLATION_LEVEL.height * sin) / cos;
+    let mut height = along * sin + ISOLATION_LEVEL.height * cos;
+    let mut sum = 10.0 * ISOLATION_LEVEL.slab_mass * height;
+    for floor in 4..9 {
+        height += (9.0 - (u[floor] - u[floor - 1]).powi(2)).sqrt();
+        sum += 10.0 * 20.0e3 * height;
+    }
+    sum
+}
+
 /// The height of the weights on a slider that moves along the plane of a base that turns, with
 /// inextensible columns above, differentiated twice by steps.
 #[test]
 fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
-    let stiffness = |gravity| {
-        let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
-        let isolated = building(gravity).isolated(LEVEL, law).unwrap();
-        let mut triplets = Triplets::new(9);
-        isolated.stiffness(&mut triplets).unwrap();
-        let mut full = [[0.0; 9]; 9];
-        for &(i, j, value) in triplets.entries() {
-            full[i][j] += value;
-        }
-        full
-    };
-    let (with, without) = (stiffness(10.0), stiffness(0.0));
-    let energy = |u: &[f64; 9]| {
-        let (sin, cos) = u[2].sin_cos();
-        // Along the turned plane the slider stands where it makes the slab move by u_3.
-        let along = (u[3] - u[0] + LEVEL.height * sin) / cos;
-        let mut height = along * sin + LEVEL.height * cos;
-        let mut sum = 10.0 * LEVEL.slab_mass * height;
-        for floor in 4..9 {
-            height += (9.0 - (u[floor] - u[floor - 1]).powi(2)).sqrt();
-            sum += 10.0 * 20.0e3 * height;
-        }
-        sum
-    };
+    let with = isolated_stiffness(10.0);
+    let without = isolated_stiffness(0.0);
     for i in 0..9 {
         for j in 0..9 {
-            let curvature = curvature(energy, [i, j], 1e-3);
+            let curvature = curvature(potential_energy, [i, j], 1e-3);
             let found = with[i][j] - without[i][j];
             assert!((found - curvature).abs() < 1e-5 * 1.3e6, "({i}, {j}): {found} {curvature}");
         }
     }
 }
 
+fn two_storeys() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 1000.0, 1.0e4), Storey::new(2.0, 1000.0, 1.0e6)];
+    ShearBuilding::new(5.0, 1000.0, 1000.0, &storeys).unwrap()
+}
+
+/// The lower storey with a law of this initial stiffness, under its weight.
+fn yielding_under_weight(stiffness: f64) -> basemat::Result<ShearBuilding> {
+    let building = two_storeys().with_p_delta(10.0).unwrap();
+    building.with_law(0, Bilinear::new(stiffness, 10.0, 0.5).unwrap())
+}
+
 /// A storey of k = W/h is at its buckling load.
 #[test]
 fn columns_that_would_buckle_are_refused() {
-    let storeys = [Storey::new(3.0, 1000.0, 1.0e4), Storey::new(2.0, 1000.0, 1.0e6)];
-    let building = || ShearBuilding::new(5.0, 1000.0, 1000.0, &storeys).unwrap();
     // 2000 g/3 against 1e4: the lower storey buckles at 15 m/s².
-    assert!(building().with_p_delta(14.999).is_ok());
+    assert!(two_storeys().with_p_delta(14.999).is_ok());
     for gravity in [15.001, 1e3, 1e300, f64::MAX] {
-        let refused = building().with_p_delta(gravity);
+        let refused = two_storeys().with_p_delta(gravity);
         assert!(matches!(refused, Err(Error::Input { value: 3.0, .. })), "{refused:?}");
     }
-    let under = |stiffness| {
-        let building = building().with_p_delta(10.0).unwrap();
-        building.with_law(0, Bilinear::new(stiffness, 10.0, 0.5).unwrap())
-    };
-    assert!(under(6667.0).is_ok());
-    assert!(matches!(under(6666.0), Err(Error::Input { value: 3.0, .. })));
+    assert!(yielding_under_weight(6667.0).is_ok());
+    assert!(matches!(yielding_under_weight(6666.0), Err(Error::Input { value: 3.0, .. })));
 }
 
 /// Columns that yield and do not harden buckle under what they carry: the end of the building, and of

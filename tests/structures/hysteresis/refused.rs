@@ -9,16 +9,16 @@ use basemat::structure::{
 };
 use basemat::{Error, Result};
 
-const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+const INVALID_NUMBERS: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-#[expect(clippy::needless_pass_by_value, reason = "every call makes its own")]
+#[expect(clippy::needless_pass_by_value, reason = "takes results as they come")]
 fn is_input<T>(result: Result<T>) -> bool {
     matches!(result, Err(Error::Input { .. }))
 }
 
 #[test]
 fn bad_parameters_are_refused() {
-    for bad in BAD {
+    for bad in INVALID_NUMBERS {
         assert!(is_input(Bilinear::new(bad, 1.0, 0.1)));
         assert!(is_input(Bilinear::new(1.0, bad, 0.1)));
         assert!(is_input(BoucWen::new(bad, 1.0, 0.1)));
@@ -66,15 +66,16 @@ fn laws_have_one_storey_each() {
     assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
     let one = building().with_law(1, law()).unwrap();
     // A law's force is not a weighted sum of displacements: the inertia above represents it.
-    let [linear, own] = [0, 1].map(|storey| one.shear(storey).unwrap());
-    assert!(linear.acceleration.is_empty() && own.displacement.is_empty());
-    assert_eq!(own.acceleration[..], [(4, -2e4)]);
+    let linear_shear = one.shear(0).unwrap();
+    let law_shear = one.shear(1).unwrap();
+    assert!(linear_shear.acceleration.is_empty() && law_shear.displacement.is_empty());
+    assert_eq!(law_shear.acceleration[..], [(4, -2e4)]);
     let none = building();
     assert!(none.nonlinear().is_none());
     assert!(matches!(none.shear(2), Err(Error::Index { .. })));
     assert!(matches!(none.with_law(2, law()), Err(Error::Index { index: 2, bound: 2, .. })));
     let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 0.0, damping: 0.0 };
-    for bad in BAD {
+    for bad in INVALID_NUMBERS {
         for level in [
             IsolationLevel { height: bad, ..level },
             IsolationLevel { slab_mass: bad, ..level },
@@ -91,12 +92,15 @@ fn laws_have_one_storey_each() {
     assert!(isolated.drift(2).is_ok() && isolated.drift(3).is_err());
 }
 
+fn sprung_block() -> WithSprings {
+    WithSprings::new(RigidBlock::new(2.0, 4.0, 2000.0).unwrap())
+}
+
 #[test]
 fn springs_need_dofs_that_exist() {
-    let block = || WithSprings::new(RigidBlock::new(2.0, 4.0, 2000.0).unwrap());
-    assert!(block().nonlinear().is_none());
-    assert!(matches!(block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));
-    assert!(is_input(block().spring(vec![(0, f64::NAN)], law())));
+    assert!(sprung_block().nonlinear().is_none());
+    assert!(matches!(sprung_block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));
+    assert!(is_input(sprung_block().spring(vec![(0, f64::NAN)], law())));
 }
 
 #[test]
@@ -109,7 +113,8 @@ fn saved_states_that_are_not_finite_are_refused() {
     ];
     for mut law in laws {
         law.commit(0.05);
-        let (saved, before) = (law.save(), law.response(0.03));
+        let saved = law.save();
+        let before = law.response(0.03);
         for place in 0..saved.len() {
             for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let mut wrong = saved.clone();
@@ -124,40 +129,42 @@ fn saved_states_that_are_not_finite_are_refused() {
     }
 }
 
+fn spring_force(structure: &WithSprings) -> [f64; 5] {
+    let mut force = [0.0; 5];
+    structure.force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force).unwrap();
+    force
+}
+
 #[test]
 fn saved_states_come_back_or_change_nothing() {
     let bouc_wen = BoucWen::new(1e7, 1e5, 0.1).unwrap();
-    let mut held = WithSprings::new(building().with_law(0, law()).unwrap())
+    let mut structure = WithSprings::new(building().with_law(0, law()).unwrap())
         .spring(vec![(3, 1.0), (0, -1.0)], bouc_wen.clone())
         .unwrap();
     let u = [0.0, 0.0, 0.0, 0.02, 0.03];
-    held.commit(&u);
-    let force = |held: &WithSprings| {
-        let mut force = [0.0; 5];
-        held.force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force).unwrap();
-        force
-    };
-    let (saved, before) = (held.save().unwrap(), force(&held));
+    structure.commit(&u);
+    let saved = structure.save().unwrap();
+    let before = spring_force(&structure);
     assert_eq!(saved.len(), 5);
     for (place, value) in [(1, 2.0), (2, -1.0), (4, -1.0)] {
         let mut wrong = saved.clone();
         wrong[place] = value;
-        assert!(matches!(held.restore(&wrong), Err(Error::Checkpoint(_))), "{place}");
-        assert_eq!(force(&held), before);
+        assert!(matches!(structure.restore(&wrong), Err(Error::Checkpoint(_))), "{place}");
+        assert_eq!(spring_force(&structure), before);
     }
     for length in [0, 2, 3, 4, 6] {
         let mut wrong = saved.clone();
         wrong.resize(length, 0.0);
-        assert!(matches!(held.restore(&wrong), Err(Error::Checkpoint(_))), "{length}");
-        assert_eq!(force(&held), before);
+        assert!(matches!(structure.restore(&wrong), Err(Error::Checkpoint(_))), "{length}");
+        assert_eq!(spring_force(&structure), before);
     }
-    held.commit(&[0.0, 0.0, 0.0, -0.04, -0.05]);
-    assert_ne!(force(&held), before);
-    held.restore(&saved).unwrap();
-    assert_eq!(force(&held), before);
+    structure.commit(&[0.0, 0.0, 0.0, -0.04, -0.05]);
+    assert_ne!(spring_force(&structure), before);
+    structure.restore(&saved).unwrap();
+    assert_eq!(spring_force(&structure), before);
     // Slices that are too short count as zero beyond their ends.
-    held.force(&[0.0; 2], &mut [0.0; 2]).unwrap();
-    held.commit(&[]);
+    structure.force(&[0.0; 2], &mut [0.0; 2]).unwrap();
+    structure.commit(&[]);
     // Out-of-range deformations give numbers that are not finite, and no panic.
     for wild in [f64::NAN, f64::INFINITY, 1e300] {
         let _ = bouc_wen.response(wild);

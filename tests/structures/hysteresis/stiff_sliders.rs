@@ -16,12 +16,12 @@ use basemat::structure::{
 
 use basemat_problems::random::Random;
 
-const FLOOR: f64 = 20.0e3;
-const LEVEL: IsolationLevel =
+const FLOOR_MASS: f64 = 20.0e3;
+const ISOLATION_LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
 
 fn building(storeys: usize, stiffness: f64, damping: f64) -> ShearBuilding {
-    let storeys = vec![Storey::new(3.0, FLOOR, stiffness); storeys];
+    let storeys = vec![Storey::new(3.0, FLOOR_MASS, stiffness); storeys];
     let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
     building.with_stiffness_damping(damping).unwrap()
 }
@@ -59,7 +59,8 @@ fn shake(
 fn random_law(weight: f64, random: &mut Random) -> Box<dyn Hysteresis> {
     let yield_displacement = random.log_within(1e-4, 2e-2);
     let force = random.within(0.03, 0.2) * weight;
-    let (stiffness, hardening) = (force / yield_displacement, random.pick(&[0.0, 0.02, 0.1]));
+    let stiffness = force / yield_displacement;
+    let hardening = random.pick(&[0.0, 0.02, 0.1]);
     match random.pick(&[0, 1, 2, 3]) {
         0 => Box::new(Bilinear::new(stiffness, force, hardening).unwrap()),
         1 => {
@@ -79,6 +80,11 @@ fn random_law(weight: f64, random: &mut Random) -> Box<dyn Hysteresis> {
     }
 }
 
+/// Weight of the floors above a storey.
+fn weight_above(storey: usize, storeys: usize) -> f64 {
+    STANDARD_GRAVITY * FLOOR_MASS * (storeys - storey) as f64
+}
+
 #[test]
 fn random_buildings_are_solved() {
     let scenes = std::env::var("NONLINEAR_SCENES").ok().and_then(|text| text.parse().ok());
@@ -87,20 +93,19 @@ fn random_buildings_are_solved() {
     let mut failed = Vec::new();
     for scene in 0..scenes {
         let storeys = random.pick(&[1, 2, 3, 4, 5]);
-        let own = building(storeys, random.log_within(5e6, 1e8), random.pick(&[0.0, 0.02]));
-        let above = |storey: usize| STANDARD_GRAVITY * FLOOR * (storeys - storey) as f64;
+        let fixed_base = building(storeys, random.log_within(5e6, 1e8), random.pick(&[0.0, 0.02]));
         let isolated = random.chance(0.5);
         let mut structure = if isolated {
-            let weight = above(0) + STANDARD_GRAVITY * LEVEL.slab_mass;
+            let weight = weight_above(0, storeys) + STANDARD_GRAVITY * ISOLATION_LEVEL.slab_mass;
             let law = random_law(weight, &mut random);
-            own.isolated(LEVEL, law).unwrap()
+            fixed_base.isolated(ISOLATION_LEVEL, law).unwrap()
         } else {
-            own
+            fixed_base
         };
         for storey in 0..storeys {
             if !isolated || random.chance(0.3) {
                 let level = storey + usize::from(isolated);
-                let law = random_law(above(storey), &mut random);
+                let law = random_law(weight_above(storey, storeys), &mut random);
                 structure = structure.with_law(level, law).unwrap();
             }
         }
@@ -125,7 +130,8 @@ fn random_buildings_are_solved() {
 #[test]
 fn pendulums_that_slide_after_a_tenth_of_a_millimetre_are_solved() {
     let all = std::env::var_os("NONLINEAR_SCENES").is_some();
-    let (mut scenes, mut failed) = (0, Vec::new());
+    let mut scenes = 0;
+    let mut failed = Vec::new();
     for storeys in [1, 2, 3, 5] {
         for modulus in [20e6, 80e6, 300e6] {
             for friction in [0.03, 0.06, 0.1] {
@@ -134,11 +140,12 @@ fn pendulums_that_slide_after_a_tenth_of_a_millimetre_are_solved() {
                     if !(all || published) {
                         continue;
                     }
-                    let weight = STANDARD_GRAVITY * (LEVEL.slab_mass + storeys as f64 * FLOOR);
+                    let weight = STANDARD_GRAVITY
+                        * (ISOLATION_LEVEL.slab_mass + storeys as f64 * FLOOR_MASS);
                     let law = FrictionPendulum::new(weight, radius, friction).unwrap();
                     let law = law.with_yield_displacement(1e-4).unwrap();
-                    let own = building(storeys, 7.0e6 * storeys as f64, 0.02);
-                    let structure = own.isolated(LEVEL, law).unwrap();
+                    let fixed_base = building(storeys, 7.0e6 * storeys as f64, 0.02);
+                    let structure = fixed_base.isolated(ISOLATION_LEVEL, law).unwrap();
                     let below = Below { modulus, friction: 0.4, elements: 8 };
                     scenes += 1;
                     match shake(structure, below, 1.0, 0.02, 15.0) {

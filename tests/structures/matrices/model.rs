@@ -31,96 +31,110 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
         .gravity(STANDARD_GRAVITY)
 }
 
+/// The matrix that `fill` adds up.
+fn filled(order: usize, fill: impl Fn(&mut Triplets) -> basemat::Result<()>) -> Triplets {
+    let mut matrix = Triplets::new(order);
+    fill(&mut matrix).unwrap();
+    matrix
+}
+
+/// Largest base moment of four seconds, of which the energy balance closes.
+fn largest_moment(structure: impl Structure + 'static) -> f64 {
+    let mut simulation = on_soil(structure).build().unwrap();
+    let run = simulation.run(400, |_| {}).unwrap();
+    assert!(run.energy_error < 1e-9);
+    run.whole.base_moment.largest().value
+}
+
 #[test]
 fn matrices_march_as_the_model_they_came_from() {
-    let damping = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
-    let model = tower(6, 10).with_rayleigh(damping);
-    let filled = |fill: &dyn Fn(&mut Triplets) -> basemat::Result<()>| {
-        let mut matrix = Triplets::new(model.dofs());
-        fill(&mut matrix).unwrap();
-        matrix
-    };
-    let [mass, damp, stiffness] = [
-        filled(&|m| model.mass(m)),
-        filled(&|m| model.damping(m)),
-        filled(&|m| model.stiffness(m)),
-    ];
-    let given = MatrixModel::new(mass, stiffness, model.base()).unwrap();
-    let rayleigh = given.clone().with_rayleigh(damping);
-    let full = given.with_damping(damp).unwrap();
-    let run = |builder: SimulationBuilder| {
-        let mut simulation = builder.build().unwrap();
-        let run = simulation.run(400, |_| {}).unwrap();
-        assert!(run.energy_error < 1e-9);
-        run.whole.base_moment.largest().value
-    };
-    let expected = run(on_soil(model));
-    for found in [run(on_soil(full)), run(on_soil(rayleigh))] {
+    let rayleigh = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
+    let model = tower(6, 10).with_rayleigh(rayleigh);
+    let mass = filled(model.dofs(), |matrix| model.mass(matrix));
+    let damping = filled(model.dofs(), |matrix| model.damping(matrix));
+    let stiffness = filled(model.dofs(), |matrix| model.stiffness(matrix));
+    let undamped = MatrixModel::new(mass, stiffness, model.base()).unwrap();
+    let with_rayleigh = undamped.clone().with_rayleigh(rayleigh);
+    let with_matrix = undamped.with_damping(damping).unwrap();
+    let expected = largest_moment(model);
+    for found in [largest_moment(with_matrix), largest_moment(with_rayleigh)] {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     }
 }
 
+fn diagonal_matrix(order: usize, value: f64) -> Triplets {
+    let mut matrix = Triplets::new(order);
+    (0..order).for_each(|i| matrix.add(i, i, value));
+    matrix
+}
+
+/// The model of these matrices on a rigid base.
+fn model_of(mass: Triplets, stiffness: Triplets) -> basemat::Result<MatrixModel> {
+    MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2]))
+}
+
+fn is_input<T>(result: &basemat::Result<T>) -> bool {
+    matches!(result, Err(Error::Input { .. }))
+}
+
+fn is_size<T>(result: &basemat::Result<T>) -> bool {
+    matches!(result, Err(Error::Size { .. }))
+}
+
 #[test]
 fn bad_matrices_are_refused() {
-    let diagonal = |n: usize, value: f64| {
-        let mut matrix = Triplets::new(n);
-        (0..n).for_each(|i| matrix.add(i, i, value));
-        matrix
-    };
-    let contact = || BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2]);
-    let one = || diagonal(3, 1.0);
-    assert!(MatrixModel::new(one(), Triplets::new(3), contact()).is_ok());
-    let new = MatrixModel::new;
+    let unit = diagonal_matrix(3, 1.0);
+    assert!(model_of(unit.clone(), Triplets::new(3)).is_ok());
     let huge = Triplets::new(usize::MAX);
-    assert!(matches!(new(huge.clone(), huge, contact()), Err(Error::Memory(_))));
-    assert!(matches!(new(Triplets::new(0), one(), contact()), Err(Error::Size { .. })));
-    assert!(matches!(new(one(), diagonal(4, 1.0), contact()), Err(Error::Size { .. })));
-    assert!(matches!(new(one(), one(), vec![]), Err(Error::Size { .. })));
-    assert!(matches!(new(diagonal(2, 1.0), diagonal(2, 1.0), contact()), Err(Error::Index { .. })));
-    assert!(matches!(new(diagonal(3, f64::NAN), one(), contact()), Err(Error::Input { .. })));
-    assert!(matches!(new(one(), diagonal(3, f64::INFINITY), contact()), Err(Error::Input { .. })));
-    let mut skew = one();
+    assert!(matches!(model_of(huge.clone(), huge), Err(Error::Memory(_))));
+    assert!(is_size(&model_of(Triplets::new(0), unit.clone())));
+    assert!(is_size(&model_of(unit.clone(), diagonal_matrix(4, 1.0))));
+    assert!(is_size(&MatrixModel::new(unit.clone(), unit.clone(), vec![])));
+    let small = diagonal_matrix(2, 1.0);
+    assert!(matches!(model_of(small.clone(), small.clone()), Err(Error::Index { .. })));
+    assert!(is_input(&model_of(diagonal_matrix(3, f64::NAN), unit.clone())));
+    assert!(is_input(&model_of(unit.clone(), diagonal_matrix(3, f64::INFINITY))));
+    let mut skew = unit.clone();
     skew.add(0, 1, 0.5);
     assert!(matches!(
-        new(skew, one(), contact()),
+        model_of(skew, unit.clone()),
         Err(Error::Unsymmetric { row: 0, column: 1, entries: [0.5, 0.0], .. })
     ));
-    let mut outside = one();
+    let mut outside = unit.clone();
     outside.add(0, 3, 0.5);
-    assert!(matches!(new(one(), outside, contact()), Err(Error::Index { .. })));
+    assert!(matches!(model_of(unit.clone(), outside), Err(Error::Index { .. })));
     let far = BaseNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
-    assert!(matches!(new(one(), one(), far), Err(Error::Input { .. })));
-    let model = new(one(), one(), contact()).unwrap();
-    assert!(matches!(model.clone().with_damping(diagonal(2, 1.0)), Err(Error::Size { .. })));
-    assert!(matches!(model.with_damping(diagonal(3, f64::NAN)), Err(Error::Input { .. })));
+    assert!(is_input(&MatrixModel::new(unit.clone(), unit.clone(), far)));
+    let model = model_of(unit.clone(), unit).unwrap();
+    assert!(is_size(&model.clone().with_damping(small)));
+    assert!(is_input(&model.with_damping(diagonal_matrix(3, f64::NAN))));
 }
 
 #[track_caller]
-fn refused(structure: impl Structure + 'static) {
-    let built = on_soil(structure).build();
+fn assert_restrained(structure: impl Structure + 'static) {
+    let error = on_soil(structure).build().err();
     assert!(
-        matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
-        "{:?}",
-        built.err()
+        matches!(error, Some(Error::Structure(StructureError::Restrained { .. }))),
+        "{error:?}"
     );
 }
 
 /// An elastic support would carry part of the weight and distort the rigid motion by which the structure is weighed.
 #[test]
 fn stiffness_to_a_fixed_point_is_refused() {
-    let block = || RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
+    let block = RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
     for (dof, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
-        let [mut mass, mut spring] = [(); 2].map(|()| Triplets::new(3));
-        block().mass(&mut mass).unwrap();
+        let mass = filled(3, |matrix| block.mass(matrix));
+        let mut spring = Triplets::new(3);
         spring.add(dof, dof, stiffness);
-        refused(MatrixModel::new(mass, spring, block().base()).unwrap());
+        assert_restrained(MatrixModel::new(mass, spring, block.base()).unwrap());
         let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
-        let held = WithSprings::new(block()).spring(vec![(dof, 1.0)], law).unwrap();
-        refused(held);
+        let sprung = WithSprings::new(block.clone()).spring(vec![(dof, 1.0)], law).unwrap();
+        assert_restrained(sprung);
     }
     let roof = tower(4, 6).dofs() - 1;
     let law = Bilinear::new(1e8, 1e5, 0.1).unwrap();
-    refused(WithSprings::new(tower(4, 6)).spring(vec![(roof, 1.0)], law).unwrap());
+    assert_restrained(WithSprings::new(tower(4, 6)).spring(vec![(roof, 1.0)], law).unwrap());
 }
 
 /// However stiff, a structure without supports is free to translate.
@@ -137,8 +151,8 @@ fn stiff_structures_are_free_to_translate() {
 }
 
 /// A rigid block with a negative mass on a spring.
-struct Light(RigidBlock);
-impl Structure for Light {
+struct LightBlock(RigidBlock);
+impl Structure for LightBlock {
     fn dofs(&self) -> usize {
         4
     }
@@ -156,53 +170,61 @@ impl Structure for Light {
     }
 }
 
+/// A floor of these masses on a rigid base.
+fn floor_of_masses(entries: &[(usize, usize, f64)]) -> basemat::Result<MatrixModel> {
+    let mut mass = Triplets::new(4);
+    (0..3).for_each(|dof| mass.add(dof, dof, 2.0e4));
+    for &(i, j, value) in entries {
+        mass.add(i, j, value);
+    }
+    let mut stiffness = Triplets::new(4);
+    stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+    MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
+}
+
+/// Error of a mass matrix whose row 3 is negative.
+fn negative_mass(diagonal: f64) -> Error {
+    Error::Indefinite { matrix: "mass matrix", row: 3, diagonal }
+}
+
 /// A mass below zero would let energy grow without end beside a closed energy balance.
 #[test]
 fn negative_masses_are_refused() {
-    let of = |entries: &[(usize, usize, f64)]| {
-        let mut mass = Triplets::new(4);
-        (0..3).for_each(|dof| mass.add(dof, dof, 2.0e4));
-        for &(i, j, value) in entries {
-            mass.add(i, j, value);
-        }
-        let mut stiffness = Triplets::new(4);
-        stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
-        MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
-    };
-    let negative = of(&[(3, 3, -1000.0)]);
-    let named = |row, diagonal| Error::Indefinite { matrix: "mass matrix", row, diagonal };
-    assert_eq!(negative.unwrap_err(), named(3, -1000.0));
+    let negative = floor_of_masses(&[(3, 3, -1000.0)]);
+    assert_eq!(negative.unwrap_err(), negative_mass(-1000.0));
     // Positive on the diagonal, and negative for u_0 and u_3 in opposite ways.
-    let skew = of(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
-    assert_eq!(skew.unwrap_err(), named(3, 1.0e4));
+    let skew = floor_of_masses(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
+    assert_eq!(skew.unwrap_err(), negative_mass(1.0e4));
     // A mass on a weighted sum of degrees of freedom, and none at all, are singular, not negative.
     for legal in [&[(3, 3, 2.0e4), (0, 3, 2.0e4), (3, 0, 2.0e4)][..], &[]] {
-        assert!(on_soil(of(legal).unwrap()).build().is_ok());
+        assert!(on_soil(floor_of_masses(legal).unwrap()).build().is_ok());
     }
-    let built = on_soil(Light(RigidBlock::new(6.0, 10.0, 2000.0).unwrap())).build();
-    assert_eq!(built.err(), Some(named(3, -1000.0)));
+    let built = on_soil(LightBlock(RigidBlock::new(6.0, 10.0, 2000.0).unwrap())).build();
+    assert_eq!(built.err(), Some(negative_mass(-1000.0)));
+}
+
+/// A mast of two hinged bars that carry `load`.
+fn mast_under(load: f64) -> basemat::Result<Simulation> {
+    let mut mass = Triplets::new(5);
+    (0..5).for_each(|dof| mass.add(dof, dof, 1.0e4));
+    let mut stiffness = Triplets::new(5);
+    for (row, sway) in [
+        ([(3, 1.0), (0, -1.0), (2, 5.0)], [(3, 1.0), (0, -1.0)]),
+        ([(4, 1.0), (3, -1.0), (2, 5.0)], [(4, 1.0), (3, -1.0)]),
+    ] {
+        stiffness.add_outer(row, 1.0e6);
+        stiffness.add_outer(sway, -load / 5.0);
+    }
+    let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+    on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()
 }
 
 /// Under more than its buckling load a mast of two hinged bars gives energy away, the base at rest.
-/// A block's own P–Δ does so only where the base may turn, and is as it should be.
+/// A block's P–Δ effect does so only where the base may turn, and is as it should be.
 #[test]
-fn negative_stiffness_on_a_held_base_is_refused() {
-    let mast = |load: f64| {
-        let mut mass = Triplets::new(5);
-        (0..5).for_each(|dof| mass.add(dof, dof, 1.0e4));
-        let mut stiffness = Triplets::new(5);
-        for (row, sway) in [
-            ([(3, 1.0), (0, -1.0), (2, 5.0)], [(3, 1.0), (0, -1.0)]),
-            ([(4, 1.0), (3, -1.0), (2, 5.0)], [(4, 1.0), (3, -1.0)]),
-        ] {
-            stiffness.add_outer(row, 1.0e6);
-            stiffness.add_outer(sway, -load / 5.0);
-        }
-        let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
-        on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()
-    };
-    assert!(mast(0.999 * 5.0e6).is_ok());
-    let refused = mast(1.001 * 5.0e6).err();
+fn negative_stiffness_on_a_fixed_base_is_refused() {
+    assert!(mast_under(0.999 * 5.0e6).is_ok());
+    let refused = mast_under(1.001 * 5.0e6).err();
     assert!(matches!(refused, Some(Error::Indefinite { .. })), "{refused:?}");
     let slender = RigidBlock::new(1.0, 4.0, 2000.0).unwrap().with_p_delta(9.81).unwrap();
     let built = Simulation::builder(0.01)

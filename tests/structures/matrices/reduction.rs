@@ -22,7 +22,6 @@ fn top(model: &FemModel) -> usize {
     model.dof(model.mesh().node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
 }
 
-/// A x for a matrix of the structure.
 /// A structure's matrix times a vector.
 fn product(
     structure: &dyn Structure,
@@ -34,7 +33,7 @@ fn product(
     dense::product(&matrix, x)
 }
 
-/// Reduced degrees of freedom of a motion of the full model that static answers alone can make.
+/// Reduced degrees of freedom of a motion of the full model that static shapes alone can make.
 fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
     let mut reduced: Vec<f64> = recovery.kept().iter().map(|&dof| full[dof]).collect();
     reduced.resize(order, 0.0);
@@ -54,27 +53,29 @@ fn rigid_motions_weight_and_inertia_pass_exactly() {
     for (motion, momentum) in rigid.iter().zip(&inertia) {
         let q = static_motion(&recovery, order, motion);
         let back = recovery.full(&q).unwrap();
-        let apart: Vec<f64> = back.iter().zip(motion).map(|(a, b)| a - b).collect();
-        assert!(largest(&apart) < 1e-9 * largest(motion), "{:e}", largest(&apart));
+        let difference: Vec<f64> = back.iter().zip(motion).map(|(a, b)| a - b).collect();
+        assert!(largest(&difference) < 1e-9 * largest(motion), "{:e}", largest(&difference));
         let force = product(&reduced, Structure::stiffness, &q);
         assert!(largest(&force) < 1e-11 * 2.0e9 * largest(motion), "{:e}", largest(&force));
         for other in &rigid {
             let expected: f64 = other.iter().zip(momentum).map(|(a, b)| a * b).sum();
-            let own = static_motion(&recovery, order, other);
-            let found: f64 =
-                product(&reduced, Structure::mass, &q).iter().zip(&own).map(|(a, b)| a * b).sum();
+            let other_q = static_motion(&recovery, order, other);
+            let momentum = product(&reduced, Structure::mass, &q);
+            let found: f64 = momentum.iter().zip(&other_q).map(|(a, b)| a * b).sum();
             let scale = 15.0_f64.powi(2) * 180e3;
             assert!((found - expected).abs() < 1e-9 * scale, "{found} {expected}");
         }
     }
 }
 
-/// Displacement of the top and base moment of the reduced model against the full model, uplift and sliding included:
-/// the more modes, the nearer, and with all of them the same.
-#[test]
-fn marches_like_the_full_model() {
-    let steps = 500;
-    let full = {
+/// Five seconds of the full model: displacement of the top and base moment in all steps, and the last displacement.
+struct FullRun {
+    history: Vec<[f64; 2]>,
+    displacement: Vec<f64>,
+}
+
+impl FullRun {
+    fn new(steps: usize) -> Self {
         let model = damped();
         let row = top(&model);
         let mut simulation = on_soil(model)
@@ -84,9 +85,21 @@ fn marches_like_the_full_model() {
             .unwrap();
         let mut history = Vec::new();
         simulation.run(steps, |state| history.push([state.probes[0], state.base_moment])).unwrap();
-        (history, simulation.state().displacement().to_vec())
-    };
-    let peak = |k: usize| full.0.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()));
+        Self { history, displacement: simulation.state().displacement().to_vec() }
+    }
+
+    fn peak(&self, k: usize) -> f64 {
+        self.history.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()))
+    }
+}
+
+/// Displacement of the top and base moment of the reduced model against the full model, uplift and sliding included:
+/// the more modes, the nearer, and with all of them the same.
+#[test]
+fn marches_like_the_full_model() {
+    let steps = 500;
+    let full = FullRun::new(steps);
+    let peaks = [full.peak(0), full.peak(1)];
     let interior = damped().dofs() - 14;
     let mut last = f64::INFINITY;
     for (modes, limit) in [(1, 0.2), (4, 0.04), (16, 0.004), (interior, 1e-7)] {
@@ -98,56 +111,65 @@ fn marches_like_the_full_model() {
         let probe = recovery.probe(Probe::displacement("top", dof)).unwrap();
         assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
         let mut simulation = on_soil(reduced).probe(probe).build().unwrap();
-        let (mut apart, mut step) = ([0.0_f64; 2], 0);
+        let mut errors = [0.0_f64; 2];
+        let mut step = 0;
         let run = simulation
             .run(steps, |state| {
                 for (k, value) in [state.probes[0], state.base_moment].into_iter().enumerate() {
-                    apart[k] = apart[k].max((value - full.0[step][k]).abs() / peak(k));
+                    errors[k] = errors[k].max((value - full.history[step][k]).abs() / peaks[k]);
                 }
                 step += 1;
             })
             .unwrap();
-        println!("{modes} modes: sway off by {:.1e}, moment by {:.1e}", apart[0], apart[1]);
+        println!("{modes} modes: sway off by {:.1e}, moment by {:.1e}", errors[0], errors[1]);
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
-        assert!(apart[0] < limit && apart[0] < last, "{modes} modes: {apart:?}");
-        last = apart[0];
+        assert!(errors[0] < limit && errors[0] < last, "{modes} modes: {errors:?}");
+        last = errors[0];
         let back = recovery.full(simulation.state().displacement()).unwrap();
         assert!((back[dof] - simulation.state().probes[0]).abs() < 1e-12);
         if modes == interior {
-            let off: Vec<f64> = back.iter().zip(&full.1).map(|(a, b)| a - b).collect();
-            assert!(largest(&off) < 1e-6 * peak(0), "{:e}", largest(&off));
+            let difference: Vec<f64> =
+                back.iter().zip(&full.displacement).map(|(a, b)| a - b).collect();
+            assert!(largest(&difference) < 1e-6 * peaks[0], "{:e}", largest(&difference));
         }
     }
+}
+
+fn yielding_law() -> Bilinear {
+    Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap()
+}
+
+/// Hysteretic energy and largest base shear of three seconds.
+fn march_with_springs(structure: WithSprings) -> [f64; 2] {
+    let mut simulation = on_soil(structure).build().unwrap();
+    let run = simulation.run(300, |_| {}).unwrap();
+    [run.energy_balance.hysteresis, run.whole.base_shear.largest().value]
 }
 
 /// Kept degrees of freedom stay themselves, and springs on them work as on the full model.
 #[test]
 fn springs_on_kept_dofs_are_those_of_the_full_model() {
-    let law = || Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap();
     let model = damped();
-    let (dof, left) = (top(&model), model.dof(0, Direction::X).unwrap());
-    let brace = vec![(dof, 1.0), (left, -1.0)];
-    let march = |structure: WithSprings| {
-        let mut simulation = on_soil(structure).build().unwrap();
-        let run = simulation.run(300, |_| {}).unwrap();
-        (run.energy_balance.hysteresis, run.whole.base_shear.largest().value)
-    };
-    let expected = march(WithSprings::new(damped()).spring(brace.clone(), law()).unwrap());
+    let dof = top(&model);
+    let corner = model.dof(0, Direction::X).unwrap();
+    let brace = vec![(dof, 1.0), (corner, -1.0)];
+    let full = WithSprings::new(damped()).spring(brace.clone(), yielding_law()).unwrap();
+    let expected = march_with_springs(full);
     let reduced = CraigBampton::new(60).keep(&[dof]).reduce(model).unwrap();
     let recovery = reduced.recovery();
     let place = recovery.kept().iter().position(|kept| *kept == dof).unwrap();
     let row = recovery.row(&brace[..]).unwrap();
     for (index, weight) in &row {
-        let is_end = *index == place || recovery.kept().get(*index) == Some(&left);
+        let is_end = *index == place || recovery.kept().get(*index) == Some(&corner);
         assert_eq!(weight.abs(), f64::from(u8::from(is_end)), "{index}");
     }
-    let found = march(WithSprings::new(reduced).spring(row, law()).unwrap());
-    assert!(expected.0 > 100.0, "it yields");
-    assert!((found.0 / expected.0 - 1.0).abs() < 0.01, "{found:?} {expected:?}");
-    assert!((found.1 / expected.1 - 1.0).abs() < 0.02, "{found:?} {expected:?}");
+    let found = march_with_springs(WithSprings::new(reduced).spring(row, yielding_law()).unwrap());
+    assert!(expected[0] > 100.0, "it yields");
+    assert!((found[0] / expected[0] - 1.0).abs() < 0.01, "{found:?} {expected:?}");
+    assert!((found[1] / expected[1] - 1.0).abs() < 0.02, "{found:?} {expected:?}");
 }
 
-/// Free decay on a held base: with the base of a huge mass, a mode on a fixed base loses 2πζ a cycle.
+/// Free decay on a fixed base: with the base of a huge mass, a mode on a fixed base loses 2πζ a cycle.
 #[test]
 fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
     let reduced =
@@ -156,11 +178,14 @@ fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
     for (k, frequency) in reduced.frequencies().iter().enumerate() {
         let mut q = vec![0.0; order];
         q[order - 3 + k] = 1.0;
-        let diagonal = |fill| product(&reduced, fill, &q)[order - 3 + k];
+        let place = order - 3 + k;
         let w = std::f64::consts::TAU * frequency;
-        assert!((diagonal(|s: &dyn Structure, m| s.stiffness(m)) / (w * w) - 1.0).abs() < 1e-12);
-        assert!((diagonal(Structure::mass) - 1.0).abs() < 1e-10);
-        assert!((diagonal(Structure::damping) / (2.0 * 0.04 * w) - 1.0).abs() < 1e-12);
+        let stiffness = product(&reduced, |s, matrix| s.stiffness(matrix), &q)[place];
+        assert!((stiffness / (w * w) - 1.0).abs() < 1e-12);
+        let mass = product(&reduced, Structure::mass, &q)[place];
+        assert!((mass - 1.0).abs() < 1e-10);
+        let damping = product(&reduced, Structure::damping, &q)[place];
+        assert!((damping / (2.0 * 0.04 * w) - 1.0).abs() < 1e-12);
     }
 }
 
@@ -179,16 +204,21 @@ fn modes_on_a_fixed_base_are_those_of_a_cantilever() {
     }
 }
 
+/// The error of a reduction that must fail.
+fn reduction_error(result: basemat::Result<ReducedModel>) -> Error {
+    result.err().unwrap()
+}
+
 #[test]
 fn what_cannot_be_reduced_is_refused() {
-    let refuse = |result: basemat::Result<ReducedModel>| result.err().unwrap();
     let law = Bilinear::new(1e6, 1e3, 0.0).unwrap();
     let springs = WithSprings::new(tower(2, 2)).spring(vec![(0, 1.0)], law).unwrap();
-    assert!(matches!(refuse(CraigBampton::new(1).reduce(springs)), Error::Scene { .. }));
-    let missing = CraigBampton::new(1).keep(&[1000]).reduce(tower(2, 2));
-    assert!(matches!(refuse(missing), Error::Index { index: 1000, .. }));
-    let many = CraigBampton::new(13).reduce(tower(2, 2));
-    assert!(matches!(refuse(many), Error::Size { found: 13, needed: 12, .. }));
+    let error = reduction_error(CraigBampton::new(1).reduce(springs));
+    assert!(matches!(error, Error::Scene { .. }));
+    let error = reduction_error(CraigBampton::new(1).keep(&[1000]).reduce(tower(2, 2)));
+    assert!(matches!(error, Error::Index { index: 1000, .. }));
+    let error = reduction_error(CraigBampton::new(13).reduce(tower(2, 2)));
+    assert!(matches!(error, Error::Size { found: 13, needed: 12, .. }));
     // A node that nothing holds.
     let mut mesh = basemat::fem::Mesh::layered_block(
         -1.0..1.0,
@@ -199,15 +229,18 @@ fn what_cannot_be_reduced_is_refused() {
     let loose = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(basemat::fem::LumpedMass::new(loose, 10.0).unwrap()).unwrap();
     let hanging = CraigBampton::new(1).reduce(FemModel::on_base(mesh).unwrap());
-    let Error::Structure(StructureError::Detached { dofs, place }) = refuse(hanging) else {
+    let Error::Structure(StructureError::Detached { dofs, place }) = reduction_error(hanging)
+    else {
         panic!()
     };
     assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
-    let reduced = || CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
+    let reduced = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
-        assert!(matches!(refuse(reduced().with_damping_ratio(bad)), Error::Input { .. }));
+        let reduced = CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
+        let error = reduction_error(reduced.with_damping_ratio(bad));
+        assert!(matches!(error, Error::Input { .. }));
     }
-    let recovery = reduced().recovery();
+    let recovery = reduced.recovery();
     assert_eq!(recovery.full_dofs(), 18);
     assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
     let probe = Probe::displacement("far", 18);
@@ -217,47 +250,48 @@ fn what_cannot_be_reduced_is_refused() {
     assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
     // A matrix of another order gets entries out of range, which it reports when it is used.
-    reduced().mass(&mut Triplets::new(0)).unwrap();
+    reduced.mass(&mut Triplets::new(0)).unwrap();
     // Nothing left to reduce: the same structure.
     let all: Vec<usize> = (0..18).collect();
     let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();
     assert_eq!(same.dofs(), 18);
 }
 
+/// A tower of 100 m on 12 × 200 quadrilaterals.
+fn tall_tower() -> FemModel {
+    use basemat::fem::{Layer, MassKind, Material, Mesh};
+    let material = Material::new(5.0e9, 0.2, 600.0).unwrap();
+    let mesh = Mesh::layered_block(-3.0..3.0, 12, &[Layer::new(100.0, 200, material)]).unwrap();
+    FemModel::on_base(mesh).unwrap().with_mass(MassKind::Lumped)
+}
+
 /// The sums over a large stiffness matrix are not zero to the last bit; a frictionless base that is
 /// set down must not care.
 #[test]
 fn tall_meshes_stand() {
-    use basemat::fem::{Layer, MassKind, Material, Mesh};
-    let material = Material::new(5.0e9, 0.2, 600.0).unwrap();
-    let model = || {
-        let mesh = Mesh::layered_block(-3.0..3.0, 12, &[Layer::new(100.0, 200, material)]).unwrap();
-        FemModel::on_base(mesh).unwrap().with_mass(MassKind::Lumped)
-    };
     let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
-    let reduced = on_soil(CraigBampton::new(4).reduce(model()).unwrap()).build().unwrap();
-    let full = on_soil(model()).coordinates(Coordinates::Physical).build().unwrap();
+    let reduced = on_soil(CraigBampton::new(4).reduce(tall_tower()).unwrap()).build().unwrap();
+    let full = on_soil(tall_tower()).coordinates(Coordinates::Physical).build().unwrap();
     for simulation in [&full, &reduced] {
         assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-7);
     }
     for (a, b) in full.state().contact.iter().zip(&reduced.state().contact) {
-        // Slow loads pass by static answers; weight on the interior by the modes that are kept.
+        // Slow loads pass by static shapes; weight on the interior by the modes that are kept.
         assert!((a.pressure - b.pressure).abs() < 1e-2 * weight / 6.0, "{a:?} {b:?}");
     }
 }
 
-/// A weightless mast on a rigid base has no modes of its own.
+/// A weightless mast on a rigid base has no modes.
 #[test]
 fn without_mass_or_dofs_there_are_no_modes() {
-    let mast = || {
-        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
-        (0..3).for_each(|dof| mass.add(dof, dof, 1e4));
-        stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
-        let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
-        MatrixModel::new(mass, stiffness, contact).unwrap()
-    };
+    let mut mass = Triplets::new(4);
+    (0..3).for_each(|dof| mass.add(dof, dof, 1e4));
+    let mut stiffness = Triplets::new(4);
+    stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
+    let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+    let mast = MatrixModel::new(mass, stiffness, contact).unwrap();
     for modes in [0, 1] {
-        let reduced = CraigBampton::new(modes).reduce(mast()).unwrap();
+        let reduced = CraigBampton::new(modes).reduce(mast.clone()).unwrap();
         assert_eq!(reduced.dofs(), 3);
         assert!(reduced.frequencies().is_empty());
     }

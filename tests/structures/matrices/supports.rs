@@ -21,7 +21,9 @@ fn by_matrices(
     support: Option<(usize, f64)>,
 ) -> MatrixModel {
     let n = model.dofs();
-    let [mut mass, mut all, mut stiffness] = [(); 3].map(|()| Triplets::new(n));
+    let mut mass = Triplets::new(n);
+    let mut all = Triplets::new(n);
+    let mut stiffness = Triplets::new(n);
     model.mass(&mut mass).unwrap();
     model.stiffness(&mut all).unwrap();
     let mut sums = std::collections::BTreeMap::new();
@@ -62,7 +64,7 @@ fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
         .build()
 }
 
-/// A spring of 1e-9 of the largest stiffness anywhere, and the wall's own softness beside it: the error
+/// A spring of 1e-9 of the largest stiffness anywhere, beside the wall's softness: the error
 /// says where, and how strong.
 #[test]
 fn weak_supports_are_refused_and_named() {
@@ -77,17 +79,20 @@ fn weak_supports_are_refused_and_named() {
         stiffest.stiffness(&mut entries).unwrap();
         let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
         for ratio in [1e-9, 1e-7, 1e-5] {
-            let held = by_matrices(&block, |value| value, Some((dof, ratio)));
-            match on_soil(held).build().err() {
+            let supported = by_matrices(&block, |value| value, Some((dof, ratio)));
+            match on_soil(supported).build().err() {
                 Some(Error::Structure(StructureError::Restrained {
                     direction,
                     force,
                     dof: found,
-                    ratio: beside,
+                    ratio: found_ratio,
                 })) => {
                     assert_eq!((direction, found), (name, dof), "{ratio:e}");
                     assert!((force / (ratio * largest) - 1.0).abs() < 1e-3, "{ratio:e}: {force}");
-                    assert!(beside > 0.2 * ratio && beside < 5.0 * ratio, "{ratio:e}: {beside:e}");
+                    assert!(
+                        found_ratio > 0.2 * ratio && found_ratio < 5.0 * ratio,
+                        "{ratio:e}: {found_ratio:e}"
+                    );
                 }
                 other => panic!("{ratio:e}: {other:?}"),
             }
@@ -95,9 +100,9 @@ fn weak_supports_are_refused_and_named() {
     }
     let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     for ratio in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
-        let held = by_matrices(&wall(), |value| value, Some((top, ratio)));
-        let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
-        for built in [wall_on_soil(held), wall_on_soil(reduced)] {
+        let supported = by_matrices(&wall(), |value| value, Some((top, ratio)));
+        let reduced = CraigBampton::new(5).reduce(supported.clone()).unwrap();
+        for built in [wall_on_soil(supported), wall_on_soil(reduced)] {
             assert!(
                 matches!(built, Err(Error::Structure(StructureError::Restrained { .. }))),
                 "{ratio:e}: {:?}",
@@ -107,19 +112,27 @@ fn weak_supports_are_refused_and_named() {
     }
 }
 
+/// The value after two operations that round.
+fn rounded(value: f64) -> f64 {
+    (value * 1.1) / 1.1
+}
+
+#[track_caller]
+fn assert_stands(built: Result<Simulation>) {
+    assert!(built.is_ok(), "{:?}", built.err());
+}
+
 /// Rounding of sums, of entries with twelve digits, and of a reduction, is not a support.
 #[test]
 fn rounding_is_no_support() {
-    let shuffled = |value: f64| (value * 1.1) / 1.1;
-    let stands = |built: Result<Simulation>| assert!(built.is_ok(), "{:?}", built.err());
-    stands(on_soil(by_matrices(&tower(6, 20), shuffled, None)).build());
-    stands(on_soil(by_matrices(&tower(6, 20), digits(12), None)).build());
-    stands(wall_on_soil(by_matrices(&wall(), shuffled, None)));
-    stands(wall_on_soil(by_matrices(&wall(), digits(12), None)));
-    stands(wall_on_soil(wall()));
+    assert_stands(on_soil(by_matrices(&tower(6, 20), rounded, None)).build());
+    assert_stands(on_soil(by_matrices(&tower(6, 20), digits(12), None)).build());
+    assert_stands(wall_on_soil(by_matrices(&wall(), rounded, None)));
+    assert_stands(wall_on_soil(by_matrices(&wall(), digits(12), None)));
+    assert_stands(wall_on_soil(wall()));
     let top = wall().dof(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     let reduced = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
-    stands(wall_on_soil(reduced));
+    assert_stands(wall_on_soil(reduced));
 }
 
 /// Seven digits leave forces under a rigid motion: an error with their size.
@@ -135,11 +148,13 @@ fn matrices_of_few_digits_are_refused() {
     }
 }
 
-/// A tower on a rigid mat after Craig and Bampton: x, y, rotation and one mode in a `unit` of its own, with
+/// A tower on a rigid mat after Craig and Bampton: x, y, rotation and one mode in a `unit`, with
 /// `interface` stiffness where there is none but for rounding.
 fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
-    let (weight, participation, height, circular) =
-        (4.0e5, 2.0e2, 40.0, 2.4 * std::f64::consts::PI);
+    let weight = 4.0e5;
+    let participation = 2.0e2;
+    let height = 40.0;
+    let circular = 2.4 * std::f64::consts::PI;
     let mass = [
         [weight, 0.0, -5.0 * weight, participation],
         [0.0, weight, 0.0, 0.0],
@@ -172,19 +187,21 @@ fn on_stiff_soil(structure: MatrixModel) -> Result<Simulation> {
         .build()
 }
 
+/// Largest base shear of two seconds of the tower.
+fn largest_shear(unit: f64, interface: [[f64; 2]; 2]) -> f64 {
+    let mut simulation = on_stiff_soil(craig_bampton(unit, interface)).unwrap();
+    simulation.run(400, |_| {}).unwrap().whole.base_shear.magnitude()
+}
+
 /// Rounding of the interface is a period of days under the tower's mass, whatever the unit of its mode.
 #[test]
 fn rounding_beside_a_rigid_base_is_no_support() {
-    let shear = |unit: f64, interface: [[f64; 2]; 2]| {
-        let mut simulation = on_stiff_soil(craig_bampton(unit, interface)).unwrap();
-        simulation.run(400, |_| {}).unwrap().whole.base_shear.magnitude()
-    };
-    let exact = shear(1.0, [[0.0; 2]; 2]);
+    let exact = largest_shear(1.0, [[0.0; 2]; 2]);
     for unit in [1.0, 1e2, 1e4] {
         for interface in
             [[[1e-6, 0.0], [0.0; 2]], [[1e-3, 3e-4], [2e-4, -1e-3]], [[-1e-3, 0.0], [0.0, 1e-3]]]
         {
-            let found = shear(unit, interface);
+            let found = largest_shear(unit, interface);
             assert!((found / exact - 1.0).abs() < 1e-6, "{unit:e} {interface:?}: {found} {exact}");
         }
     }

@@ -25,7 +25,9 @@ proptest! {
         let matrix = Triplets::from_dense(order, values).unwrap();
         prop_assert_eq!(&dense(&matrix)[..], values);
 
-        let (mut pointers, mut columns, mut kept) = (vec![0], vec![], vec![]);
+        let mut pointers = vec![0];
+        let mut columns = vec![];
+        let mut kept = vec![];
         for row in values.chunks(order) {
             // From the right to the left: order within a row is free.
             for (column, value) in row.iter().enumerate().rev().filter(|(_, v)| **v != 0.0) {
@@ -60,6 +62,18 @@ fn entries_at_the_same_place_add_up_and_bad_ones_are_remembered() {
     assert_eq!(Triplets::from_dense(0, &[]).unwrap(), Triplets::new(0));
 }
 
+fn csr_error(order: usize, pointers: &[usize], columns: &[usize], values: usize) -> Error {
+    Triplets::from_csr(order, pointers, columns, &vec![1.0; values]).unwrap_err()
+}
+
+fn size_error(quantity: &'static str, found: usize, needed: usize) -> Error {
+    Error::Size { quantity, found, needed }
+}
+
+fn index_error(quantity: &'static str, index: usize, bound: usize) -> Error {
+    Error::Index { quantity, index, bound }
+}
+
 #[test]
 fn arrays_that_make_no_matrix_are_refused() {
     for (order, count) in [(2, 3), (0, 1), (usize::MAX, 4), (3, 0)] {
@@ -70,17 +84,18 @@ fn arrays_that_make_no_matrix_are_refused() {
         };
         assert_eq!((quantity, found), ("dense matrix", count));
     }
-    let csr = |order, pointers: &[usize], columns: &[usize], values: usize| {
-        Triplets::from_csr(order, pointers, columns, &vec![1.0; values]).unwrap_err()
-    };
-    let size = |quantity, found, needed| Error::Size { quantity, found, needed };
-    let index = |quantity, index, bound| Error::Index { quantity, index, bound };
-    assert_eq!(csr(2, &[0, 1], &[0], 1), size("list of row pointers", 2, 3));
-    assert_eq!(csr(usize::MAX, &[], &[], 0), size("list of row pointers", 0, usize::MAX));
-    assert_eq!(csr(2, &[0, 1, 2], &[0], 2), size("list of columns", 1, 2));
-    assert_eq!(csr(2, &[0, 1, 3], &[0, 1], 2), size("list of values", 2, 3));
-    assert_eq!(csr(2, &[0, 1, usize::MAX], &[0, 1], 2), size("list of values", 2, usize::MAX));
-    assert_eq!(csr(2, &[1, 1, 2], &[0, 1], 2), index("first row pointer", 1, 1));
-    assert_eq!(csr(2, &[0, 3, 2], &[0, 1], 2), index("row pointer", 3, 3));
-    assert_eq!(csr(2, &[0, 1, 2], &[0, 2], 2), index("column of a matrix", 2, 2));
+    assert_eq!(csr_error(2, &[0, 1], &[0], 1), size_error("list of row pointers", 2, 3));
+    assert_eq!(
+        csr_error(usize::MAX, &[], &[], 0),
+        size_error("list of row pointers", 0, usize::MAX)
+    );
+    assert_eq!(csr_error(2, &[0, 1, 2], &[0], 2), size_error("list of columns", 1, 2));
+    assert_eq!(csr_error(2, &[0, 1, 3], &[0, 1], 2), size_error("list of values", 2, 3));
+    assert_eq!(
+        csr_error(2, &[0, 1, usize::MAX], &[0, 1], 2),
+        size_error("list of values", 2, usize::MAX)
+    );
+    assert_eq!(csr_error(2, &[1, 1, 2], &[0, 1], 2), index_error("first row pointer", 1, 1));
+    assert_eq!(csr_error(2, &[0, 3, 2], &[0, 1], 2), index_error("row pointer", 3, 3));
+    assert_eq!(csr_error(2, &[0, 1, 2], &[0, 2], 2), index_error("column of a matrix", 2, 2));
 }

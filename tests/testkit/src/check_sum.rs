@@ -2,10 +2,11 @@
 //! h ← rotate((h ⊕ word) · 0x100000001b3 mod 2⁶⁴, 23 to the left) from 0xcbf29ce484222325.
 
 pub fn check_sum(words: &[u64]) -> u64 {
-    const ALL: u128 = 1 << 64;
+    const WORD_RANGE: u128 = 1 << 64;
     let sum = words.iter().fold(0xcbf2_9ce4_8422_2325_u128, |sum, word| {
-        let turned = (sum ^ u128::from(*word)) * 0x0100_0000_01b3 % ALL * (1 << 23);
-        turned % ALL + turned / ALL
+        let product = (sum ^ u128::from(*word)) * 0x0100_0000_01b3 % WORD_RANGE;
+        let shifted = product * (1 << 23);
+        shifted % WORD_RANGE + shifted / WORD_RANGE
     });
     u64::try_from(sum).unwrap()
 }

@@ -2,30 +2,35 @@
 
 use super::random::Random;
 
-pub type Matrix = Vec<Vec<f64>>;
+/// Rows of a matrix.
+pub type DenseMatrix = Vec<Vec<f64>>;
+
+pub use DenseMatrix as Matrix;
+pub use solve_with_prescribed as solve_held;
+pub use submatrix as part;
 
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-pub fn multiply(matrix: &Matrix, vector: &[f64]) -> Vec<f64> {
+pub fn multiply(matrix: &DenseMatrix, vector: &[f64]) -> Vec<f64> {
     matrix.iter().map(|row| dot(row, vector)).collect()
 }
 
-pub fn form(a: &[f64], matrix: &Matrix, b: &[f64]) -> f64 {
+pub fn form(a: &[f64], matrix: &DenseMatrix, b: &[f64]) -> f64 {
     dot(a, &multiply(matrix, b))
 }
 
 pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |peak, value| value.abs().max(peak))
+    values.iter().fold(0.0, |max, value| value.abs().max(max))
 }
 
-/// Rows and columns `keep`.
-pub fn part(matrix: &Matrix, keep: &[usize]) -> Matrix {
-    keep.iter().map(|&i| keep.iter().map(|&j| matrix[i][j]).collect()).collect()
+/// Rows and columns with these indices.
+pub fn submatrix(matrix: &DenseMatrix, indices: &[usize]) -> DenseMatrix {
+    indices.iter().map(|&i| indices.iter().map(|&j| matrix[i][j]).collect()).collect()
 }
 
-pub fn assert_symmetric(matrix: &Matrix) {
+pub fn assert_symmetric(matrix: &DenseMatrix) {
     let scale = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
     for i in 0..matrix.len() {
         for j in 0..i {
@@ -35,9 +40,9 @@ pub fn assert_symmetric(matrix: &Matrix) {
 }
 
 /// Gauss elimination with partial pivoting.
-pub fn solve(matrix: &Matrix, load: &[f64]) -> Vec<f64> {
+pub fn solve(matrix: &DenseMatrix, load: &[f64]) -> Vec<f64> {
     let n = load.len();
-    let mut a: Matrix = matrix.clone();
+    let mut a: DenseMatrix = matrix.clone();
     let mut x = load.to_vec();
     for k in 0..n {
         let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap();
@@ -61,23 +66,27 @@ pub fn solve(matrix: &Matrix, load: &[f64]) -> Vec<f64> {
 }
 
 /// Displacements under `load` with some degrees of freedom prescribed.
-pub fn solve_held(matrix: &Matrix, load: &[f64], held: &[(usize, f64)]) -> Vec<f64> {
+pub fn solve_with_prescribed(
+    matrix: &DenseMatrix,
+    load: &[f64],
+    prescribed: &[(usize, f64)],
+) -> Vec<f64> {
     let mut x = vec![0.0; load.len()];
-    for &(index, value) in held {
+    for &(index, value) in prescribed {
         x[index] = value;
     }
     let free: Vec<usize> =
-        (0..x.len()).filter(|index| held.iter().all(|&(fixed, _)| fixed != *index)).collect();
-    let known = multiply(matrix, &x);
-    let rest: Vec<f64> = free.iter().map(|&index| load[index] - known[index]).collect();
-    for (&index, value) in free.iter().zip(solve(&part(matrix, &free), &rest)) {
+        (0..x.len()).filter(|index| prescribed.iter().all(|&(dof, _)| dof != *index)).collect();
+    let reaction = multiply(matrix, &x);
+    let free_load: Vec<f64> = free.iter().map(|&index| load[index] - reaction[index]).collect();
+    for (&index, value) in free.iter().zip(solve(&submatrix(matrix, &free), &free_load)) {
         x[index] = value;
     }
     x
 }
 
 /// Eigenvalues of K x = λ M x, ascending, by Jacobi's method after Cholesky's of M.
-pub fn eigenvalues(stiffness: &Matrix, mass: &Matrix) -> Vec<f64> {
+pub fn eigenvalues(stiffness: &DenseMatrix, mass: &DenseMatrix) -> Vec<f64> {
     let n = mass.len();
     let mut lower = vec![vec![0.0; n]; n];
     for i in 0..n {
@@ -86,28 +95,32 @@ pub fn eigenvalues(stiffness: &Matrix, mass: &Matrix) -> Vec<f64> {
             lower[i][j] = if i == j { rest.sqrt() } else { rest / lower[j][j] };
         }
     }
-    let forward = |rows: &Matrix| -> Matrix {
-        // L⁻¹ applied to each column, result transposed
-        let column = |c: usize| {
-            let mut x: Vec<f64> = Vec::with_capacity(n);
-            for i in 0..n {
-                let value = (rows[i][c] - dot(&lower[i][..i], &x)) / lower[i][i];
-                x.push(value);
-            }
-            x
-        };
-        (0..n).map(column).collect()
-    };
-    let a = forward(&forward(stiffness));
-    eigenpairs(&a).0
+    let congruent = forward_substituted(&lower, &forward_substituted(&lower, stiffness));
+    eigenpairs(&congruent).0
+}
+
+/// (L⁻¹ A)ᵀ.
+fn forward_substituted(lower: &DenseMatrix, rows: &DenseMatrix) -> DenseMatrix {
+    let order = lower.len();
+    let mut columns = Vec::with_capacity(order);
+    for column in 0..order {
+        let mut x: Vec<f64> = Vec::with_capacity(order);
+        for i in 0..order {
+            let value = (rows[i][column] - dot(&lower[i][..i], &x)) / lower[i][i];
+            x.push(value);
+        }
+        columns.push(x);
+    }
+    columns
 }
 
 /// Eigenvalues of a symmetric matrix, ascending, and their vectors, by Jacobi's method.
-pub fn eigenpairs(matrix: &Matrix) -> (Vec<f64>, Matrix) {
-    let (n, mut a) = (matrix.len(), matrix.clone());
+pub fn eigenpairs(matrix: &DenseMatrix) -> (Vec<f64>, DenseMatrix) {
+    let n = matrix.len();
+    let mut a = matrix.clone();
     // Row k becomes the k-th vector.
-    let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
-    let mut vectors: Matrix = (0..n).map(unit).collect();
+    let mut vectors: DenseMatrix =
+        (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     for _ in 0..60 {
         for p in 0..n {
             for q in p + 1..n {
@@ -116,15 +129,18 @@ pub fn eigenpairs(matrix: &Matrix) -> (Vec<f64>, Matrix) {
                 }
                 let theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
                 let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-                let (c, s) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
+                let c = 1.0 / t.hypot(1.0);
+                let s = t / t.hypot(1.0);
                 for k in 0..n {
-                    let (x, y) = (a[k][p], a[k][q]);
+                    let x = a[k][p];
+                    let y = a[k][q];
                     a[k][p] = c * x - s * y;
                     a[k][q] = s * x + c * y;
                 }
                 for rows in [&mut a, &mut vectors] {
                     for k in 0..n {
-                        let (x, y) = (rows[p][k], rows[q][k]);
+                        let x = rows[p][k];
+                        let y = rows[q][k];
                         rows[p][k] = c * x - s * y;
                         rows[q][k] = s * x + c * y;
                     }
@@ -150,8 +166,8 @@ pub fn inverse(matrix: &[f64], order: usize) -> Vec<f64> {
     let mut a = matrix.to_vec();
     let mut inverse: Vec<f64> = (0..n * n).map(|i| f64::from(u8::from(i / n == i % n))).collect();
     for k in 0..n {
-        let larger = |i: &usize, j: &usize| a[i * n + k].abs().total_cmp(&a[j * n + k].abs());
-        let pivot = (k..n).max_by(larger).unwrap();
+        let pivot =
+            (k..n).max_by(|&i, &j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs())).unwrap();
         for j in 0..n {
             a.swap(k * n + j, pivot * n + j);
             inverse.swap(k * n + j, pivot * n + j);
@@ -178,8 +194,10 @@ pub fn inverse(matrix: &[f64], order: usize) -> Vec<f64> {
 pub fn condition_by_inverse(matrix: &[f64], n: usize) -> f64 {
     let s: Vec<f64> = (0..n).map(|i| matrix[i * n + i].abs().sqrt()).collect();
     let scaled: Vec<f64> = (0..n * n).map(|k| matrix[k] / (s[k / n] * s[k % n])).collect();
-    let norm = |a: &[f64]| {
-        (0..n).map(|j| (0..n).map(|i| a[i * n + j].abs()).sum::<f64>()).fold(0.0, f64::max)
-    };
-    norm(&scaled) * norm(&inverse(&scaled, n))
+    one_norm(&scaled, n) * one_norm(&inverse(&scaled, n), n)
+}
+
+/// Largest column sum of magnitudes of a row-major matrix.
+fn one_norm(matrix: &[f64], n: usize) -> f64 {
+    (0..n).map(|j| (0..n).map(|i| matrix[i * n + j].abs()).sum::<f64>()).fold(0.0, f64::max)
 }

@@ -23,9 +23,9 @@ impl Random {
         self.within(low.ln(), high.ln()).exp()
     }
 
-    /// True with probability `share`.
-    pub fn chance(&mut self, share: f64) -> bool {
-        self.within(0.0, 1.0) < share
+    /// True with this probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.within(0.0, 1.0) < probability
     }
 
     /// One of `list`.

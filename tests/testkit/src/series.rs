@@ -1,21 +1,26 @@
 //! Comparison of time series.
 
-use super::table::Table;
+use super::table::ReferenceTable;
+
+pub use RelativeError as Error;
+pub use TabledSeries as Series;
+pub use assert_within as within;
+pub use nearest_integer as whole;
 
 /// The whole number nearest to a number that is not negative.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
-pub fn whole(number: f64) -> usize {
+pub fn nearest_integer(number: f64) -> usize {
     number.round() as usize
 }
 
 /// A column of a table at equally spaced times, starting at zero.
-pub struct Series {
+pub struct TabledSeries {
     step: f64,
     values: Vec<f64>,
 }
 
-impl Series {
-    pub fn new(table: &Table, column: &str) -> Self {
+impl TabledSeries {
+    pub fn new(table: &ReferenceTable, column: &str) -> Self {
         let times = table.column("t");
         Self { step: times[1] - times[0], values: table.column(column) }
     }
@@ -31,16 +36,16 @@ impl Series {
 
     /// Value by the cubic through the four samples around `time`.
     pub fn at(&self, time: f64) -> f64 {
-        let place = time / self.step;
-        if (place - place.round()).abs() < 1e-6 {
-            return self.values[whole(place)];
+        let position = time / self.step;
+        if (position - position.round()).abs() < 1e-6 {
+            return self.values[nearest_integer(position)];
         }
-        let first = whole(place.floor()).clamp(1, self.values.len() - 3) - 1;
+        let first = nearest_integer(position.floor()).clamp(1, self.values.len() - 3) - 1;
         (0..4)
             .map(|i| {
                 let weight: f64 = (0..4)
                     .filter(|j| *j != i)
-                    .map(|j| (place - (first + j) as f64) / (i as f64 - j as f64))
+                    .map(|j| (position - (first + j) as f64) / (i as f64 - j as f64))
                     .product();
                 weight * self.values[first + i]
             })
@@ -56,32 +61,32 @@ impl Series {
 
 /// Root of the summed squares of an error, relative to the root of the reference's.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Error {
-    square: f64,
-    norm: f64,
+pub struct RelativeError {
+    error_square: f64,
+    expected_square: f64,
 }
 
-impl Error {
-    pub fn add(&mut self, found: f64, wanted: f64) {
-        self.square += (found - wanted).powi(2);
-        self.norm += wanted * wanted;
+impl RelativeError {
+    pub fn add(&mut self, computed: f64, expected: f64) {
+        self.error_square += (computed - expected).powi(2);
+        self.expected_square += expected * expected;
     }
 
     pub fn relative(self) -> f64 {
-        (self.square / self.norm).sqrt()
+        (self.error_square / self.expected_square).sqrt()
     }
 }
 
 /// Prints a line of a table of errors.
 pub fn print_errors(scene: &str, names: &[&str], errors: &[f64]) {
     let fields: Vec<String> =
-        names.iter().zip(errors).map(|(name, e)| format!("{name} {e:.2e}")).collect();
+        names.iter().zip(errors).map(|(name, error)| format!("{name} {error:.2e}")).collect();
     println!("{scene:<44} {}", fields.join("  "));
 }
 
 /// Prints the errors and asserts that each is at most its limit.
 #[track_caller]
-pub fn within(scene: &str, names: &[&str], errors: &[f64], limits: &[f64]) {
+pub fn assert_within(scene: &str, names: &[&str], errors: &[f64], limits: &[f64]) {
     print_errors(scene, names, errors);
     assert_eq!(errors.len(), limits.len());
     for ((name, error), limit) in names.iter().zip(errors).zip(limits) {

@@ -1,6 +1,10 @@
 //! Reference tables, as comma-separated files, and comparison with them.
 
 use std::path::PathBuf;
+use std::str::FromStr;
+
+pub use ReferenceTable as Table;
+pub use assert_close as close;
 
 /// Path of a file in `tests/data`.
 pub fn data_path(file: &str) -> PathBuf {
@@ -10,7 +14,7 @@ pub fn data_path(file: &str) -> PathBuf {
 /// Reference table: comment lines, then a line of column names (or the last comment has them), then
 /// the rows.
 #[derive(Debug)]
-pub struct Table {
+pub struct ReferenceTable {
     name: String,
     comments: Vec<String>,
     columns: Vec<String>,
@@ -18,7 +22,7 @@ pub struct Table {
 }
 
 /// Reads `tests/data/{file}`; panics with the file's name if it is not a table.
-pub fn table(file: &str) -> Table {
+pub fn table(file: &str) -> ReferenceTable {
     let text =
         std::fs::read_to_string(data_path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
     let comments: Vec<String> = text
@@ -26,26 +30,28 @@ pub fn table(file: &str) -> Table {
         .filter_map(|line| line.strip_prefix('#'))
         .map(|line| line.trim().to_owned())
         .collect();
-    let names = |line: &str| line.split(',').map(|name| name.trim().to_owned()).collect();
-    let numeric = |line: &str| line.split(',').next().is_some_and(|x| x.parse::<f64>().is_ok());
     let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-    let (columns, headed): (Vec<String>, bool) = match comments.last() {
-        Some(last) if numeric(first) => (names(last), false),
-        _ => (names(first), true),
-    };
+    let has_heading = comments.is_empty() || !begins_with_number(first);
+    let heading = if has_heading { first } else { comments.last().map_or("", String::as_str) };
+    let columns = heading.split(',').map(|name| name.trim().to_owned()).collect();
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
-        .has_headers(headed)
+        .has_headers(has_heading)
         .from_reader(text.as_bytes());
-    let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-    let rows = reader
-        .records()
-        .map(|record| fields(&record.unwrap_or_else(|error| panic!("{file}: {error}"))))
-        .collect();
-    Table { name: file.to_owned(), comments, columns, rows }
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.unwrap_or_else(|error| panic!("{file}: {error}"));
+        rows.push(record.iter().map(str::to_owned).collect());
+    }
+    ReferenceTable { name: file.to_owned(), comments, columns, rows }
 }
 
-impl Table {
+/// Whether the first field of a line is a number.
+fn begins_with_number(line: &str) -> bool {
+    line.split(',').next().is_some_and(|field| field.parse::<f64>().is_ok())
+}
+
+impl ReferenceTable {
     /// Comment lines, without their `#`.
     pub fn comments(&self) -> &[String] {
         &self.comments
@@ -66,10 +72,16 @@ impl Table {
 
     /// Numbers of a column.
     pub fn column(&self, column: &str) -> Vec<f64> {
-        let parse = |text: &str| {
-            text.parse().unwrap_or_else(|_| panic!("{}, {column}: '{text}'", self.name))
-        };
-        self.text(column).into_iter().map(parse).collect()
+        self.parsed(column)
+    }
+
+    fn parsed<T: FromStr>(&self, column: &str) -> Vec<T> {
+        self.text(column)
+            .into_iter()
+            .map(|text| {
+                text.parse().unwrap_or_else(|_| panic!("{}, {column}: '{text}'", self.name))
+            })
+            .collect()
     }
 
     /// Numbers of several columns, row by row.
@@ -80,43 +92,39 @@ impl Table {
 
     /// Numbers of the first row whose `column` holds `text`.
     pub fn row<const N: usize>(&self, column: &str, text: &str, columns: [&str; N]) -> [f64; N] {
-        let found = self.text(column).iter().position(|field| *field == text);
-        let index = found.unwrap_or_else(|| panic!("{}: no '{text}' in {column}", self.name));
+        let position = self.text(column).iter().position(|field| *field == text);
+        let index = position.unwrap_or_else(|| panic!("{}: no '{text}' in {column}", self.name));
         self.rows(columns)[index]
     }
 
     /// Symmetric matrix, row by row, of the rows whose column `matrix` holds `name`: they list its upper triangle.
     pub fn symmetric(&self, name: &str, order: usize) -> Vec<f64> {
-        let index = |column| {
-            let parse = |text: &str| {
-                text.parse().unwrap_or_else(|_| panic!("{}, {column}: '{text}'", self.name))
-            };
-            self.text(column).into_iter().map(parse).collect::<Vec<usize>>()
-        };
-        let [rows, columns] = ["row", "column"].map(index);
-        let (matrices, values) = (self.text("matrix"), self.column("value"));
-        let mut all = vec![0.0; order * order];
-        for k in (0..self.len()).filter(|&k| matrices[k] == name) {
-            all[rows[k] * order + columns[k]] = values[k];
-            all[columns[k] * order + rows[k]] = values[k];
+        let names = self.text("matrix");
+        let rows: Vec<usize> = self.parsed("row");
+        let columns: Vec<usize> = self.parsed("column");
+        let values = self.column("value");
+        let mut matrix = vec![0.0; order * order];
+        for k in (0..self.len()).filter(|&k| names[k] == name) {
+            matrix[rows[k] * order + columns[k]] = values[k];
+            matrix[columns[k] * order + rows[k]] = values[k];
         }
-        all
+        matrix
     }
 
     /// Words after `label` in the comments, up to the end of its line.
     pub fn words_after(&self, label: &str) -> Vec<&str> {
-        let found = self.comments.iter().find_map(|line| line.split_once(label));
-        let (_, words) = found.unwrap_or_else(|| panic!("{}: no '{label}'", self.name));
-        words.split_whitespace().collect()
+        let line = self.comments.iter().find_map(|line| line.split_once(label));
+        let line = line.unwrap_or_else(|| panic!("{}: no '{label}'", self.name));
+        line.1.split_whitespace().collect()
     }
 }
 
-/// Asserts |found − wanted| ≤ `absolute` + `relative`·|wanted|.
+/// Asserts |computed − expected| ≤ `absolute` + `relative`·|expected|.
 #[track_caller]
-pub fn close(what: &str, found: f64, wanted: f64, absolute: f64, relative: f64) {
-    let error = (found - wanted).abs();
+pub fn assert_close(quantity: &str, computed: f64, expected: f64, absolute: f64, relative: f64) {
+    let error = (computed - expected).abs();
     assert!(
-        error <= absolute + relative * wanted.abs(),
-        "{what}: {found:e}, but {wanted:e} wanted (error {error:.1e})"
+        error <= absolute + relative * expected.abs(),
+        "{quantity}: {computed:e}, but expected {expected:e} (error {error:.1e})"
     );
 }

@@ -56,7 +56,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     ] {
         let mut errors = Vec::new();
         for &count in counts {
-            let found = history(PulsedBlock::BONDED, (grading, count), 0.025)?;
+            let found = history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
             errors.push(distance(&found, &wanted));
         }
         add(&mut checks, name, orders(&errors, 1), range);
@@ -74,11 +74,11 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         .categories(&["0.2", "0.1", "0.05", "0.025", "0.0125"])
         .room(0.1, 0.08)
         .logarithmic();
-    let finest = history(PulsedBlock::BONDED, mesh, 0.003_125)?;
+    let finest = history(PulsedBlock::BONDED_BLOCK, mesh, 0.003_125)?;
     let steps = [0.2, 0.1, 0.05, 0.025];
     let mut errors = Vec::new();
     for step in steps {
-        errors.push(distance(&history(PulsedBlock::BONDED, mesh, step)?, &finest));
+        errors.push(distance(&history(PulsedBlock::BONDED_BLOCK, mesh, step)?, &finest));
     }
     add(&mut checks, "time step, bonded", orders(&errors, 2), [1.8, 2.2]);
     right = right.circles("bonded", BLUE, points(0, &errors));
@@ -87,9 +87,13 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         right = right.dashed(&format!("order {power}"), color, vec![(0.0, start), (4.0, end)]);
     }
     let list = [
-        ("sliding", ORANGE, PulsedBlock { friction: Some(0.5), ..PulsedBlock::SLENDER }),
-        ("rocking", GREEN, PulsedBlock { friction: Some(f64::INFINITY), ..PulsedBlock::SLENDER }),
-        ("rocking and sliding", RED, PulsedBlock::SLIDING),
+        ("sliding", ORANGE, PulsedBlock { friction: Some(0.5), ..PulsedBlock::SLENDER_BLOCK }),
+        (
+            "rocking",
+            GREEN,
+            PulsedBlock { friction: Some(f64::INFINITY), ..PulsedBlock::SLENDER_BLOCK },
+        ),
+        ("rocking and sliding", RED, PulsedBlock::SLIDING_BLOCK),
     ];
     let list = if short { &list[..1] } else { &list[..] };
     let steps = [0.1, 0.05, 0.025, 0.0125];

@@ -1,7 +1,5 @@
 //! Limit of memory for sizes that the caller states as numbers, checked before allocation.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 /// A size that needs more memory than is allowed; nothing was allocated.
 ///
 /// The limit is [`memory_limit`], for a convolution history
@@ -37,22 +35,15 @@ fn bytes_text(number: f64) -> String {
     }
 }
 
-/// The limit, bytes.
-static MEMORY_LIMIT: AtomicU64 = AtomicU64::new(4 << 30);
+/// Largest memory of one part, bytes: more than parts of usual models take, and less than a mistyped number needs.
+const MEMORY_LIMIT: u64 = 8 << 30;
 
-/// Memory limit (bytes) for the size of one mesh, matrix, ground, record or sweep.
-///
-/// 4 GiB unless [`set_memory_limit`] was called.
-pub fn memory_limit() -> u64 {
-    MEMORY_LIMIT.load(Ordering::Relaxed)
-}
-
-/// Sets the memory limit (bytes) for the whole process.
+/// Memory limit for the size of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.
 ///
 /// Sizes stated as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
 /// record, convolution weights of layered ground) are compared with it before anything is allocated; a
 /// [`MemoryError`] states the memory that they would take. The estimate is for each part alone, not a count of all
-/// memory of a program. Set the limit to the machine's memory, minus the memory of other programs.
+/// memory of a program.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -60,13 +51,17 @@ pub fn memory_limit() -> u64 {
 ///
 /// let error = Strip::graded(-5.0..5.0, 10_000).unwrap_err();
 /// assert!(matches!(error, Error::Memory(MemoryError { asked: 10_000.0, .. })));
-/// basemat::set_memory_limit(64 << 30);
-/// assert_eq!(Strip::graded(-5.0..5.0, 10_000)?.elements().len(), 10_000);
-/// # Ok::<(), Error>(())
 /// ```
-pub fn set_memory_limit(bytes: u64) {
-    MEMORY_LIMIT.store(bytes, Ordering::Relaxed);
+pub fn memory_limit() -> u64 {
+    MEMORY_LIMIT
 }
+
+/// Does nothing: the limit of one part is fixed, see [`memory_limit`].
+#[deprecated(
+    since = "0.5.0",
+    note = "the limit of one part is fixed; a history has `HistoryOptions::memory`"
+)]
+pub fn set_memory_limit(_bytes: u64) {}
 
 /// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
 pub fn check(
@@ -75,7 +70,7 @@ pub fn check(
     needed: f64,
 ) -> std::result::Result<(), MemoryError> {
     let limit = memory_limit() as f64;
-    let remedy = "`set_memory_limit` allows more";
+    let remedy = "for one part of a model";
     if needed <= limit {
         Ok(())
     } else {

@@ -17,7 +17,9 @@ mod sweep;
 pub use checkpoint::CheckpointError;
 pub use file::{FileError, FileFault};
 pub use ground::{GroundError, PlanError, SoilError};
-pub use memory::{MemoryError, memory_limit, set_memory_limit};
+#[allow(deprecated, reason = "the path stays for one release")]
+pub use memory::set_memory_limit;
+pub use memory::{MemoryError, memory_limit};
 pub use progress::Watch;
 pub use progress::{Observer, Progress, unobserved};
 pub use requirement::{

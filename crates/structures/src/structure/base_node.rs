@@ -145,8 +145,8 @@ impl BaseNode {
     /// All nodes, if only one is the lowest: a base without walls.
     #[doc(hidden)]
     pub fn floor(nodes: &[Self]) -> &[Self] {
-        let [lowest, highest] = span(nodes.iter().map(|node| node.z));
-        let limit = lowest + FLATNESS_TOLERANCE * (highest - lowest);
+        let heights = span(nodes.iter().map(|node| node.z));
+        let limit = heights[0] + FLATNESS_TOLERANCE * (heights[1] - heights[0]);
         let first = nodes.iter().position(|node| node.z <= limit);
         let last = nodes.iter().rposition(|node| node.z <= limit);
         match (first, last) {
@@ -174,12 +174,12 @@ impl BaseNode {
         let offsets: Vec<[f64; 2]> =
             nodes.iter().map(|node| node.offset_from(first, in_plan)).collect();
         let distances = offsets.iter().map(|offset| offset[0].hypot(offset[1]));
-        let (length, second) = largest_value(distances);
+        let LargestValue { value: length, index: second } = largest_value(distances);
         if length == 0.0 {
             return nodes.iter().all(|node| node.rows() == first.rows());
         }
         let axis = offsets[second].map(|x| x / length);
-        let (width, third) =
+        let LargestValue { value: width, index: third } =
             largest_value(offsets.iter().map(|offset| cross_product(axis, *offset).abs()));
         let is_line = width <= FLATNESS_TOLERANCE * length;
         let corners = [first, &nodes[second], &nodes[third]];
@@ -266,14 +266,20 @@ impl BaseNode {
 }
 
 /// Largest of the values above zero and its index, the first of equals; (0, 0) without any.
-fn largest_value(values: impl Iterator<Item = f64>) -> (f64, usize) {
-    let mut largest = (0.0, 0);
+fn largest_value(values: impl Iterator<Item = f64>) -> LargestValue {
+    let mut largest = LargestValue { value: 0.0, index: 0 };
     for (index, value) in values.enumerate() {
-        if value > largest.0 {
-            largest = (value, index);
+        if value > largest.value {
+            largest = LargestValue { value, index };
         }
     }
     largest
+}
+
+/// Largest of several values, and its place in their list.
+struct LargestValue {
+    value: f64,
+    index: usize,
 }
 
 /// Component of the cross product of two vectors along the normal of their plane.

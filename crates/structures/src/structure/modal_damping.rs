@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::rigid_motions::{check_rows, rigid_momenta};
 use crate::error::{Error, Result, at_least, damping_ratio, require};
-use crate::linalg::{SparseMatrix, dot, generalised_modes};
+use crate::linalg::{Eigenpairs, SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRY_TOLERANCE;
 use crate::structure::{
     HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
@@ -117,7 +117,7 @@ impl ModalDamping {
         let spring = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
         let on_springs = HeldBase::new(&nodes, stiffness, spring);
         let on_springs = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &on_springs.matrix)?;
-        let (values, vectors) =
+        let Eigenpairs { values, vectors } =
             generalised_modes(&matrices.mass, &on_springs).ok_or(UNRESISTED_MOTION)?;
         let mut found = WithModalDamping::new(structure);
         let largest = values.last().copied().unwrap_or(0.0);
@@ -153,7 +153,7 @@ impl ModalDamping {
     /// the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let matrices = matrices(&structure)?;
-        let (values, vectors) =
+        let Eigenpairs { values, vectors } =
             generalised_modes(&matrices.stiffness, &matrices.mass).ok_or(UNSUITABLE_MATRICES)?;
         let nodes = structure.base().into_nodes();
         let rigid_momenta = rigid_momenta(&nodes, &matrices.stiffness, &matrices.mass)?;
@@ -184,23 +184,17 @@ impl ModalDamping {
     }
 }
 
-/// Matrices of a structure; the stiffness includes the first tangent.
-struct Matrices {
-    mass: SparseMatrix,
-    stiffness: SparseMatrix,
-}
-
 /// Matrices of a structure that is small enough; an error unless they are symmetric.
-fn matrices(structure: &dyn Structure) -> Result<Matrices> {
+fn matrices(structure: &dyn Structure) -> Result<MassAndStiffness> {
     let n = structure.dofs();
     let is_small = n <= MAX_DAMPED_DOFS;
     let needed = "3000 or fewer: reduce it first";
     require("number of degrees of freedom with modal damping", n as f64, is_small, needed)?;
-    let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure)?;
-    if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRY_TOLERANCE {
+    let matrices = mass_and_stiffness(structure)?;
+    if matrices.mass.asymmetry().max(matrices.stiffness.asymmetry()) > SYMMETRY_TOLERANCE {
         return Err(UNSUITABLE_MATRICES);
     }
-    Ok(Matrices { mass, stiffness })
+    Ok(matrices)
 }
 
 /// Overwrites `vector` with column `j` of a square matrix.

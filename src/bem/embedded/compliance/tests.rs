@@ -71,8 +71,8 @@ fn mobility_is_positive_at_random_places() {
                             assert_eq!(half[(i, j)], half[(j, i)]);
                         }
                     }
-                    let [low, high] = hermitian_range(&mobility, order).unwrap();
-                    smallest_ratio = smallest_ratio.min(low / high);
+                    let eigenvalues = hermitian_range(&mobility, order).unwrap();
+                    smallest_ratio = smallest_ratio.min(eigenvalues[0] / eigenvalues[1]);
                 }
             }
         }

@@ -84,9 +84,9 @@ fn symbols_are_positive_at_short_and_long_steps() {
             let mut matrix = vec![Complex::default(); classes.layout().square()];
             classes.scatter(&mut matrix, |_, pair| sums[pair.class]);
             let matrix: Vec<_> = matrix.iter().map(|value| value.inner()).collect();
-            let [low, high] =
+            let eigenvalues =
                 crate::linalg::hermitian_range(&matrix, classes.layout().len()).unwrap();
-            smallest_ratio = smallest_ratio.min(low / high);
+            smallest_ratio = smallest_ratio.min(eigenvalues[0] / eigenvalues[1]);
         }
         println!("{step}: {smallest_ratio:e}");
         assert!(smallest_ratio > -1e-8, "{step}: {smallest_ratio:e}");

@@ -27,7 +27,9 @@ fn wide_panels_are_sums_of_narrow_ones() {
 
 /// Adds the integral of a smooth compliance over a panel.
 fn add_panel(forms: &FormFactors, panel: Panel, sums: &mut [Sums]) {
-    let [left, width] = forms.extent(panel);
+    let extent = forms.extent(panel);
+    let left = extent[0];
+    let width = extent[1];
     let coefficients: [[f64; 6]; PANEL_POINTS] = std::array::from_fn(|i| {
         let k = left + 0.5 * width * (1.0 + forms.rule.nodes[i]);
         let c = 0.5 * width * forms.rule.weights[i] / (k + 20.0 * forms.width);

@@ -29,7 +29,8 @@ fn law(kind: u8, ratio: f64) -> std::sync::Arc<dyn Relaxation> {
 /// A layer with each property in a wide range.
 fn random_layer(random: &mut Random) -> crate::soil::SoilLayer {
     let speed = random.within(-1.0, 1.5).exp2();
-    let (poisson, density) = (random.within(-0.5, 0.4999), random.within(0.5, 2.0));
+    let poisson = random.within(-0.5, 0.4999);
+    let density = random.within(0.5, 2.0);
     crate::soil::SoilLayer {
         soil: Soil::from_shear_wave_speed(speed, poisson, density).unwrap(),
         thickness: 10.0_f64.powf(random.within(-2.0, 1.5)),

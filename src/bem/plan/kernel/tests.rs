@@ -171,8 +171,8 @@ impl Relaxation for Counted {
 /// Integrals as coarse as the weights would halve panels of the contour by their errors: many more variables.
 #[test]
 fn errors_of_integrals_halve_no_panels() {
-    let [soil, rock] = [[60.0e6, 1.0 / 3.0, 1900.0], [600.0e6, 0.3, 2200.0]]
-        .map(|[modulus, ratio, density]| Soil::new(modulus, ratio, density).unwrap());
+    let soil = Soil::new(60.0e6, 1.0 / 3.0, 1900.0).unwrap();
+    let rock = Soil::new(600.0e6, 0.3, 2200.0).unwrap();
     let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0).unwrap();
     let plan = Plan::rectangle(0.0..10.0, 0.0..10.0, 8).unwrap();
     let time_step = 0.24 * plan.pitch()[0] / soil.pressure_wave_speed();

@@ -46,9 +46,9 @@ fn problem(random: &mut Random, friction: f64) -> ConeProblem {
     };
     let modes: Vec<[f64; 4]> = (0..size)
         .map(|i| {
-            let [x, y] = arm(i % ELEMENT_COUNT);
-            [[0.1, 0.0, 0.02 * x, 0.02 * y], [0.0, 0.1, 0.0, 0.05], [0.0, 0.0, 0.05, 0.0]]
-                [i / ELEMENT_COUNT]
+            let arm = arm(i % ELEMENT_COUNT);
+            let pressing = [0.1, 0.0, 0.02 * arm[0], 0.02 * arm[1]];
+            [pressing, [0.0, 0.1, 0.0, 0.05], [0.0, 0.0, 0.05, 0.0]][i / ELEMENT_COUNT]
         })
         .collect();
     for i in 0..size {
@@ -56,10 +56,10 @@ fn problem(random: &mut Random, friction: f64) -> ConeProblem {
             let rigid: f64 = modes[i].iter().zip(&modes[j]).map(|(a, b)| a * b).sum();
             problem.w[i * size + j] = soil(i, j) + rigid;
         }
-        let [x, y] = arm(i % ELEMENT_COUNT);
+        let arm = arm(i % ELEMENT_COUNT);
         problem.anchor[i] = if i < ELEMENT_COUNT { 1.0 } else { 0.0 };
         problem.q[i] = 0.1 * random.within(-1.0, 1.0)
-            + [0.25 * x - 0.1 * y, 0.5, 0.3][i / ELEMENT_COUNT] * random.within(0.9, 1.1);
+            + [0.25 * arm[0] - 0.1 * arm[1], 0.5, 0.3][i / ELEMENT_COUNT] * random.within(0.9, 1.1);
     }
     problem.bounds.fill(Bounds { friction, ..Bounds::WITHOUT_FRICTION });
     problem.min_force_scale = 1.0;

@@ -120,17 +120,18 @@ fn corrections_are_those_of_all_entries() {
         let mut status = |e: usize| {
             let normal =
                 random.pick(&[Normal::Open, Normal::Closed, Normal::Closed, Normal::Capped]);
-            let (s, c) = random.within(0.0, 6.0).sin_cos();
+            let angle: f64 = random.within(0.0, 6.0);
+            let direction = [angle.cos(), angle.sin()];
             let turn = random.within(0.0, 1.0);
             let slope = random.pick(&[0.0, 0.4, 3.0, 1e4]);
             // Fewer of these than modes.
             if e < 2 && random.chance(0.5) {
                 unpressed += 1;
                 let slope = f64::INFINITY;
-                let tangential = Tangential::Slip { direction: [c, s], turn, slope };
+                let tangential = Tangential::Slip { direction, turn, slope };
                 return Status { normal: Normal::Closed, tangential };
             }
-            let slip = Tangential::Slip { direction: [c, s], turn, slope };
+            let slip = Tangential::Slip { direction, turn, slope };
             let tangential = random.pick(&[slip, slip, Tangential::Free, Tangential::Stick]);
             Status { normal, tangential }
         };

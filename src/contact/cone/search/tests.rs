@@ -15,7 +15,9 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
         |e: usize| [(e % LATTICE_COUNTS[0]) as f64 - 4.0, (e / LATTICE_COUNTS[0]) as f64 - 3.5];
     // Motions of an element's components by the body's six motions.
     let modes = |i: usize| {
-        let [x, y] = at(i % ELEMENT_COUNT);
+        let place = at(i % ELEMENT_COUNT);
+        let x = place[0];
+        let y = place[1];
         match i / ELEMENT_COUNT {
             0 => [1.0, 0.0, 0.0, x, y, 0.0],
             1 => [0.0, 1.0, 0.0, -height, 0.0, -y],

@@ -18,10 +18,11 @@ fn forces_or_motions_meet_the_conditions_of_statuses() {
         let mut status = |e: usize| {
             let normal =
                 if e > 3 { [Normal::Open, Normal::Capped][case % 2] } else { Normal::Closed };
-            let (s, c) = random.within(0.0, 6.0).sin_cos();
+            let angle: f64 = random.within(0.0, 6.0);
             let turn = random.within(0.0, 1.0);
             let slope = random.pick(&[0.0, 0.4, 3.0, 1e4]);
-            let slip = Tangential::Slip { direction: [c, s], turn, slope };
+            let direction = [angle.cos(), angle.sin()];
+            let slip = Tangential::Slip { direction, turn, slope };
             let tangential = match (e, case % 4) {
                 (0, _) | (4, 2 | 3) => slip,
                 (4 | 5, _) => Tangential::Free,

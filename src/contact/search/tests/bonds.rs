@@ -6,7 +6,8 @@ use crate::interface::Cohesive;
 /// Adds brittle bonds of random strength under every closed element.
 fn glue(problem: &mut Problem, random: &mut Random) {
     let pressure = problem.static_traction[0];
-    let [tension, cohesion] = [(); 2].map(|()| pressure * random.log_within(0.03, 3.0));
+    let tension = pressure * random.log_within(0.03, 3.0);
+    let cohesion = pressure * random.log_within(0.03, 3.0);
     let law = Cohesive::new(tension, cohesion, problem.parameters.friction).unwrap();
     problem.laws = vec![Box::new(law)];
     let starts = problem.start.iter().map(|start| {

@@ -33,18 +33,19 @@ fn constructor_checks_nodes_and_thickness() {
     }
 }
 
+fn warped_square(height: f64) -> Vec<[f64; 3]> {
+    vec![[0.0, 0.0, height], [1.0, 0.0, -height], [1.0, 1.0, height], [0.0, 1.0, -height]]
+}
+
 #[test]
 fn shapes_are_checked_when_a_shell_joins_a_mesh() {
-    let warped = |height: f64| {
-        vec![[0.0, 0.0, height], [1.0, 0.0, -height], [1.0, 1.0, height], [0.0, 1.0, -height]]
-    };
     let bad: [(&str, Vec<[f64; 3]>); 9] = [
         ("coincident", vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
         ("reflex", vec![[0.0; 3], [2.0, 0.0, 0.0], [0.4, 0.4, 0.0], [0.0, 2.0, 0.0]]),
         ("straight corner", vec![[0.0; 3], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]]),
         ("crossed", vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]),
         ("on a line", vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]]),
-        ("warped", warped(0.4)),
+        ("warped", warped_square(0.4)),
         ("folded", vec![[0.0; 3], [1.0, 0.0, 0.0], [0.5, 0.1, 3.0], [0.0, 1.0, 0.0]]),
         ("coincident", vec![[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0]]),
         ("on a line", vec![[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]]),
@@ -65,7 +66,7 @@ fn shapes_are_checked_when_a_shell_joins_a_mesh() {
     for points in [
         vec![[0.0; 3], [1000.0, 0.0, 0.0], [1000.0, 0.1, 0.0], [0.0, 0.1, 0.0]],
         vec![[0.0; 3], [2.0, 0.0, 0.0], [1.01, 1.01, 0.0], [0.0, 2.0, 0.0]],
-        warped(0.2),
+        warped_square(0.2),
         vec![[0.0; 3], [1000.0, 0.0, 0.0], [500.0, 0.1, 0.0]],
     ] {
         let mut mesh = Mesh::in_space();
@@ -93,15 +94,19 @@ fn lists_of_wrong_length_are_refused() {
 fn axes_must_fit_the_shell() {
     let shell = Shell::new([0, 1, 2], material(1.0, 0.0, 1.0), 0.1).unwrap();
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let own = shell.resultants(&corners, &[0.0; 18]).unwrap()[0];
+    let resultants = shell.resultants(&corners, &[0.0; 18]).unwrap()[0];
     let up = [0.0, 0.0, 1.0];
     for (along, outward) in
         [(up, up), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), ([0.0; 3], up), ([1.0; 3], [0.0; 3])]
     {
-        let found = own.in_axes(along, outward);
+        let found = resultants.in_axes(along, outward);
         assert!(matches!(found, Err(Error::Input { .. })), "{along:?} {outward:?}: {found:?}");
     }
-    assert!(own.in_axes([f64::NAN, 0.0, 0.0], up).is_err());
+    assert!(resultants.in_axes([f64::NAN, 0.0, 0.0], up).is_err());
+}
+
+fn square_shell(nodes: [usize; 4], thickness: f64) -> Shell {
+    Shell::new(nodes, material(1.0e6, 0.2, 1.0), thickness).unwrap()
 }
 
 #[test]
@@ -110,9 +115,8 @@ fn equal_shells_on_the_same_nodes_count_twice() {
     for point in [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]] {
         mesh.add_node_at(point).unwrap();
     }
-    let shell = |nodes: [usize; 4], t| Shell::new(nodes, material(1.0e6, 0.2, 1.0), t).unwrap();
-    mesh.add(shell([0, 1, 2, 3], 0.1)).unwrap();
-    assert!(mesh.add(shell([2, 1, 0, 3], 0.1)).is_err());
+    mesh.add(square_shell([0, 1, 2, 3], 0.1)).unwrap();
+    assert!(mesh.add(square_shell([2, 1, 0, 3], 0.1)).is_err());
     // A layer of another thickness acts in parallel.
-    mesh.add(shell([0, 1, 2, 3], 0.2)).unwrap();
+    mesh.add(square_shell([0, 1, 2, 3], 0.2)).unwrap();
 }

@@ -2,26 +2,26 @@
 //! SCENE: three quadrilaterals and three triangles of `tests/data/shells`.
 //! REFERENCE: an implementation in Python, 17 digits.
 
-use super::tabled;
+use super::{TabledShell, tabled_shells};
 use basemat::fem::{Element, MassKind};
 use basemat_problems::dense::largest;
 use basemat_problems::table::table;
 
 #[test]
 fn matrices_are_the_tabled_ones() {
-    for (name, shell, nodes) in tabled() {
+    for TabledShell { name, shell, nodes } in tabled_shells() {
         let table = table(&format!("shells/{name}.csv"));
         let order = shell.order();
         for matrix in ["stiffness", "mass", "lumped_mass"] {
-            let wanted = table.symmetric(matrix, order);
+            let expected = table.symmetric(matrix, order);
             let mut found = vec![0.0; order * order];
             match matrix {
                 "stiffness" => shell.stiffness(&nodes, &mut found),
                 "mass" => shell.mass(&nodes, MassKind::Consistent, &mut found),
                 _ => shell.mass(&nodes, MassKind::Lumped, &mut found),
             }
-            let error: Vec<f64> = found.iter().zip(&wanted).map(|(a, b)| a - b).collect();
-            let error = largest(&error) / largest(&wanted);
+            let error: Vec<f64> = found.iter().zip(&expected).map(|(a, b)| a - b).collect();
+            let error = largest(&error) / largest(&expected);
             assert!(error < 1e-13, "{matrix} of {name}: {error:.1e}");
         }
     }

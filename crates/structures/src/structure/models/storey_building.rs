@@ -162,11 +162,12 @@ impl StoreyBuilding {
     /// # Errors
     /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it has a law along x or y already.
     pub fn with_biaxial_law(mut self, storey: usize, law: BiaxialSpring) -> Result<Self> {
-        let [along, across, _] = self.drift(storey)?;
+        let drift = self.drift(storey)?;
         self.replace_stiffness(storey, Self::ALONG)?;
         self.replace_stiffness(storey, Self::ACROSS)?;
         let dofs = self.dofs();
-        self.springs.add_biaxial([along, across], law, dofs)?;
+        let horizontal = [Self::ALONG, Self::ACROSS].map(|direction| drift[direction].clone());
+        self.springs.add_biaxial(horizontal, law, dofs)?;
         Ok(self)
     }
 
@@ -248,12 +249,10 @@ impl StoreyBuilding {
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
         let storeys = &self.storeys[levels[0]..levels[1]];
         let height: f64 = storeys.iter().map(|storey| storey.height).sum();
-        let [along, across, twist] = sway(levels, place);
-        [
-            along - DofCombination::from((MAT_ROTATION_Y, height)),
-            across + DofCombination::from((MAT_ROTATION_X, height)),
-            twist,
-        ]
+        let mut deformation = sway(levels, place);
+        deformation[Self::ALONG] -= DofCombination::from((MAT_ROTATION_Y, height));
+        deformation[Self::ACROSS] += DofCombination::from((MAT_ROTATION_X, height));
+        deformation
     }
 
     /// Displacements of the mass centre of the floor on `storey`, and rotations.

@@ -14,7 +14,7 @@ use super::recovery::Basis;
 use crate::error::{
     Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
 };
-use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::linalg::{Eigenpairs, SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers, restricted};
 use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
@@ -235,8 +235,9 @@ impl DofPartition {
         factor.solve_many(&mut static_responses);
         let interior_mass =
             self.inner("mass matrix with the kept degrees of freedom held", mass)?;
-        let (squares, shapes) = lowest_modes(&factor, &interior_mass, modes, None)
-            .ok_or(Error::Singular { matrix: MATRIX_NAME, order: ni })?;
+        let Eigenpairs { values: squares, vectors: shapes } =
+            lowest_modes(&factor, &interior_mass, modes, None)
+                .ok_or(Error::Singular { matrix: MATRIX_NAME, order: ni })?;
         rows.resize((nb + squares.len()) * n, 0.0);
         let inner = static_responses.chunks_exact(ni).chain(shapes.chunks_exact(ni));
         for (row, values) in rows.chunks_exact_mut(n).zip(inner) {

@@ -14,7 +14,7 @@ pub(crate) type Point = [f64; 2];
 /// no continuation, the displacement of the nearest point within is continued by its slopes there; at a corner
 /// without an angle, the displacement of the largest triangle is continued. On a rigid base all of these are
 /// equal.
-pub(crate) fn shares(corners: &[Point], p: Point) -> Vec<f64> {
+pub(crate) fn corner_weights(corners: &[Point], p: Point) -> Vec<f64> {
     let [a, b, c, d] = *corners else {
         return in_triangle([corners[0], corners[1], corners[2]], p).into();
     };
@@ -24,16 +24,16 @@ pub(crate) fn shares(corners: &[Point], p: Point) -> Vec<f64> {
     if let Some(place) = face.coordinates(from(p)) {
         return bilinear(place).into();
     }
-    if let Some(shares) = face.continued(from(nearest_within(corners, p)), from(p)) {
-        return shares.into();
+    if let Some(corner_weights) = face.continued(from(nearest_within(corners, p)), from(p)) {
+        return corner_weights.into();
     }
     let triangles = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]];
     let area = |[i, j, k]: &[usize; 3]| side([corners[*i], corners[*j]], corners[*k]).abs();
     let largest = triangles.into_iter().max_by(|one, other| area(one).total_cmp(&area(other)));
     let places = largest.unwrap_or([0, 1, 2]);
     let mut all = vec![0.0; 4];
-    for (place, share) in places.into_iter().zip(in_triangle(places.map(|k| corners[k]), p)) {
-        all[place] = share;
+    for (place, weight) in places.into_iter().zip(in_triangle(places.map(|k| corners[k]), p)) {
+        all[place] = weight;
     }
     all
 }
@@ -92,8 +92,8 @@ impl Quadrilateral {
         let place = self.coordinates_within(within)?;
         let step = self.step(place, p)?;
         let slopes = slopes(place);
-        let shares = bilinear(place);
-        Some([0, 1, 2, 3].map(|k| shares[k] + step[0] * slopes[0][k] + step[1] * slopes[1][k]))
+        let weights = bilinear(place);
+        Some([0, 1, 2, 3].map(|k| weights[k] + step[0] * slopes[0][k] + step[1] * slopes[1][k]))
     }
 
     /// Coordinates of a point within the quadrilateral, by the quadratic equation of t.
@@ -195,11 +195,11 @@ mod tests {
                 let inner = [1, 2, 3].map(|k| [local[0][k], local[1][k]]);
                 let from = [0, 1].map(|k| point[k] - face[0][k]);
                 without += usize::from(Quadrilateral(inner).coordinates(from).is_none());
-                let found = shares(&face, point);
+                let found = corner_weights(&face, point);
                 let sum: f64 = found.iter().sum();
                 assert!((sum - 1.0).abs() < 1e-9, "{face:?} {point:?} {found:?}");
                 for k in 0..2 {
-                    let place: f64 = found.iter().zip(local[k]).map(|(share, x)| share * x).sum();
+                    let place: f64 = found.iter().zip(local[k]).map(|(weight, x)| weight * x).sum();
                     assert!((place - from[k]).abs() < 1e-9, "{face:?} {point:?} {found:?}");
                 }
             }

@@ -29,8 +29,10 @@ impl Element for Triangle {
         let d = self.material.elasticity();
         let strain: Vec<[f64; 3]> = (0..6)
             .map(|column| {
-                let (j, k) = ((column / 2 + 1) % 3, (column / 2 + 2) % 3);
-                let (dx, dy) = ((p[j][1] - p[k][1]) / double, (p[k][0] - p[j][0]) / double);
+                let j = (column / 2 + 1) % 3;
+                let k = (column / 2 + 2) % 3;
+                let dx = (p[j][1] - p[k][1]) / double;
+                let dy = (p[k][0] - p[j][0]) / double;
                 if column % 2 == 0 { [dx, 0.0, dy] } else { [0.0, dy, dx] }
             })
             .collect();
@@ -56,7 +58,7 @@ impl Element for Triangle {
 
 /// Two triangles and a quadrilateral side by side: one strain, recovered at the node between.
 #[test]
-fn own_triangle_passes_the_patch_test_beside_quads() {
+fn a_users_triangle_passes_the_patch_test_beside_quads() {
     let material = Material::new(2.0e7, 0.3, 1800.0).unwrap();
     let mut mesh = Mesh::new();
     let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.2, 0.6], [0.0, 1.0]];
@@ -70,9 +72,9 @@ fn own_triangle_passes_the_patch_test_beside_quads() {
     let model = FemModel::on_base(mesh).unwrap();
     let exact: Vec<f64> =
         points.iter().flat_map(|[x, y]| [1e-3 * x - 2e-3 * y, 4e-3 * x + 3e-3 * y]).collect();
-    let held: Vec<(usize, f64)> =
+    let prescribed: Vec<(usize, f64)> =
         (0..12).filter(|index| index / 2 != 4).map(|index| (index, exact[index])).collect();
-    let found = solve_held(&stiffness(&model), &[0.0; 12], &held);
+    let found = solve_held(&stiffness(&model), &[0.0; 12], &prescribed);
     for (a, b) in found.iter().zip(&exact) {
         assert!((a - b).abs() < 1e-15);
     }

@@ -24,7 +24,7 @@ const SHAPE_STIFFNESS_RATIO: f64 = 1e5;
 const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 
 /// The structure with a base that keeps its shape, and the ground that holds it.
-pub(crate) fn held(
+pub(crate) fn on_fixed_base(
     structure: Box<dyn Structure>,
     elements: &Patch,
     time_step: f64,
@@ -43,7 +43,7 @@ pub(crate) fn held(
     // A massless structure: the reference is its stiffness.
     let is_usable = resistance > 0.0 && resistance.is_finite();
     let resistance = if is_usable { resistance } else { stiffest(&stiffness) };
-    let held = HeldGround {
+    let ground = FixedGround {
         elements: elements.clone(),
         compliance: total / (HELD_GROUND_STIFFNESS_RATIO * resistance),
     };
@@ -56,13 +56,13 @@ pub(crate) fn held(
     } else {
         Box::new(RigidBase { structure, shape })
     };
-    Ok((structure, Box::new(held)))
+    Ok((structure, Box::new(ground)))
 }
 
 /// Whether the ground is a held one.
-pub(crate) fn holds(ground: &dyn Ground) -> bool {
+pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
-    ground.is::<HeldGround>()
+    ground.is::<FixedGround>()
 }
 
 /// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all but rigid motions of its nodes.
@@ -169,13 +169,13 @@ impl Structure for RigidBase {
 }
 
 /// Springs under each element, so stiff that the base moves with the free field.
-struct HeldGround {
+struct FixedGround {
     elements: Patch,
     /// Displacement by a traction, m/Pa.
     compliance: f64,
 }
 
-impl HeldGround {
+impl FixedGround {
     fn fill(&self, matrix: &mut [f64]) -> Result<()> {
         let size = self.elements.layout().len();
         same_length("matrix of the held ground", matrix.len(), size * size)?;
@@ -185,7 +185,7 @@ impl HeldGround {
     }
 }
 
-impl Ground for HeldGround {
+impl Ground for FixedGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
     }

@@ -1,0 +1,282 @@
+//! GOAL: files of sweeps: damage is refused, a killed sweep goes on, every bit comes back.
+//! SCENE: the cases by formula of `case_tables`; files that are cut, edited and deleted.
+//! REFERENCE: the whole_table table, to the last bit; the `csv` crate; the cells that were written.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use basemat::prelude::*;
+use basemat::sweep::CaseTable;
+use basemat::{Error, FileError, FileFault, Result};
+use basemat_problems::faults::{count, is_unwritable, is_value, value};
+use proptest::prelude::*;
+
+use super::case_tables::{
+    RESULT_COLUMNS, compute, file_error, folder, refused, sweep, whole_table,
+};
+
+/// Requirement of a case's number.
+const NEEDED_CASE: &str = "one of this sweep, in digits";
+
+/// The fault of a file with this text, and its line.
+fn fault(name: &str, text: &str) -> (usize, FileFault) {
+    let path = folder(name).join("cases.csv");
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(&path, text).unwrap();
+    match refused(sweep().merge([&path])) {
+        Error::File(FileError { file, line, fault }) => {
+            assert_eq!(file, path.display().to_string());
+            (line, fault)
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Sweep of two numbers.
+fn sweep_of_two() -> Sweep<'static> {
+    Sweep::grid([Parameter::numbers("x", [0.5, 0.25])]).unwrap()
+}
+
+/// The fault of `text` with one of its parts changed, and its line.
+fn edited_fault(text: &str, from: &str, to: &str) -> (usize, FileFault) {
+    assert!(text.contains(from), "{from}");
+    fault("edited", &text.replacen(from, to, 1))
+}
+
+#[test]
+fn spoilt_files_are_refused() {
+    let text = whole_table().csv();
+    // Cut anywhere: the check sum is that of all rows.
+    let path = folder("cut").join("cases.csv");
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    for end in (0..text.len() - 1).filter(|&end| text.is_char_boundary(end)) {
+        std::fs::write(&path, &text[..end]).unwrap();
+        assert!(matches!(refused(sweep().merge([&path])), Error::File(_)), "{end}");
+    }
+    std::fs::write(&path, &text.as_bytes()[..=text.find('µ').unwrap()]).unwrap();
+    assert!(matches!(
+        refused(sweep().merge([&path])),
+        Error::File(FileError { fault: FileFault::Format { needed, .. }, .. }) if needed == "UTF-8"
+    ));
+    // A byte-order mark is passed over, and so are line ends of Windows.
+    std::fs::write(&path, format!("\u{feff}{text}")).unwrap();
+    assert_eq!(sweep().merge([&path]).unwrap(), whole_table());
+    let doubled = sweep_of_two().table(["y"], |case| Result::Ok([2.0 * case.value("x")?])).unwrap();
+    std::fs::write(&path, doubled.csv().replace('\n', "\r\n")).unwrap();
+    assert_eq!(sweep_of_two().merge([&path]).unwrap(), doubled);
+
+    for (from, to, expected) in [
+        ("\n1,0.1,", "\n24,0.1,", value("case", "'24'", NEEDED_CASE)),
+        ("\n1,0.1,", "\n+1,0.1,", value("case", "'+1'", NEEDED_CASE)),
+        ("\n1,0.1,", "\n1,0.11,", value("friction of case 1", "'0.11'", "'0.1'")),
+        ("\n1,0.1,", "\n1,0.1,0,", count("cells", 8, "7")),
+        (",-inf,", ",inf,", FileFault::Damaged { quantity: "the table".into() }),
+        (
+            ",failed",
+            "0,failed",
+            value("case 11", "a row with an error and results", "a row with either"),
+        ),
+        ("friction", "fric\"tion", value("heading of column 2", "'fric\"tion'", "'friction'")),
+        ("case,", "", value("heading of column 1", "'friction'", "'case'")),
+    ] {
+        assert_eq!(edited_fault(&text, from, to).1, expected);
+    }
+    assert_eq!(edited_fault(&text, "\n1,0.1,", "\n24,0.1,").0, 4);
+    let word = edited_fault(&text, ",-inf,", ",minus,").1;
+    assert_eq!(word.to_string(), "residual_slip_m is 'minus', but must be a number");
+    let short = "# basemat sweep 1 check sum\ncase\n";
+    assert_eq!(fault("short", short).1, value("heading of column 2", "''", "'friction'"));
+    let wrong = edited_fault(&text, "check sum ", "check sum x").1;
+    assert!(is_value(&wrong, "check sum"), "{wrong}");
+    // Another version, and files of something else.
+    for (found, text) in [
+        ("", String::new()),
+        ("case,friction,record,width_m,y,error", "case,friction,record,width_m,y,error\n".into()),
+        ("# basemat sweep 2 check sum", "# basemat sweep 2 check sum\n".into()),
+    ] {
+        let needed = "'# basemat sweep 1 check sum …'".to_owned();
+        let format = FileFault::Format { found: found.into(), needed };
+        assert_eq!(fault("other", &text), (1, format));
+    }
+}
+
+/// A sweep whose rows are kept in a file, and how many of its cases were run.
+struct KeptSweep {
+    path: PathBuf,
+    /// The file of an unfinished sweep.
+    part: PathBuf,
+    runs: AtomicUsize,
+}
+
+impl KeptSweep {
+    fn new(folder: &Path) -> Self {
+        Self {
+            path: folder.join("cases.csv"),
+            part: folder.join("cases.csv.part"),
+            runs: AtomicUsize::new(0),
+        }
+    }
+
+    /// The table, of the cases in the file and those that are missing there.
+    fn table(&self) -> Result<CaseTable> {
+        self.runs.store(0, Ordering::Relaxed);
+        sweep().table_in(&self.path, RESULT_COLUMNS, |case| {
+            self.runs.fetch_add(1, Ordering::Relaxed);
+            compute(case)
+        })
+    }
+
+    /// Cases that the last table ran.
+    fn runs(&self) -> usize {
+        self.runs.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn a_killed_sweep_goes_on() {
+    let kept = KeptSweep::new(&folder("resumed"));
+    let KeptSweep { path, part, .. } = &kept;
+    // As a whole, and again.
+    assert_eq!(kept.table().unwrap(), whole_table());
+    assert_eq!((kept.runs(), part.exists()), (24, false));
+    assert_eq!(std::fs::read_to_string(path).unwrap(), *whole_table().csv());
+    assert_eq!(kept.table().unwrap(), whole_table());
+    assert_eq!(kept.runs(), 0);
+
+    // Killed at any byte of a row, or between a row and its check sum: the rows before are kept.
+    let text = whole_table().csv();
+    std::fs::remove_file(path).unwrap();
+    let states = Mutex::new(Vec::new());
+    let table = sweep().table_in(path, RESULT_COLUMNS, |case| {
+        states.lock().unwrap().push(std::fs::read(part).unwrap());
+        compute(case)
+    });
+    assert_eq!(table.unwrap(), whole_table());
+    let mut states = states.into_inner().unwrap();
+    states.sort_by_key(Vec::len);
+    states.dedup();
+    for (count, pair) in states.windows(2).enumerate() {
+        let row = &pair[1][pair[0].len()..];
+        for end in (0..=row.len()).step_by(7).chain([row.len()]) {
+            let _ = std::fs::remove_file(path);
+            std::fs::write(part, [&pair[0], &row[..end]].concat()).unwrap();
+            assert_eq!(kept.table().unwrap(), whole_table(), "{count}, {end}");
+            assert!(!part.exists() && std::fs::read_to_string(path).unwrap() == *text);
+            assert!(kept.runs() == 24 - count || cfg!(feature = "rayon"), "{count}, {end}");
+        }
+    }
+    // Killed before the heading was written.
+    for end in 0..=states[0].len() {
+        let _ = std::fs::remove_file(path);
+        std::fs::write(part, &states[0][..end]).unwrap();
+        assert_eq!((kept.table().unwrap(), kept.runs()), (whole_table(), 24), "{end}");
+    }
+    // The process was killed between writing the table and removing the other file.
+    std::fs::write(part, &text).unwrap();
+    assert_eq!(kept.table().unwrap(), whole_table());
+    assert_eq!((kept.runs(), part.exists()), (0, false));
+}
+
+/// A row that is deleted is run again; progress tells of it alone.
+#[test]
+fn a_deleted_row_is_run_again() {
+    let kept = KeptSweep::new(&folder("deleted_row"));
+    let path = &kept.path;
+    let text = kept.table().unwrap().csv();
+    let begin = text.find("\n3,").unwrap() + 1;
+    let end = text.find("\n4,").unwrap() + 1;
+    let failed = &text[begin..end];
+    assert!(
+        failed.starts_with(
+            "3,0.1,\"the \"\"pulse\"\"\",1e300,,,\"no, \"\"not\"\" this,\r\none; µ\"\n"
+        )
+    );
+    std::fs::write(path, text.replace(failed, "")).unwrap();
+    let damaged = FileFault::Damaged { quantity: "the table".into() };
+    assert_eq!(refused(kept.table()), file_error(&path.display().to_string(), damaged));
+    let rows = text.replace(failed, "").split_once('\n').unwrap().1.to_owned();
+    std::fs::write(path, format!("# basemat sweep 1 check sum\n{rows}")).unwrap();
+    let reports = AtomicUsize::new(0);
+    let again = sweep().on_progress(|_, _| {
+        reports.fetch_add(1, Ordering::Relaxed);
+    });
+    let again = again.table_in(path, RESULT_COLUMNS, |case| {
+        assert_eq!(case.index, 3);
+        compute(case)
+    });
+    assert_eq!((again.unwrap(), reports.load(Ordering::Relaxed)), (whole_table(), 1));
+}
+
+/// Files of another sweep are not taken, nor overwritten; a file that cannot be written is known before anything runs.
+#[test]
+fn files_that_a_sweep_cannot_use_are_refused() {
+    let folder = folder("unusable");
+    let kept = KeptSweep::new(&folder);
+    let path = &kept.path;
+    let text = kept.table().unwrap().csv();
+    let other = sweep().shard(0, 2).unwrap().table_in(path, RESULT_COLUMNS, compute);
+    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    assert!(is_value(&error.fault, "case"), "{error}");
+    let other = sweep().table_in(path, ["a", "b"], compute);
+    let Error::File(error) = refused(other) else { panic!("of another sweep") };
+    assert!(is_value(&error.fault, "heading of column 5"), "{error}");
+    assert_eq!(std::fs::read_to_string(path).unwrap(), *text);
+    std::fs::remove_file(path).unwrap();
+    std::fs::write(&kept.part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
+    assert!(refused(kept.table()).to_string().contains("line 5"));
+    let file = folder.join("a_file");
+    std::fs::write(&file, "").unwrap();
+    let nowhere =
+        sweep().table_in(file.join("cases.csv"), RESULT_COLUMNS, |_| -> Result<[f64; 2]> {
+            unreachable!("the file cannot be written")
+        });
+    assert!(is_unwritable(&nowhere), "{nowhere:?}");
+    assert!(is_unwritable(&whole_table().csv().save(file.join("cases.csv"))));
+}
+
+/// Two parameters, one of which has this name and these texts.
+fn sweep_of_texts(name: &str, texts: &[String]) -> Sweep<'static> {
+    let parameters = [Parameter::texts(name, texts), Parameter::numbers("x", [1.0, 2.0])];
+    Sweep::grid(parameters).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Any texts and any bits come back, and another reader sees the same cells.
+    #[test]
+    fn files_keep_every_bit(
+        texts in proptest::collection::btree_set("[a-z,\"\n\r µ']{1,8}", 1..4),
+        name in "[a-z,\"\n\r µ]{2,8}",
+        numbers in proptest::collection::vec(any::<u64>(), 3),
+        reason in "[ -~\n\r\"µ]{0,30}",
+    ) {
+        prop_assume!(!["case", "error", "y"].contains(&name.as_str()));
+        let texts: Vec<_> = texts.into_iter().collect();
+        let sweep = sweep_of_texts(&name, &texts);
+        let table = sweep.table(["y", "z", "w"], |case| match case.index {
+            1 => Err(reason.clone()),
+            _ => Ok([0, 1, 2].map(|k| f64::from_bits(numbers[k]))),
+        }).unwrap();
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case_tables_of_any_bits.csv");
+        table.csv().save(&path).unwrap();
+        prop_assert_eq!(&sweep_of_texts(&name, &texts).merge([&path]).unwrap(), &table);
+
+        let mut reader = basemat_problems::csv::ReaderBuilder::new();
+        let mut reader = reader.comment(Some(b'#')).from_reader(table.csv().as_bytes().to_vec().leak() as &[u8]);
+        let heading: Vec<_> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+        prop_assert_eq!(&heading, &["case", &*name, "x", "y", "z", "w", "error"]);
+        for (record, row) in reader.records().zip(table.rows()) {
+            let record = record.unwrap();
+            prop_assert_eq!(&record[1], row.text(&name).unwrap());
+            match row.results {
+                Err(text) => prop_assert_eq!(&record[6], text),
+                Ok(results) => for (cell, expected) in record.iter().skip(3).zip(results) {
+                    let found = if cell.is_empty() { f64::NAN } else { cell.parse::<f64>().unwrap() };
+                    prop_assert_eq!(found.to_bits(), expected.to_bits());
+                },
+            }
+        }
+    }
+}
