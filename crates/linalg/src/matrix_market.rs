@@ -16,7 +16,7 @@ impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
     ///
     /// Supported: `coordinate` and `array`; `real`, `double` and `integer`; `general` and `symmetric`.
-    /// Entries at the same place are summed.
+    /// Entries at the same place are summed. Needs the feature `io`.
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason.
@@ -26,6 +26,8 @@ impl Triplets {
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
+    ///
+    /// Needs the feature `io`.
     ///
     /// ```
     /// use basemat::structure::Triplets;
@@ -51,7 +53,7 @@ impl Triplets {
     ///
     /// The file is written whole, or not changed. Entries at the same place are summed, and zeros left out. A
     /// matrix that is symmetric to the last bit is written as symmetric. Reading the file returns the same
-    /// numbers.
+    /// numbers. Needs the feature `io`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) or [`Error::Input`](crate::Error::Input) for an entry out of range or not finite, [`Error::Memory`](crate::Error::Memory) for
@@ -65,6 +67,8 @@ impl Triplets {
     }
 
     /// Writes the same to any sink of bytes; errors use `name` for the sink.
+    ///
+    /// Needs the feature `io`.
     ///
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].

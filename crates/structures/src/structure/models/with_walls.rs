@@ -7,7 +7,7 @@ use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescr
 ///
 /// The structure is the same as on the surface: its heights count from the base. The ground is a
 /// `TrenchGround` of this width and depth. A structure whose base bends lists the
-/// nodes of base and walls itself: down the left wall, along the base, up the right wall.
+/// nodes of base and walls itself: down the left wall, along the base, up the right wall. Needs the feature `embedded`.
 ///
 /// ```
 /// use basemat::structure::{RigidBlock, Structure, WithWalls};
