@@ -66,9 +66,11 @@ impl FixedBaseMode {
         let base = structure.base();
         base.check(n)?;
         let nodes = base.into_nodes();
-        let held = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
-        let mut factor = held.factor()?;
-        let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };
+        let springs = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
+        let mut factor = springs.factor()?;
+        let Some(mut along) = springs.pulls().into_iter().nth([0, 2][axis]) else {
+            return Ok(None);
+        };
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
         let found = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
@@ -92,14 +94,18 @@ impl FixedBaseMode {
         // Base shear ω² φᵀM r of a unit amplitude.
         let amplitude =
             BASE_SHEAR_RATIO * STANDARD_GRAVITY * total / (square * participation.abs());
-        let scaled = |factor: f64| force.iter().map(|force| factor * force).enumerate().collect();
         Ok(Some(Self {
             period: TAU / circular,
             damping: damping.form(mode, mode) / (2.0 * circular),
-            row: scaled(1.0 / (energy * amplitude)),
-            load: scaled(amplitude),
+            row: scaled(&force, 1.0 / (energy * amplitude)),
+            load: scaled(&force, amplitude),
         }))
     }
+}
+
+/// The forces times `factor`, each on its degree of freedom.
+fn scaled(forces: &[f64], factor: f64) -> DofCombination {
+    forces.iter().map(|force| factor * force).enumerate().collect()
 }
 
 /// Period (s) and damping ratio of the free vibration on the ground from the shape of `mode`.

@@ -111,12 +111,8 @@ pub fn interaction(
     mut scene: impl FnMut() -> Result<SimulationBuilder>,
 ) -> Result<Interaction> {
     not_negative("duration", duration)?;
-    let run = |builder: SimulationBuilder| {
-        let mut simulation = builder.build()?;
-        simulation.run(simulation.steps_for(duration), |_| {})
-    };
-    let on_ground = run(scene()?)?;
-    let on_fixed_base = run(scene()?.on_fixed_base())?;
+    let on_ground = run_for(duration, scene()?)?;
+    let on_fixed_base = run_for(duration, scene()?.on_fixed_base())?;
     let mut modes = Vec::new();
     for axis in on_ground.axes() {
         let builder = scene()?;
@@ -132,6 +128,12 @@ pub fn interaction(
         });
     }
     Ok(Interaction { on_ground, on_fixed_base, modes })
+}
+
+/// Builds a scene and runs it for `duration` seconds.
+fn run_for(duration: f64, builder: SimulationBuilder) -> Result<Run> {
+    let mut simulation = builder.build()?;
+    simulation.run(simulation.steps_for(duration), |_| {})
 }
 
 /// Ratio of responses above which the one on the fixed base is rounding, and the ratio says nothing.

@@ -10,6 +10,7 @@
 //! | [`interaction()`] | how the ground changes forces, period and damping against a fixed base |
 //! | [`push_over()`] | the static load that the foundation carries, and the path to it |
 
+mod base_rotations;
 mod convergent_step;
 mod free_vibration;
 mod interaction;

@@ -1,9 +1,10 @@
 //! A static push-over: load against displacement, with uplift and sliding, up to the largest load.
 
 use crate::Simulation;
+use crate::analyses::base_rotations::base_rotations;
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
 use crate::linalg::largest;
-use crate::structure::{Base, BaseNode, DofCombination, Structure};
+use crate::structure::DofCombination;
 
 /// Width of the bracket of the largest force, relative to it, at which the search ends.
 const LIMIT_TOLERANCE: f64 = 1e-4;
@@ -349,47 +350,4 @@ fn is_without_equilibrium(error: &Error) -> bool {
         ),
         _ => false,
     }
-}
-
-/// Rotations of the base about y and, in plan, about x: of the plane that fits its nodes best, the largest of all parts.
-fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
-    let base = structure.base();
-    let mut largest = [0.0_f64; 2];
-    for part in base.parts() {
-        let [slope, slope_across] = slopes(part, displacement);
-        let rotations = match base {
-            Base::Faces(_) => [-slope, slope_across],
-            Base::Lines(_) => [slope, 0.0],
-        };
-        for (sum, value) in largest.iter_mut().zip(rotations) {
-            if value.abs() > sum.abs() {
-                *sum = value;
-            }
-        }
-    }
-    largest
-}
-
-/// Slopes along x and y of the plane that fits the vertical displacements of nodes best.
-fn slopes(nodes: &[BaseNode], displacement: &[f64]) -> [f64; 2] {
-    let count = nodes.len() as f64;
-    let values = || nodes.iter().map(|node| [node.x, node.y, node.vertical.value(displacement)]);
-    let mut mean = [0.0; 3];
-    for value in values() {
-        (0..3).for_each(|k| mean[k] += value[k] / count);
-    }
-    let [mut xx, mut xy, mut yy, mut xv, mut yv] = [0.0; 5];
-    for value in values() {
-        let [x, y, v] = [0, 1, 2].map(|k| value[k] - mean[k]);
-        xx += x * x;
-        xy += x * y;
-        yy += y * y;
-        xv += x * v;
-        yv += y * v;
-    }
-    let determinant = xx * yy - xy * xy;
-    if determinant > 1e-12 * xx * xx {
-        return [(xv * yy - yv * xy) / determinant, (yv * xx - xv * xy) / determinant];
-    }
-    [if xx > 0.0 { xv / xx } else { 0.0 }, 0.0]
 }

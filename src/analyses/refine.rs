@@ -1,4 +1,4 @@
-//! Error against run time for a scene of the user's own.
+//! Error against run time of a scene, by six settings of mesh and step.
 
 use std::fmt;
 use std::time::Duration;
@@ -12,6 +12,9 @@ const CONVERGENCE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
 /// Mesh and step of each run, as numbers of halvings of element length and time step.
 const SETTING_HALVINGS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
+
+/// Name of a scene's results in errors.
+const RESULTS_NAME: &str = "list of a scene's results";
 
 /// Setting of a [`Refinement`].
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +134,6 @@ pub(crate) fn settings(
     time_step: f64,
     scene: &mut dyn FnMut(usize, f64) -> Result<Vec<f64>>,
 ) -> Result<Vec<Setting>> {
-    const NAME: &str = "list of a scene's results";
     positive("number of elements", elements as f64)?;
     positive("time step", time_step)?;
     let mut settings: Vec<Setting> = Vec::with_capacity(SETTING_HALVINGS.len());
@@ -141,32 +143,45 @@ pub(crate) fn settings(
         let begin = clock();
         let results = scene(elements, time_step)?;
         let wall = begin.map_or(Duration::ZERO, |begin| begin.elapsed());
-        at_least(NAME, results.len(), 1)?;
+        at_least(RESULTS_NAME, results.len(), 1)?;
         if let Some(first) = settings.first() {
-            same_length(NAME, results.len(), first.results.len())?;
+            same_length(RESULTS_NAME, results.len(), first.results.len())?;
         }
-        all_finite(NAME, &results)?;
+        all_finite(RESULTS_NAME, &results)?;
         settings.push(Setting { elements, time_step, error: f64::NAN, wall, results });
     }
     Ok(settings)
 }
 
-/// Errors of three results, each with half the length of the previous one, and their order.
-fn errors(results: [&[f64]; 3]) -> ([Vec<f64>; 3], f64) {
-    let [first, second, third] = results;
-    let order = (distance(first, second) / distance(second, third)).log2();
-    // The error of the finest result is the change by infinitely many halvings with this order.
-    let used = if order.is_nan() {
-        1.0
-    } else {
-        order.clamp(*CONVERGENCE_ORDERS.start(), *CONVERGENCE_ORDERS.end())
-    };
-    let factor = (used.exp2() - 1.0).recip();
-    let error = |values: &[f64]| {
-        let pairs = values.iter().zip(second.iter().zip(third));
-        pairs.map(|(value, (b, c))| value - c + factor * (b - c)).collect()
-    };
-    (results.map(error), order)
+/// Errors of three settings, each with half the element length or half the step of the previous one.
+struct SeriesErrors {
+    /// Errors of the results of each setting.
+    errors: [Vec<f64>; 3],
+    /// Observed order of convergence; NaN if the results do not change.
+    order: f64,
+}
+
+impl SeriesErrors {
+    fn of(coarse: &Setting, middle: &Setting, fine: &Setting) -> Self {
+        let results = [&coarse.results, &middle.results, &fine.results];
+        let order = (distance(results[0], results[1]) / distance(results[1], results[2])).log2();
+        // The error of the finest result is the change by infinitely many halvings with this order.
+        let used = if order.is_nan() {
+            1.0
+        } else {
+            order.clamp(*CONVERGENCE_ORDERS.start(), *CONVERGENCE_ORDERS.end())
+        };
+        let factor = (used.exp2() - 1.0).recip();
+        let errors = results.map(|values| {
+            let mut errors = Vec::with_capacity(values.len());
+            for (k, value) in values.iter().enumerate() {
+                let last_change = results[1][k] - results[2][k];
+                errors.push(value - results[2][k] + factor * last_change);
+            }
+            errors
+        });
+        Self { errors, order }
+    }
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -178,29 +193,37 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::hypot)
 }
 
+/// A distance of results relative to their size; zero for equal results of any size.
+fn relative(distance: f64, size: f64) -> f64 {
+    if distance == 0.0 { 0.0 } else { distance / size }
+}
+
+/// Whether an observed order is one of a convergent method, or the results do not change.
+fn is_regular_order(order: f64) -> bool {
+    order.is_nan() || CONVERGENCE_ORDERS.contains(&order)
+}
+
 impl Refinement {
     pub(crate) fn from_settings(mut settings: Vec<Setting>) -> Self {
-        let of = |k: usize| &settings[k].results[..];
-        let (steps, step_order) = errors([of(0), of(1), of(2)]);
-        let (meshes, mesh_order) = errors([of(0), of(3), of(4)]);
-        let coarse = meshes[0].iter().zip(&steps[0]);
-        let extrapolated: Vec<f64> =
-            of(0).iter().zip(coarse).map(|(value, (mesh, step))| value - mesh - step).collect();
-        let size = norm(extrapolated.iter().copied());
-        let relative = |distance: f64| if distance == 0.0 { 0.0 } else { distance / size };
-        let found: Vec<f64> = SETTING_HALVINGS
-            .iter()
-            .map(|&[mesh, step]| {
-                let both = meshes[mesh as usize].iter().zip(&steps[step as usize]);
-                relative(norm(both.map(|(a, b)| a + b)))
-            })
-            .collect();
-        let foretold = extrapolated.iter().zip(meshes[1].iter().zip(&steps[1]));
-        let foretold: Vec<f64> = foretold.map(|(value, (a, b))| value + a + b).collect();
-        let mismatch = relative(distance(of(5), &foretold));
-        for (setting, error) in settings.iter_mut().zip(found) {
-            setting.error = error;
+        let steps = SeriesErrors::of(&settings[0], &settings[1], &settings[2]);
+        let meshes = SeriesErrors::of(&settings[0], &settings[3], &settings[4]);
+        let mut extrapolated = settings[0].results.clone();
+        for (k, value) in extrapolated.iter_mut().enumerate() {
+            *value = *value - meshes.errors[0][k] - steps.errors[0][k];
         }
+        // Results of twice the elements with half the step, if both errors add up.
+        let mut predicted = extrapolated.clone();
+        for (k, value) in predicted.iter_mut().enumerate() {
+            *value = *value + meshes.errors[1][k] + steps.errors[1][k];
+        }
+        let size = norm(extrapolated.iter().copied());
+        let mismatch = relative(distance(&settings[5].results, &predicted), size);
+        for (setting, [mesh, step]) in settings.iter_mut().zip(SETTING_HALVINGS) {
+            let both = meshes.errors[mesh as usize].iter().zip(&steps.errors[step as usize]);
+            setting.error = relative(norm(both.map(|(a, b)| a + b)), size);
+        }
+        let mesh_order = meshes.order;
+        let step_order = steps.order;
         Self { settings, extrapolated, mesh_order, step_order, mismatch }
     }
 
@@ -209,13 +232,12 @@ impl Refinement {
     /// Both orders must be between a half and four (or the results independent), and the coarsest error above the
     /// mismatch.
     pub fn is_regular(&self) -> bool {
-        let regular = |order: f64| order.is_nan() || CONVERGENCE_ORDERS.contains(&order);
         let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
-        regular(self.mesh_order) && regular(self.step_order) && self.mismatch <= coarsest
+        is_regular_order(self.mesh_order)
+            && is_regular_order(self.step_order)
+            && self.mismatch <= coarsest
     }
-}
 
-impl Refinement {
     /// Orders of convergence, and advice if they are irregular.
     pub(crate) fn notes(&self) -> String {
         let Self { mesh_order, step_order, mismatch, .. } = self;
@@ -235,12 +257,11 @@ impl Refinement {
 pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     let mut heading = ["elements", "step, s", "run time, s"].map(String::from).to_vec();
     let settings = refinements.first().map_or(&[][..], |(_, first)| &first.settings);
-    let row = |setting: &Setting| {
-        let Setting { elements, time_step, wall, .. } = setting;
+    let mut rows = Vec::with_capacity(settings.len());
+    for Setting { elements, time_step, wall, .. } in settings {
         let wall = format!("{:.3}", wall.as_secs_f64());
-        vec![elements.to_string(), format!("{time_step:.3e}"), wall]
-    };
-    let mut rows: Vec<_> = settings.iter().map(row).collect();
+        rows.push(vec![elements.to_string(), format!("{time_step:.3e}"), wall]);
+    }
     let mut last = vec!["extrapolated".to_owned(), String::new(), String::new()];
     let mut has_values = false;
     for (name, refinement) in refinements {

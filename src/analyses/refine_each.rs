@@ -5,6 +5,9 @@ use std::fmt;
 use crate::analyses::refine::{Refinement, Setting, settings, table};
 use crate::error::{Error, Result, at_least, same_length};
 
+/// Name of a scene's peaks in errors.
+pub(crate) const PEAKS_NAME: &str = "list of a scene's peaks";
+
 /// Error against run time of several peaks, made by [`refine_each`]; it prints as one table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -22,8 +25,7 @@ pub(crate) struct Names(pub(crate) Vec<String>);
 impl Names {
     /// Values of one run's peaks; an error if the names differ from the first run's.
     pub(crate) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
-        const NAME: &str = "list of a scene's peaks";
-        at_least(NAME, peaks.len(), 1)?;
+        at_least(PEAKS_NAME, peaks.len(), 1)?;
         let (names, values): (Vec<String>, Vec<f64>) =
             peaks.into_iter().map(|(name, value)| (name.into(), value)).unzip();
         if self.0.is_empty() {
@@ -35,7 +37,7 @@ impl Names {
             self.0 = names;
             return Ok(values);
         }
-        same_length(NAME, names.len(), self.0.len())?;
+        same_length(PEAKS_NAME, names.len(), self.0.len())?;
         match names.iter().zip(&self.0).find(|(name, first)| name != first) {
             None => Ok(values),
             Some((name, _)) => Err(Error::no_name("peak", name, self.0.iter())),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::analyses::refine_each::Names;
+use crate::analyses::refine_each::{Names, PEAKS_NAME};
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
@@ -121,7 +121,7 @@ pub fn sensitivity<N: Into<String>>(
     let mut names = Names::default();
     let mut run = |elements: usize, step: f64| -> Result<Vec<f64>> {
         let values = names.values(scene(elements, step)?)?;
-        all_finite("list of a scene's peaks", &values)?;
+        all_finite(PEAKS_NAME, &values)?;
         Ok(values)
     };
     let value = run(elements, time_step)?;

@@ -103,11 +103,6 @@ impl<'a> BaseView<'a> {
         self.checks().iter().map(factor).fold(f64::NAN, f64::min)
     }
 
-    /// Largest |slip| of any element, m.
-    pub(crate) fn largest_slip(&self) -> f64 {
-        self.checks().iter().fold(0.0, |largest, checks| checks.largest_slip.max(largest))
-    }
-
     fn checks(&self) -> &'a [FoundationChecks] {
         match self.foundation {
             Some(k) => &self.state.checks[k..=k],
@@ -121,4 +116,9 @@ pub(crate) fn open_area(base: &BaseView<'_>) -> f64 {
     let open = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
     // An empty sum would be a negative zero.
     open.fold(0.0, |sum, (area, _)| sum + area)
+}
+
+/// Largest |slip| of any element of a base, m.
+pub(crate) fn largest_slip(base: &BaseView<'_>) -> f64 {
+    base.checks().iter().fold(0.0, |largest, checks| checks.largest_slip.max(largest))
 }

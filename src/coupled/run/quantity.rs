@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use crate::coupled::State;
-use crate::coupled::run::base_view::{BaseView, open_area};
+use crate::coupled::run::base_view::{BaseView, largest_slip, open_area};
 use crate::coupled::run::peak::Peak;
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
@@ -183,7 +183,7 @@ quantities! {
         |base| base.whole_or(base.state.mean_slip, |foundation| foundation.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.largest_slip();
+        largest_slip;
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     ///
     /// In plan about the axis along y, by the right-hand rule.
