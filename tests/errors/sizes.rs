@@ -70,8 +70,8 @@ fn sizes_are_refused_before_memory_is_taken() {
     let record = el_centro_1940();
     let last = (record.duration() / 1e-9 - 1e-9).ceil();
     too_large(record.resampled(1e-9), samples, last, 8.0 * last);
-    let padded = record.padded(1e7, 1.9e7);
-    let count = record.len() as f64 + 5e8 + 9.5e8;
+    let padded = record.padded(4e6, 3.9e6);
+    let count = record.len() as f64 + 2e8 + 1.95e8;
     too_large(padded, samples, count, 8.0 * count);
     assert!(matches!(record.padded(f64::MAX, 0.0), Err(Error::Memory(_))));
 

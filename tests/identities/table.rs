@@ -14,7 +14,7 @@ const WITHOUT_ROWS: [(&str, &str); 4] = [
         "FullPlaneGround",
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",
     ),
-    ("HeldGround", "private: the ground of a fixed base"),
+    ("FixedGround", "private: the ground of a fixed base"),
     ("RigidBase", "private: the structure of a fixed base"),
     ("OutOfPhase", "private: part of a travelling wave beyond the critical angle"),
 ];

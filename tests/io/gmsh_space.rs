@@ -343,8 +343,7 @@ fn elements_that_cannot_be_right_are_named_with_their_line() {
     let PartRefusal { line, text } = refusal(BRICK_FILE, &thin);
     assert!(line == 47 && text.contains("thickness of a shell is 0"), "{text}");
     let twice = BRICK_FILE.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
-    let fault_of_twin =
-        value("quadrilateral of nodes 7 8 5 6", "fault_of_twin twice", "fault_of_twin once");
+    let fault_of_twin = value("quadrilateral of nodes 7 8 5 6", "given twice", "given once");
     assert_eq!(fault(read(&twice.replacen("4 4 1 4", "4 5 1 9", 1))), (48, fault_of_twin));
 }
 

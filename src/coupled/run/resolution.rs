@@ -15,6 +15,10 @@
 //! | varies more slowly than the ground's acceleration | the structure vibrates freely, and the step lengthens its period | r ≤ 0.25: 12 steps per period |
 //! | follows the ground's acceleration | peaks fall between steps | r ≤ 0.6: 5 steps per period |
 //!
+//! Damping and phase of other frequencies err with the square of the ground's r: it must be at most 0.24, 13 steps per
+//! period, or 0.41, 8 steps, if the base shear varies as the ground does (its r within 0.95 and 1.1 of the ground's). At
+//! these limits the largest base shear errs by about 5 %.
+//!
 //! A base shear that varies more than twice as fast as a resolved ground motion contains vibrations of the contact
 //! with little mass; they do not count. Without ground motion nothing distinguishes them from others, and the time
 //! step is not judged.
@@ -49,6 +53,12 @@ const CONTACT_VIBRATION_FACTOR: f64 = 2.0;
 const FREE_VIBRATION_STEPS: f64 = 30.0;
 /// Steps per period that a warning recommends for a base shear that follows the ground.
 const FOLLOWING_STEPS: f64 = 15.0;
+/// Largest r of the ground, and the recommended one: the largest base shear errs by about 0.9 r².
+const MAX_GROUND_RATIO: f64 = 0.236;
+const RECOMMENDED_GROUND_RATIO: f64 = 0.183;
+/// The same where the base shear varies as the ground does: it errs by about 0.3 r².
+const MAX_FOLLOWED_GROUND_RATIO: f64 = 0.408;
+const RECOMMENDED_FOLLOWED_GROUND_RATIO: f64 = 0.316;
 /// Multiples of the ground's r between which the base shear varies as the ground does.
 const FOLLOWING_RATIO_RANGE: [f64; 2] = [0.95, 1.1];
 /// Smallest number of steps for an estimate of a frequency.
@@ -225,6 +235,12 @@ impl Resolution {
         self.has_response() && self.base_shear.ratio() > limit
     }
 
+    /// Whether the time step is too long for the ground's acceleration.
+    fn is_coarse_for_ground(&self) -> bool {
+        let limit = if self.follows() { MAX_FOLLOWED_GROUND_RATIO } else { MAX_GROUND_RATIO };
+        self.ground.ratio() > limit
+    }
+
     /// Whether the base shear varies as the ground does.
     fn follows(&self) -> bool {
         let ground = self.ground.ratio();
@@ -258,7 +274,7 @@ impl Resolution {
         if !self.has_response() {
             return;
         }
-        if self.is_coarse() {
+        if self.is_coarse() || self.is_coarse_for_ground() {
             self.warn_of_step(warnings);
         }
         let time_step = self.time_step;
@@ -286,12 +302,17 @@ impl Resolution {
         let response = self.base_shear.ratio();
         let ground = self.ground.ratio();
         let frequency = self.samples.frequency.unwrap_or(ground / (PI * time_step));
-        let missed_motion = self.unresolved_motion(frequency);
+        let is_coarse = self.is_coarse();
+        let missed_motion = self.unresolved_motion(frequency).filter(|_| is_coarse);
         let is_free = self.is_free_vibration();
         if is_free || missed_motion.is_none() && response < CONTACT_VIBRATION_FACTOR * ground {
             let period = PI * time_step / response;
-            let steps = if is_free { FREE_VIBRATION_STEPS } else { FOLLOWING_STEPS };
-            let needed = period / steps;
+            let needed = match (is_coarse, is_free, self.follows()) {
+                (true, true, _) => period / FREE_VIBRATION_STEPS,
+                (true, false, _) => period / FOLLOWING_STEPS,
+                (false, _, true) => time_step * RECOMMENDED_FOLLOWED_GROUND_RATIO / ground,
+                (false, _, false) => time_step * RECOMMENDED_GROUND_RATIO / ground,
+            };
             warnings.push(Warning::UnresolvedPeriod { period, time_step, needed });
         }
         warnings.extend(missed_motion);

@@ -77,7 +77,8 @@ pub enum Warning {
     },
     /// The base shear vibrates with a period that the time step does not resolve: fewer than twelve steps a period.
     ///
-    /// Five steps are enough where the base shear follows the ground. [`refine`](crate::analyses::refine()) finds the error.
+    /// Five steps are enough where the base shear follows the ground. The ground's acceleration needs 13 steps a period
+    /// itself, or 8 where the base shear follows it. [`refine`](crate::analyses::refine()) finds the error.
     #[error(
         "steps of {time_step:.2e} s for a base shear of period {period:.2e} s: take {needed:.1e} s"
     )]
