@@ -1,4 +1,6 @@
-//! Wall times of what users wait for, as lines of seconds and name: the least of a few repetitions.
+//! Wall times of what users wait for, as lines of seconds and name.
+//!
+//! A time is the smallest of a few repetitions.
 //!
 //! `.ci/bench_gate` runs this program of two commits in turns and compares them. Arguments are the
 //! names to time; all without any. Statistics of single kernels are in the other benches.
@@ -17,15 +19,15 @@ use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil, unobserved};
 use basemat_problems::headline;
 
-const REPETITIONS: usize = 3;
+const REPETITION_COUNT: usize = 3;
 
 /// A timed call, with all data that it needs.
-type Timed = Box<dyn FnOnce() -> Result<()>>;
+type TimedCall = Box<dyn FnOnce() -> Result<()>>;
 
 /// Prepares what is not timed.
-type Prepare = fn() -> Result<Timed>;
+type PrepareCall = fn() -> Result<TimedCall>;
 
-const JOBS: [(&str, Prepare); 8] = [
+const TIMED_JOBS: [(&str, PrepareCall); 8] = [
     ("4000 steps, bonded", || headline_steps(Bonded)),
     ("4000 steps, friction", || headline_steps(Coulomb::new(0.2)?)),
     ("1000 steps, friction, 40 graded elements", many_elements),
@@ -36,9 +38,9 @@ const JOBS: [(&str, Prepare); 8] = [
     ("convolution of 10 000 steps", convolution),
 ];
 
-fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<Timed> {
+fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<TimedCall> {
     let (builder, ground) = headline::headline(headline::COUNT)?;
-    // Told of fewer steps, it would make them in degrees of freedom instead of modes.
+    // With fewer expected steps, the simulation would use degrees of freedom instead of modes.
     let builder = builder.ground(ground).interface(law).expected_steps(headline::STEPS);
     let mut simulation = builder.build()?;
     Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
@@ -53,12 +55,12 @@ fn block(graded_elements: usize) -> Result<Simulation> {
         .build()
 }
 
-fn many_elements() -> Result<Timed> {
+fn many_elements() -> Result<TimedCall> {
     let mut simulation = block(40)?;
     Ok(Box::new(move || simulation.run(1_000, |_| ()).map(drop)))
 }
 
-fn time_series() -> Result<Timed> {
+fn time_series() -> Result<TimedCall> {
     let mut simulation = block(10)?;
     Ok(Box::new(move || {
         let mut time_series = Recorder::new().contact(1).start(&simulation)?;
@@ -68,13 +70,13 @@ fn time_series() -> Result<Timed> {
     }))
 }
 
-fn build() -> Result<Timed> {
+fn build() -> Result<TimedCall> {
     let (builder, ground) = headline::headline(headline::COUNT)?;
     let builder = builder.ground(ground).interface(Bonded).expected_steps(headline::STEPS);
     Ok(Box::new(move || builder.build().map(|simulation| drop(black_box(simulation)))))
 }
 
-fn half_plane() -> Result<Timed> {
+fn half_plane() -> Result<TimedCall> {
     let elements = Strip::graded(-5.0..5.0, 16)?.elements();
     Ok(Box::new(move || {
         let kernel = PatchKernel::new(headline::soil()?, elements, 2.0e-3)?;
@@ -82,14 +84,14 @@ fn half_plane() -> Result<Timed> {
     }))
 }
 
-fn layers() -> Result<Timed> {
+fn layers() -> Result<TimedCall> {
     let rock = Soil::new(1.0e9, 0.25, 2200.0)?;
     let profile = SoilProfile::on_half_plane(rock).with_layer(headline::soil()?, 8.0)?;
     let mut ground = ElasticGround::new(profile, Strip::graded(-5.0..5.0, 8)?)?;
     Ok(Box::new(move || ground.prepare(5.0e-3, Some(200), &mut unobserved)))
 }
 
-fn convolution() -> Result<Timed> {
+fn convolution() -> Result<TimedCall> {
     let elements = Strip::uniform(-5.0..5.0, 10)?.elements();
     let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(headline::soil()?, elements, 2.0e-3)?);
@@ -108,20 +110,20 @@ fn convolution() -> Result<Timed> {
 }
 
 fn main() -> Result<()> {
-    // Cargo adds an argument of its own.
-    let wanted: Vec<String> = std::env::args().skip(1).filter(|name| name != "--bench").collect();
-    for (name, prepare) in JOBS {
-        if !wanted.is_empty() && !wanted.iter().any(|one| one == name) {
+    // Cargo adds the argument `--bench`.
+    let selected: Vec<String> = std::env::args().skip(1).filter(|name| name != "--bench").collect();
+    for (name, prepare) in TIMED_JOBS {
+        if !selected.is_empty() && !selected.iter().any(|selected| selected == name) {
             continue;
         }
-        let mut least = f64::INFINITY;
-        for _ in 0..REPETITIONS {
+        let mut fastest = f64::INFINITY;
+        for _ in 0..REPETITION_COUNT {
             let timed = prepare()?;
             let begin = Instant::now();
             timed()?;
-            least = least.min(begin.elapsed().as_secs_f64());
+            fastest = fastest.min(begin.elapsed().as_secs_f64());
         }
-        println!("{least:.6}\t{name}");
+        println!("{fastest:.6}\t{name}");
     }
     Ok(())
 }

@@ -14,21 +14,19 @@ use basemat::Result;
 use basemat::prelude::*;
 use basemat::structure::{Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, ShearBuilding};
 
-const FLOORS: usize = 5;
+const FLOOR_COUNT: usize = 5;
 const FLOOR_MASS: f64 = 20.0e3;
 const SLAB_MASS: f64 = 30.0e3;
 
-/// Five storeys of 3 m, per metre of thickness, with 2 % of critical damping at the fixed-base frequency.
+/// Five storeys of 3 m, per metre of thickness.
 ///
-/// The damping does not change where columns yield.
+/// The damping is 2 % of critical at the fixed-base frequency. It does not change where columns yield.
 fn building() -> Result<ShearBuilding> {
-    let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOORS];
+    let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOOR_COUNT];
     ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
-/// Runs 20 s of El Centro, with probes for drifts and for the roof acceleration.
-///
-/// The lowest `levels` levels get one drift probe each.
+/// Runs 20 s of El Centro; records the roof acceleration and the drifts of the lowest `levels`.
 fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut probes = vec![Probe::acceleration("roof", structure.roof())];
@@ -46,16 +44,21 @@ fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
     simulation.run(steps, |_| {})
 }
 
+/// Largest drift of a level in a run, mm.
+fn largest_drift(run: &Run, level: usize) -> Result<f64> {
+    Ok(1e3 * run.probe(&format!("drift {level}"))?.magnitude())
+}
+
 fn main() -> Result<()> {
     // Weight on the bearings: the slab and all floors.
-    let weight = STANDARD_GRAVITY * (SLAB_MASS + FLOORS as f64 * FLOOR_MASS);
+    let weight = STANDARD_GRAVITY * (SLAB_MASS + FLOOR_COUNT as f64 * FLOOR_MASS);
     let level =
         IsolationLevel { height: 0.3, slab_mass: SLAB_MASS, slab_inertia: 2.5e5, damping: 0.0 };
     // Every storey yields at 15 % of the weight above it and hardens with 3 % of its stiffness.
     let mut yielding = building()?;
-    for storey in 0..FLOORS {
-        let above = STANDARD_GRAVITY * FLOOR_MASS * (FLOORS - storey) as f64;
-        yielding = yielding.with_law(storey, Bilinear::new(40.0e6, 0.15 * above, 0.03)?)?;
+    for storey in 0..FLOOR_COUNT {
+        let weight_above = STANDARD_GRAVITY * FLOOR_MASS * (FLOOR_COUNT - storey) as f64;
+        yielding = yielding.with_law(storey, Bilinear::new(40.0e6, 0.15 * weight_above, 0.03)?)?;
     }
     let pendulums = FrictionPendulum::new(weight, 2.0, 0.06)?;
     let rubber = LeadRubber::from_strength(0.6e6, 0.05 * weight)?;
@@ -64,23 +67,22 @@ fn main() -> Result<()> {
         ("lead-rubber", building()?.isolated(level, rubber)?),
     ];
     let direct = [("elastic", building()?), ("yielding", yielding)];
-    // In an isolated building the lowest level is the bearings.
+    // The bearings are the lowest level of an isolated building.
     let cases = direct.map(|case| (case, 0)).into_iter().chain(isolated.map(|case| (case, 1)));
 
     println!("                   bearing  1st storey  roof     base     uplift  input  hysteresis");
     println!("                   mm       drift, mm   acc., g  shear/W  %       kJ/m   kJ/m");
     for ((name, structure), bearings) in cases {
-        let total = STANDARD_GRAVITY * structure.total_mass();
+        let total_weight = STANDARD_GRAVITY * structure.total_mass();
         let run = shake(structure, bearings + 1)?;
-        let drift = |level: usize| Ok(1e3 * run.probe(&format!("drift {level}"))?.magnitude());
-        let travel: Result<f64> = if bearings > 0 { drift(0) } else { Ok(0.0) };
-        let storey: Result<f64> = drift(bearings);
+        let bearing_travel = if bearings > 0 { largest_drift(&run, 0)? } else { 0.0 };
+        let storey_drift = largest_drift(&run, bearings)?;
         println!(
             "{name:<18} {:7.1} {:11.1} {:8.2} {:8.2} {:8.0} {:7.1} {:11.1}",
-            travel?,
-            storey?,
+            bearing_travel,
+            storey_drift,
             run.probe("roof")?.magnitude() / STANDARD_GRAVITY,
-            run.whole.base_shear.magnitude() / total,
+            run.whole.base_shear.magnitude() / total_weight,
             100.0 * run.whole.uplifted_fraction.largest().value,
             1e-3 * run.energy_balance.input,
             1e-3 * run.energy_balance.hysteresis,

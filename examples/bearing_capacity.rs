@@ -1,20 +1,29 @@
-//! A rocking block on soil that yields: settlement and rounding of the ground for several bearing pressures.
+//! A rocking block on soil that yields at several bearing pressures.
 //!
 //! ```text
 //! cargo run --release --example bearing_capacity
 //! ```
 //!
 //! The soil beneath an element settles permanently where the pressure reaches q; the half-plane below stays
-//! elastic. A lower q makes the edges settle more, the block shake less, and the block lean more.
+//! elastic. The settled ground is rounded at the edges of the block. A lower q makes the edges settle more, the block
+//! shake less, and the block lean more.
 
 use basemat::Result;
 use basemat::interface::Yielding;
 use basemat::prelude::*;
 
+/// Permanent settlement of the soil under an element, mm; zero for a law without state variables.
+fn settlement(state: &State, element: usize) -> f64 {
+    1e3 * state.state_variables(element).first().copied().unwrap_or(0.0)
+}
+
 fn main() -> Result<()> {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0)?;
-    let mean = 8.0 * 2000.0 * STANDARD_GRAVITY;
-    println!("El Centro × 1.3 on a block of 4 m × 8 m, mean pressure {:.0} kPa\n", 1e-3 * mean);
+    let mean_pressure = 8.0 * 2000.0 * STANDARD_GRAVITY;
+    println!(
+        "El Centro × 1.3 on a block of 4 m × 8 m, mean pressure {:.0} kPa\n",
+        1e-3 * mean_pressure
+    );
     println!(
         "q / mean   shear / weight   rotation left, mrad   sunk, mm: edge   middle   energy balance"
     );
@@ -25,19 +34,18 @@ fn main() -> Result<()> {
             .structure(block)
             .motion(el_centro_1940().scaled(1.3)?);
         let mut simulation = if factor.is_finite() {
-            builder.interface(Yielding::new(factor * mean, 0.6)?).build()?
+            builder.interface(Yielding::new(factor * mean_pressure, 0.6)?).build()?
         } else {
             builder.interface(Coulomb::new(0.6)?).build()?
         };
         let run = simulation.run(7000, |_| {})?;
         let state = simulation.state();
-        let sunk = |element| 1e3 * state.state_variables(element).first().copied().unwrap_or(0.0);
         println!(
             "{factor:8.1}{:17.3}{:22.2}{:17.1}{:9.1}{:9.0e}",
             run.whole.base_shear.magnitude() / run.whole.static_normal_force,
             1e3 * state.base_rotation,
-            sunk(0).max(sunk(11)),
-            sunk(6),
+            settlement(state, 0).max(settlement(state, 11)),
+            settlement(state, 6),
             run.energy_error
         );
     }

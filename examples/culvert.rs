@@ -15,104 +15,126 @@ use basemat::site::TrenchMotion;
 use basemat::structure::{DofCombination, RayleighDamping};
 use basemat::{Result, unobserved};
 
-const STEP: f64 = 0.02;
-const STEPS: usize = 200;
-/// Half the width, heights of the roof and of the slab, m.
-const HALF: f64 = 4.0;
-const ROOF: f64 = -2.0;
-const SLAB: f64 = -7.0;
+const TIME_STEP: f64 = 0.02;
+const STEP_COUNT: usize = 200;
+/// Half the width of the culvert, levels of its roof and slab, m.
+const HALF_WIDTH: f64 = 4.0;
+const ROOF_LEVEL: f64 = -2.0;
+const SLAB_LEVEL: f64 = -7.0;
 /// Length of beams and sides of solids, m.
-const SIDE: f64 = 0.5;
+const ELEMENT_LENGTH: f64 = 0.5;
 
 /// Nodes at equal distances between two points; adds those that do not exist.
-fn line(mesh: &mut Mesh, from: [f64; 2], to: [f64; 2], parts: u32) -> Result<Vec<usize>> {
-    let node = |part: u32| {
-        let share = f64::from(part) / f64::from(parts);
-        let [x, y] = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
-        mesh.node_at(x, y).or_else(|_| mesh.add_node(x, y))
-    };
-    (0..=parts).map(node).collect()
+fn node_line(mesh: &mut Mesh, from: [f64; 2], to: [f64; 2], parts: u32) -> Result<Vec<usize>> {
+    let mut nodes = Vec::new();
+    for part in 0..=parts {
+        let fraction = f64::from(part) / f64::from(parts);
+        let x = from[0] + fraction * (to[0] - from[0]);
+        let y = from[1] + fraction * (to[1] - from[1]);
+        nodes.push(mesh.node_at(x, y).or_else(|_| mesh.add_node(x, y))?);
+    }
+    Ok(nodes)
 }
 
 fn culvert() -> Result<FemModel> {
     let mut mesh = Mesh::new();
-    let [left, right] = [[-HALF, SLAB], [HALF, SLAB]];
-    let down = line(&mut mesh, [-HALF, 0.0], left, 14)?;
-    let along = line(&mut mesh, left, right, 16)?;
-    let up = line(&mut mesh, right, [HALF, 0.0], 14)?;
-    let mut rows = vec![];
+    let left_corner = [-HALF_WIDTH, SLAB_LEVEL];
+    let right_corner = [HALF_WIDTH, SLAB_LEVEL];
+    let left_side = node_line(&mut mesh, [-HALF_WIDTH, 0.0], left_corner, 14)?;
+    let slab = node_line(&mut mesh, left_corner, right_corner, 16)?;
+    let right_side = node_line(&mut mesh, right_corner, [HALF_WIDTH, 0.0], 14)?;
+    let mut fill_rows = vec![];
     for y in [-2.0, -1.5, -1.0, -0.5, 0.0] {
-        rows.push(line(&mut mesh, [-HALF, y], [HALF, y], 16)?);
+        fill_rows.push(node_line(&mut mesh, [-HALF_WIDTH, y], [HALF_WIDTH, y], 16)?);
     }
-    // A metre of concrete, as a strip of a plate.
-    let fill = rows.len() - 1;
-    let walls = [&down[fill..], &along, &up[..up.len() - fill], &rows[0]];
-    for ends in walls.into_iter().flat_map(|own| own.windows(2)) {
-        mesh.add(Beam::new([ends[0], ends[1]], 31.0e9, 1.0, 1.0 / 12.0, 2500.0)?)?;
-    }
-    let soil = Material::new(50.0e6, 0.3, 1900.0)?;
-    for pair in rows.windows(2) {
-        for (low, high) in pair[0].windows(2).zip(pair[1].windows(2)) {
-            let corners = [low[0], low[1], high[1], high[0]];
-            mesh.add(Quad4::new(corners, soil, QuadFormulation::default()))?;
+    // Beams of 1 m of concrete, strips of a plate: left wall, slab, right wall and roof.
+    let fill_layers = fill_rows.len() - 1;
+    let left_wall = &left_side[fill_layers..];
+    let right_wall = &right_side[..right_side.len() - fill_layers];
+    for line in [left_wall, &slab, right_wall, &fill_rows[0]] {
+        for ends in line.windows(2) {
+            mesh.add(Beam::new([ends[0], ends[1]], 31.0e9, 1.0, 1.0 / 12.0, 2500.0)?)?;
         }
     }
-    let mut outline = [down, along, up].concat();
+    let fill = Material::new(50.0e6, 0.3, 1900.0)?;
+    for rows in fill_rows.windows(2) {
+        for (below, above) in rows[0].windows(2).zip(rows[1].windows(2)) {
+            let corners = [below[0], below[1], above[1], above[0]];
+            mesh.add(Quad4::new(corners, fill, QuadFormulation::default()))?;
+        }
+    }
+    let mut outline = [left_side, slab, right_side].concat();
     outline.dedup();
     let damping = RayleighDamping::from_ratios([2.0, 10.0], [0.05, 0.05])?;
     Ok(FemModel::in_trench(mesh, &outline)?.with_rayleigh(damping))
 }
 
-/// Moment on a beam at its end `node`; the other end is the node `next`.
-fn moment(model: &FemModel, [node, next]: [[f64; 2]; 2]) -> Result<DofCombination> {
+/// Moment on the beam between two points at its end `point`.
+fn beam_moment(model: &FemModel, point: [f64; 2], far_end: [f64; 2]) -> Result<DofCombination> {
     let mesh = model.mesh();
-    let ends = [mesh.node_at(node[0], node[1])?, mesh.node_at(next[0], next[1])?];
-    let is_own = |own: &[usize]| own.len() == 2 && ends.iter().all(|end| own.contains(end));
-    let beam = mesh.elements().find(|own| is_own(own.nodes())).expect("a beam between the nodes");
-    let [first, last] = [0, 1].map(|k| beam.nodes()[k]);
+    let ends = [mesh.node_at(point[0], point[1])?, mesh.node_at(far_end[0], far_end[1])?];
+    let beam = mesh
+        .elements()
+        .find(|element| {
+            element.nodes().len() == 2 && ends.iter().all(|end| element.nodes().contains(end))
+        })
+        .expect("a beam between the nodes");
     let mut stiffness = vec![0.0; 36];
-    beam.stiffness(&[first, last].map(|own| mesh.nodes()[own]), &mut stiffness);
-    let row = if first == ends[0] { 2 } else { 5 };
+    let nodes = beam.nodes();
+    beam.stiffness(&[mesh.nodes()[nodes[0]], mesh.nodes()[nodes[1]]], &mut stiffness);
+    // A beam has three degrees of freedom at each end; the third is the rotation.
+    let moment_row = if nodes[0] == ends[0] { 2 } else { 5 };
     let mut moment = DofCombination::default();
-    for (k, weight) in stiffness[6 * row..][..6].iter().enumerate() {
-        moment += *weight * model.row(beam.nodes()[k / 3], beam.directions()[k % 3])?;
+    for (k, weight) in stiffness[6 * moment_row..][..6].iter().enumerate() {
+        moment += *weight * model.row(nodes[k / 3], beam.directions()[k % 3])?;
     }
     Ok(moment)
 }
 
 fn main() -> Result<()> {
     let model = culvert()?;
-    let corners = [("slab, left", -HALF, SLAB), ("slab, right", HALF, SLAB)];
-    let corners = [corners, [("roof, left", -HALF, ROOF), ("roof, right", HALF, ROOF)]].concat();
-    let row = |(_, x, y): &(_, f64, f64)| moment(&model, [[*x, *y], [x - SIDE * x.signum(), *y]]);
-    let rows = corners.iter().map(row).collect::<Result<Vec<_>>>()?;
-    // The wall holds the end of the slab and the moment of its weight there.
-    let of_wall = moment(&model, [[-HALF, SLAB], [-HALF, SLAB + SIDE]])?;
+    let corners = [
+        ("slab, left", -HALF_WIDTH, SLAB_LEVEL),
+        ("slab, right", HALF_WIDTH, SLAB_LEVEL),
+        ("roof, left", -HALF_WIDTH, ROOF_LEVEL),
+        ("roof, right", HALF_WIDTH, ROOF_LEVEL),
+    ];
+    let mut corner_moments = Vec::new();
+    for (name, x, y) in corners {
+        let far_end = [x - ELEMENT_LENGTH * x.signum(), y];
+        corner_moments.push((name, beam_moment(&model, [x, y], far_end)?));
+    }
+    // The slab's moment at its corner is in equilibrium with the moment of the wall.
+    let wall_moment =
+        beam_moment(&model, [-HALF_WIDTH, SLAB_LEVEL], [-HALF_WIDTH, SLAB_LEVEL + ELEMENT_LENGTH])?;
 
     let soil = Soil::from_shear_wave_speed(200.0, 0.35, 1900.0)?;
-    let elements = Trench::new(-HALF..HALF, -SLAB)?.elements(8, 6)?;
+    let elements = Trench::new(-HALF_WIDTH..HALF_WIDTH, -SLAB_LEVEL)?.elements(8, 6)?;
     let laws = elements.interfaces(Coulomb::new(0.5)?, Coulomb::new(0.4)?);
     let ground = TrenchGround::new(soil, elements)?.with_pressure_at_rest(0.5)?;
     let record = el_centro_1940().padded(0.2, 0.0)?;
     let motion = TrenchMotion::new(&ground, record, &mut unobserved)?;
-    let mut builder = Simulation::builder(STEP).ground(ground).interfaces(laws).motion(motion);
-    for ((name, ..), row) in corners.iter().zip(&rows) {
-        builder = builder.probe(Probe::displacement(*name, row.clone()).in_unit("N·m/m"));
+    let mut builder = Simulation::builder(TIME_STEP).ground(ground).interfaces(laws).motion(motion);
+    for (name, moment) in &corner_moments {
+        builder = builder.probe(Probe::displacement(*name, moment.clone()).in_unit("N·m/m"));
     }
-    let mut simulation = builder.structure(model).expected_steps(STEPS).build()?;
+    let mut simulation = builder.structure(model).expected_steps(STEP_COUNT).build()?;
     let at_rest = simulation.static_displacement().to_vec();
-    let [wall, slab] = [&of_wall, &rows[0]].map(|own| own.value(&at_rest));
+    let wall = wall_moment.value(&at_rest);
+    let slab = corner_moments[0].1.value(&at_rest);
     assert!((wall + slab).abs() < 0.02 * slab.abs());
-    let mut open: f64 = 0.0;
-    let run =
-        simulation.run(STEPS, |state| open = open.max(state.face(Face::LeftWall).open_fraction))?;
+    let mut largest_opening: f64 = 0.0;
+    let run = simulation.run(STEP_COUNT, |state| {
+        largest_opening = largest_opening.max(state.face(Face::LeftWall).open_fraction);
+    })?;
     println!("{run}\n\ncorner        moment at rest      largest, kN·m/m");
-    for ((name, ..), row) in corners.iter().zip(&rows) {
-        let (rest, change) = (row.value(&at_rest), run.probe(name)?);
+    for (name, moment) in &corner_moments {
+        let rest = moment.value(&at_rest);
+        let change = run.probe(name)?;
         let largest = (rest + change.lowest.value).abs().max((rest + change.highest.value).abs());
         println!("{name:12}  {:14.0}  {:12.0}", 1e-3 * rest.abs(), 1e-3 * largest);
     }
-    println!("largest open part of the left wall: {:.0} %", 100.0 * open);
+    println!("largest open part of the left wall: {:.0} %", 100.0 * largest_opening);
     assert!(run.energy_error < 1e-9);
     Ok(())
 }

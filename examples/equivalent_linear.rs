@@ -1,4 +1,4 @@
-//! A building that may uplift on soft clay, with small-strain and with strain-compatible soil properties.
+//! A building that may uplift on soft clay with strain-compatible soil properties.
 //!
 //! ```text
 //! cargo run --release --example equivalent_linear
@@ -6,7 +6,7 @@
 //!
 //! The record, El Centro at 0.3 g, is the motion of the rock's outcrop. Strain-compatible moduli and damping
 //! are iterated with the curves of Vucetic & Dobry and of EPRI. The building's ground and the surface motion
-//! follow from them. Writes wave speeds, strains and spectra to `target/equivalent_linear.svg`.
+//! follow from them. The same building on soil with small-strain properties is computed beside it. Writes wave speeds, strains and spectra to `target/equivalent_linear.svg`.
 
 use basemat::bem::ElasticGround;
 use basemat::motion::SpectralOrdinate;
@@ -17,7 +17,7 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile, StrainCurves};
 use basemat::structure::ModalDamping;
 use basemat::{Result, plot, unobserved};
 
-const STEP: f64 = 0.01;
+const TIME_STEP: f64 = 0.01;
 
 /// Clay over sand on rock, in layers of two metres, and the strain curves of each layer.
 fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
@@ -27,14 +27,14 @@ fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
     let mut curves = vec![];
     for k in 0..12 {
         let depth = 2.0 * f64::from(k) + 1.0;
-        let (speed, poisson, density, own) = if k < 5 {
-            let plasticity_index = 30.0;
-            (140.0 + 4.0 * depth, 0.45, 1750.0, StrainCurves::VuceticDobry { plasticity_index })
+        let soil = if k < 5 {
+            curves.push(StrainCurves::VuceticDobry { plasticity_index: 30.0 });
+            Soil::from_shear_wave_speed(140.0 + 4.0 * depth, 0.45, 1750.0)?
         } else {
-            (200.0 + 5.0 * depth, 0.35, 1950.0, StrainCurves::Epri { depth })
+            curves.push(StrainCurves::Epri { depth });
+            Soil::from_shear_wave_speed(200.0 + 5.0 * depth, 0.35, 1950.0)?
         };
-        profile = profile.with_layer(Soil::from_shear_wave_speed(speed, poisson, density)?, 2.0)?;
-        curves.push(own);
+        profile = profile.with_layer(soil, 2.0)?;
     }
     Ok((profile, curves))
 }
@@ -44,7 +44,7 @@ fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
     let building = ShearBuilding::new(9.0, 60.0e3, 5.0e5, &[Storey::new(3.0, 25.0e3, 70.0e6); 6])?;
     let roof = building.roof();
     let damped = ModalDamping::new(&[0.05])?.on_fixed_base(building)?;
-    let mut simulation = Simulation::builder(STEP)
+    let mut simulation = Simulation::builder(TIME_STEP)
         .ground(ElasticGround::under(site.profile.clone(), &damped, 8)?)
         .structure(damped)
         .interface(Coulomb::new(0.5)?)
@@ -59,7 +59,7 @@ fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
 
 fn main() -> Result<()> {
     let (profile, curves) = site()?;
-    let rock = el_centro_1940().scaled_to_peak(0.3 * STANDARD_GRAVITY)?.resampled(STEP)?;
+    let rock = el_centro_1940().scaled_to_peak(0.3 * STANDARD_GRAVITY)?.resampled(TIME_STEP)?;
     let rock = rock.padded(0.0, 15.0)?;
     let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     let options = EquivalentLinearOptions::of_magnitude(6.9);
@@ -67,23 +67,31 @@ fn main() -> Result<()> {
     println!("{compatible}\n\n{}\n", compatible.profile);
 
     // The same site with small-strain properties.
-    let small = |curves: &StrainCurves| Ok(StrainCurves::Linear { damping: curves.at(0.0)?[1] });
-    let small = curves.iter().map(small).collect::<Result<Vec<_>>>()?;
-    let linear = column.equivalent_linear(&rock, &small, &options, &mut unobserved)?;
+    let mut small_strain_curves = vec![];
+    for curve in &curves {
+        small_strain_curves.push(StrainCurves::Linear { damping: curve.at(0.0)?[1] });
+    }
+    let linear =
+        column.equivalent_linear(&rock, &small_strain_curves, &options, &mut unobserved)?;
 
     let periods = log_spaced(0.05, 3.0, 121)?;
     let mut comparison = Comparison::default();
     let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05, &mut unobserved)?)];
     for (name, site) in [("linear", &linear), ("strain-compatible", &compatible)] {
-        let (run, floor) = shake(site)?;
-        let highest = floor.iter().fold(0.0_f64, |most, o| most.max(o.pseudo_acceleration));
-        let [surface, roof] = [site.peak_accelerations[0], highest].map(|a| a / STANDARD_GRAVITY);
-        println!("{name:<18} surface {surface:.2} g, peak of the roof's spectrum {roof:.1} g");
+        let (run, roof_spectrum) = shake(site)?;
+        let roof_peak = roof_spectrum
+            .iter()
+            .fold(0.0_f64, |peak, ordinate| peak.max(ordinate.pseudo_acceleration));
+        println!(
+            "{name:<18} surface {:.2} g, peak of the roof's spectrum {:.1} g",
+            site.peak_accelerations[0] / STANDARD_GRAVITY,
+            roof_peak / STANDARD_GRAVITY
+        );
         comparison.add(name, run);
         spectra.push((name, site.surface.response_spectrum(&periods, 0.05, &mut unobserved)?));
     }
     println!("\n{comparison}");
-    let spectra: Vec<_> = spectra.iter().map(|(name, list)| (*name, &list[..])).collect();
+    let spectra: Vec<_> = spectra.iter().map(|(name, spectrum)| (*name, &spectrum[..])).collect();
     plot::site_response("Clay and sand under El Centro at 0.3 g", &compatible, &spectra)?
         .save("target/equivalent_linear.svg")
 }

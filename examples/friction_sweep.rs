@@ -13,29 +13,35 @@
 use basemat::Result;
 use basemat::prelude::*;
 
-const FRICTIONS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
+/// Friction coefficients.
+const FRICTION_COEFFICIENTS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
 /// Peak accelerations, g.
-const PEAKS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
+const PEAK_ACCELERATIONS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
 
 /// Slip above which a motion counts in the fraction, m.
-const LIMIT: f64 = 0.025;
+const SLIP_LIMIT: f64 = 0.025;
 
 /// Set of motions: El Centro unchanged, compressed and stretched in time, and sine pulses.
 fn motions() -> Result<Vec<(&'static str, Record)>> {
     let record = el_centro_1940();
-    let stretched =
-        |factor: f64| Record::new(factor * record.time_step(), record.accelerations().to_vec());
-    let pulse = |period: f64| {
-        Record::from_fn(0.01 * period, period, |time| (std::f64::consts::TAU * time / period).sin())
-    };
     Ok(vec![
         ("El Centro", record.clone()),
-        ("El Centro, 0.6 × as long", stretched(0.6)?),
-        ("El Centro, 1.6 × as long", stretched(1.6)?),
-        ("sine pulse, 0.4 s", pulse(0.4)?),
-        ("sine pulse, 0.8 s", pulse(0.8)?),
-        ("sine pulse, 1.6 s", pulse(1.6)?),
+        ("El Centro, 0.6 × as long", stretched(&record, 0.6)?),
+        ("El Centro, 1.6 × as long", stretched(&record, 1.6)?),
+        ("sine pulse, 0.4 s", sine_pulse(0.4)?),
+        ("sine pulse, 0.8 s", sine_pulse(0.8)?),
+        ("sine pulse, 1.6 s", sine_pulse(1.6)?),
     ])
+}
+
+/// The record with its duration multiplied by `factor`.
+fn stretched(record: &Record, factor: f64) -> Result<Record> {
+    Record::new(factor * record.time_step(), record.accelerations().to_vec())
+}
+
+/// One sine cycle of 1 m/s².
+fn sine_pulse(period: f64) -> Result<Record> {
+    Record::from_fn(0.01 * period, period, |time| (std::f64::consts::TAU * time / period).sin())
 }
 
 /// Largest mean slip of the block's base (m) in 15 s.
@@ -54,13 +60,12 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
 
 fn main() -> Result<()> {
     let motions = motions()?;
-    let (kinds, peaks) = (motions.len(), PEAKS.len());
 
     // Every combination is a case; the last parameter varies fastest. The row of a case that fails holds its
     // error; the other cases continue.
     let sweep = Sweep::grid([
-        Parameter::numbers("friction", FRICTIONS),
-        Parameter::numbers("peak_g", PEAKS),
+        Parameter::numbers("friction", FRICTION_COEFFICIENTS),
+        Parameter::numbers("peak_g", PEAK_ACCELERATIONS),
         Parameter::texts("motion", motions.iter().map(|(name, _)| *name)),
     ])?;
     let table = sweep.table(["peak_slip_m"], |case| {
@@ -69,18 +74,23 @@ fn main() -> Result<()> {
         Result::Ok([slide(case.value("friction")?, motion)?])
     })?;
     let slips: Vec<_> = table.rows().map(|row| row.value("peak_slip_m")).collect();
-    let slip = |f: usize, p: usize, m: usize| &slips[(f * peaks + p) * kinds + m];
+    // Slips under all motions, for each peak acceleration of each friction coefficient.
+    let rows: Vec<_> = slips.chunks(motions.len()).collect();
+    let rows: Vec<_> = rows.chunks(PEAK_ACCELERATIONS.len()).collect();
 
-    println!("Largest mean slip of the base in mm, motions scaled to {} g\n", PEAKS[2]);
+    println!(
+        "Largest mean slip of the base in mm, motions scaled to {} g\n",
+        PEAK_ACCELERATIONS[2]
+    );
     print!("{:<26}", "friction");
-    for friction in FRICTIONS {
+    for friction in FRICTION_COEFFICIENTS {
         print!("{friction:>9.2}");
     }
     println!();
     for (m, (name, _)) in motions.iter().enumerate() {
         print!("{name:<26}");
-        for f in 0..FRICTIONS.len() {
-            match slip(f, 2, m) {
+        for row in &rows {
+            match &row[2][m] {
                 Ok(slip) => print!("{:>9.1}", 1e3 * slip),
                 Err(_) => print!("{:>9}", "failed"),
             }
@@ -88,19 +98,19 @@ fn main() -> Result<()> {
         println!();
     }
 
-    println!("\nShare of the motions with more than {:.0} mm of slip\n", 1e3 * LIMIT);
+    println!("\nFraction of the motions with more than {:.0} mm of slip\n", 1e3 * SLIP_LIMIT);
     print!("{:<26}", "peak acceleration, g");
-    for peak in PEAKS {
+    for peak in PEAK_ACCELERATIONS {
         print!("{peak:>9.2}");
     }
     println!();
-    for (f, friction) in FRICTIONS.iter().enumerate() {
+    for (friction, row) in FRICTION_COEFFICIENTS.iter().zip(&rows) {
         print!("{:<26}", format!("friction {friction:.2}"));
-        for p in 0..peaks {
-            let values: Vec<f64> =
-                (0..kinds).filter_map(|m| slip(f, p, m).as_ref().ok().copied()).collect();
-            let over = values.iter().filter(|&&slip| slip > LIMIT).count();
-            print!("{:>9.2}", over as f64 / values.len().max(1) as f64);
+        for slips_at_peak in *row {
+            let computed: Vec<f64> =
+                slips_at_peak.iter().filter_map(|slip| slip.as_ref().ok().copied()).collect();
+            let exceeding = computed.iter().filter(|&&slip| slip > SLIP_LIMIT).count();
+            print!("{:>9.2}", exceeding as f64 / computed.len().max(1) as f64);
         }
         println!();
     }

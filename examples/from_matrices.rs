@@ -1,11 +1,12 @@
-//! A structure of 50 000 degrees of freedom from Matrix Market files, reduced for fast runs.
+//! A structure from Matrix Market files, reduced for fast runs.
 //!
 //! ```text
 //! cargo run --release --example from_matrices
 //! ```
 //!
 //! Usually another program writes `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them
-//! into `target`. The files are read back, and the nodes of the base are given. A Craig–Bampton reduction keeps these
+//! into `target`. The structure has 50 000 degrees of freedom. The files are read back, and the nodes of the base are
+//! added. A Craig–Bampton reduction keeps these
 //! nodes and the lowest modes of the rest. Two periods of the full model are computed as well, for
 //! comparison.
 
@@ -19,7 +20,7 @@ use basemat::prelude::*;
 use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 
 const TIME_STEP: f64 = 0.01;
-const MODES: usize = 20;
+const FIXED_BASE_MODES: usize = 20;
 /// Number of steps in two of the tower's longest periods, 2.1 s each.
 const TWO_PERIODS: usize = 430;
 
@@ -30,7 +31,8 @@ fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Base, DofComb
     let layer = Layer::new(100.0, 500, Material::new(5.0e9, 0.2, 600.0)?);
     let mesh = Mesh::layered_block(-5.0..5.0, 50, &[layer])?;
     let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
-    let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
+    let mut mass = Triplets::new(model.dofs());
+    let mut stiffness = Triplets::new(model.dofs());
     model.mass(&mut mass)?;
     model.stiffness(&mut stiffness)?;
     mass.write_matrix_market(mass_file)?;
@@ -40,7 +42,7 @@ fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Base, DofComb
 }
 
 /// The simulation of the structure on soil, with the displacement of its top as a probe.
-fn scene(
+fn simulation(
     structure: impl Structure + 'static,
     top: DofCombination,
     coordinates: Coordinates,
@@ -57,65 +59,79 @@ fn scene(
         .build()
 }
 
-/// Runs the simulation; returns the displacement of the top at every step, and the seconds per step.
-fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
+/// Displacement of the tower's top at every step, m, and the seconds per step.
+struct TopMotion {
+    displacement: Vec<f64>,
+    step_seconds: f64,
+}
+
+fn run(simulation: &mut Simulation, steps: usize) -> Result<TopMotion> {
     let start = Instant::now();
-    let mut sway = Vec::new();
-    simulation.run(steps, |state| sway.push(state.probes[0]))?;
-    Ok((sway, start.elapsed().as_secs_f64() / steps as f64))
+    let mut displacement = Vec::new();
+    simulation.run(steps, |state| displacement.push(state.probes[0]))?;
+    Ok(TopMotion { displacement, step_seconds: start.elapsed().as_secs_f64() / steps as f64 })
+}
+
+fn largest_magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()))
 }
 
 fn main() -> Result<()> {
-    let [mass, stiffness] = ["target/mass.mtx", "target/stiffness.mtx"].map(Path::new);
-    let (base, top) = write_files(mass, stiffness)?;
+    let mass_file = Path::new("target/mass.mtx");
+    let stiffness_file = Path::new("target/stiffness.mtx");
+    let (base, top) = write_files(mass_file, stiffness_file)?;
 
     let begin = Instant::now();
-    let [mass, stiffness] = [mass, stiffness].map(Triplets::read_matrix_market);
+    let mass = Triplets::read_matrix_market(mass_file)?;
+    let stiffness = Triplets::read_matrix_market(stiffness_file)?;
     // 3 % of critical damping at 0.5 and 5 Hz.
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
-    let model = MatrixModel::new(mass?, stiffness?, base)?.with_rayleigh(damping);
-    let read = begin.elapsed().as_secs_f64();
-    println!("{} degrees of freedom read in {read:.2} s", model.dofs());
+    let model = MatrixModel::new(mass, stiffness, base)?.with_rayleigh(damping);
+    let read_seconds = begin.elapsed().as_secs_f64();
+    println!("{} degrees of freedom read in {read_seconds:.2} s", model.dofs());
 
     let begin = Instant::now();
-    let reduced = CraigBampton::new(MODES).reduce(model.clone())?;
+    let reduced = CraigBampton::new(FIXED_BASE_MODES).reduce(model.clone())?;
     println!(
         "reduced to {} degrees of freedom in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
         reduced.dofs(),
         begin.elapsed().as_secs_f64(),
         reduced.frequencies()[0],
-        reduced.frequencies()[MODES - 1]
+        reduced.frequencies()[FIXED_BASE_MODES - 1]
     );
     let recovery = reduced.recovery();
 
     // In the reduced model the top is not a degree of freedom but a weighted sum of them.
-    let row = recovery.row(&top)?;
-    let mut small = scene(reduced, row, Coordinates::Auto)?;
-    let mut large = scene(model, top.clone(), Coordinates::Physical)?;
-    let (sway_full, time_full) = march(&mut large, TWO_PERIODS)?;
-    let (sway, time_reduced) = march(&mut small, 3000)?;
+    let reduced_top = recovery.row(&top)?;
+    let mut small_simulation = simulation(reduced, reduced_top, Coordinates::Auto)?;
+    let mut large_simulation = simulation(model, top.clone(), Coordinates::Physical)?;
+    let full = run(&mut large_simulation, TWO_PERIODS)?;
+    let reduced = run(&mut small_simulation, 3000)?;
 
     println!("\n          degrees of freedom   ms per step   times real time");
-    for (name, simulation, time) in [("full", &large, time_full), ("reduced", &small, time_reduced)]
+    for (name, simulation, motion) in
+        [("full", &large_simulation, &full), ("reduced", &small_simulation, &reduced)]
     {
         let dofs = simulation.state().absolute_displacement().len();
-        println!("{name:<8} {dofs:9} {:13.3} {:17.1}", 1e3 * time, TIME_STEP / time);
+        let seconds = motion.step_seconds;
+        println!("{name:<8} {dofs:9} {:13.3} {:17.1}", 1e3 * seconds, TIME_STEP / seconds);
     }
 
-    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let apart: Vec<f64> = sway_full.iter().zip(&sway).map(|(a, b)| a - b).collect();
+    let pairs = full.displacement.iter().zip(&reduced.displacement);
+    let difference: Vec<f64> = pairs.map(|(full, reduced)| full - reduced).collect();
+    let largest_displacement = largest_magnitude(&full.displacement);
     println!(
         "\nsway of the top in the first {:.1} s: {:.1} mm, reduced and full apart by {:.1e} of it",
-        TIME_STEP * apart.len() as f64,
-        1e3 * largest(&sway_full),
-        largest(&apart) / largest(&sway_full)
+        TIME_STEP * difference.len() as f64,
+        1e3 * largest_displacement,
+        largest_magnitude(&difference) / largest_displacement
     );
     // The recovery returns any degree of freedom of the full model.
-    let everything = recovery.full(small.state().absolute_displacement())?;
+    let displacement = recovery.full(small_simulation.state().absolute_displacement())?;
     println!(
         "all {} degrees of freedom at the end: the top at {:.3} mm",
-        everything.len(),
-        1e3 * top.value(&everything)
+        displacement.len(),
+        1e3 * top.value(&displacement)
     );
     Ok(())
 }

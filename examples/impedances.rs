@@ -1,4 +1,4 @@
-//! Dynamic stiffness of a rigid strip over frequency: half-plane, layer on rock, layer on a rigid base.
+//! Dynamic stiffness of a rigid strip over frequency on three grounds.
 //!
 //! ```text
 //! cargo run --release --example impedances
@@ -21,30 +21,34 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::unobserved;
 
 /// Half the strip's width, m.
-const HALF: f64 = 3.0;
+const HALF_WIDTH: f64 = 3.0;
 /// Number of elements, graded: errors below 1 %.
-const ELEMENTS: usize = 24;
-const COMPONENTS: [&str; 4] = ["hh", "vv", "rr", "hr"];
+const ELEMENT_COUNT: usize = 24;
+const COMPONENT_NAMES: [&str; 4] = ["hh", "vv", "rr", "hr"];
 
 /// A ground's name and its impedances.
 type Case = (&'static str, Vec<StripImpedance>);
 
 /// K over μ, μ, μ B² and μ B, as in published tables: real and imaginary parts.
-fn normalized(found: &StripImpedance, soil: Soil) -> [[f64; 2]; 4] {
-    let scales = [1.0, 1.0, HALF * HALF, HALF].map(|scale| soil.shear_modulus() * scale);
-    let values = [found.horizontal, found.vertical, found.rocking, found.coupling];
+fn normalized(impedance: &StripImpedance, soil: Soil) -> [[f64; 2]; 4] {
+    let scales =
+        [1.0, 1.0, HALF_WIDTH * HALF_WIDTH, HALF_WIDTH].map(|scale| soil.shear_modulus() * scale);
+    let StripImpedance { horizontal, vertical, rocking, coupling, .. } = *impedance;
+    let values = [horizontal, vertical, rocking, coupling];
     std::array::from_fn(|i| [values[i].re / scales[i], values[i].im / scales[i]])
 }
 
-fn print(cases: &[Case], soil: Soil, unit: f64) {
+/// Prints a table for each case; `frequency_scale` is the frequency (Hz) of a₀ = 1.
+fn print_tables(cases: &[Case], soil: Soil, frequency_scale: f64) {
     println!("K over mu (hh, vv), mu B^2 (rr), mu B (hr); a0 = omega B/c");
-    for (name, found) in cases {
+    for (name, impedances) in cases {
         println!(
             "\n{name}\n   f (Hz)   a0             hh              vv              rr              hr"
         );
-        for found in found.iter().skip(4).step_by(5) {
-            print!("{:>9.2} {:>4.2}", found.frequency, found.frequency / unit);
-            for [re, im] in normalized(found, soil) {
+        for impedance in impedances.iter().skip(4).step_by(5) {
+            let frequency = impedance.frequency;
+            print!("{frequency:>9.2} {:>4.2}", frequency / frequency_scale);
+            for [re, im] in normalized(impedance, soil) {
                 print!("  {re:>6.3} {im:>+6.3}i");
             }
             println!();
@@ -52,70 +56,82 @@ fn print(cases: &[Case], soil: Soil, unit: f64) {
     }
 }
 
-fn draw(cases: &[Case], out: &Path) -> basemat::Result<()> {
+/// One curve over frequency for each case, in 10⁶ units.
+fn case_curves(cases: &[Case], value: impl Fn(&StripImpedance) -> f64) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for (name, impedances) in cases {
+        let points =
+            impedances.iter().map(|impedance| (impedance.frequency, 1e-6 * value(impedance)));
+        curves.push(Curve { name: (*name).to_owned(), points: points.collect() });
+    }
+    curves
+}
+
+fn draw(cases: &[Case], folder: &Path) -> basemat::Result<()> {
     for (i, (name, unit)) in
-        COMPONENTS.into_iter().zip(["MN/m²", "MN/m²", "MN", "MN/m"]).enumerate()
+        COMPONENT_NAMES.into_iter().zip(["MN/m²", "MN/m²", "MN", "MN/m"]).enumerate()
     {
-        let lines = |value: &dyn Fn(&StripImpedance) -> [f64; 4]| -> Vec<Curve> {
-            let point = |found: &StripImpedance| (found.frequency, 1e-6 * value(found)[i]);
-            let curve = |(name, found): &Case| Curve {
-                name: (*name).to_owned(),
-                points: found.iter().map(point).collect(),
-            };
-            cases.iter().map(curve).collect()
-        };
-        let (springs, dashpots) =
-            (lines(&StripImpedance::stiffnesses), lines(&StripImpedance::dashpots));
+        let springs = case_curves(cases, |impedance| impedance.stiffnesses()[i]);
         curves(&format!("Spring Re K_{name}"), "frequency, Hz", unit, &springs)?
-            .save(out.join(format!("spring_{name}.svg")))?;
+            .save(folder.join(format!("spring_{name}.svg")))?;
+        let dashpots = case_curves(cases, |impedance| impedance.dashpots()[i]);
         let unit = format!("{unit} · s");
         curves(&format!("Dashpot Im K_{name}/ω"), "frequency, Hz", &unit, &dashpots)?
-            .save(out.join(format!("dashpot_{name}.svg")))?;
+            .save(folder.join(format!("dashpot_{name}.svg")))?;
     }
     Ok(())
 }
 
+/// Adds the layer of 6 m with 5 % damping.
+fn with_layer(profile: SoilProfile, soil: Soil) -> basemat::Result<SoilProfile> {
+    Ok(profile.with_layer(soil, 2.0 * HALF_WIDTH)?.with_damping(constant_damping(0.05)?))
+}
+
+/// Damping that is constant over the band; the moduli of the soils apply at 4 Hz.
+fn constant_damping(ratio: f64) -> basemat::Result<GeneralizedMaxwell> {
+    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 4.0)
+}
+
+/// Impedances of the bonded strip on a ground.
+fn strip_impedances(
+    soil: impl Into<SoilProfile>,
+    frequencies: &[f64],
+) -> basemat::Result<Vec<StripImpedance>> {
+    let ground = ElasticGround::new(soil, Strip::graded(-HALF_WIDTH..HALF_WIDTH, ELEMENT_COUNT)?)?;
+    ground.impedances(frequencies, StripContact::Bonded, &mut unobserved)
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let out = Path::new("target/impedances");
     let soil = Soil::from_shear_wave_speed(150.0, 1.0 / 3.0, 1800.0)?;
     let rock = Soil::from_shear_wave_speed(450.0, 0.3, 2160.0)?;
-    // Damping is constant over the band; the moduli of the soils apply at 4 Hz.
-    let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 4.0);
-    let on_rock = SoilProfile::on_half_plane(rock).with_bedrock_damping(damping(0.01)?);
-    let layer = |profile: SoilProfile| -> basemat::Result<SoilProfile> {
-        Ok(profile.with_layer(soil, 2.0 * HALF)?.with_damping(damping(0.05)?))
-    };
-    let (on_rock, on_rigid_bedrock) = (layer(on_rock)?, layer(SoilProfile::on_rigid_bedrock())?);
+    let half_plane_of_rock =
+        SoilProfile::on_half_plane(rock).with_bedrock_damping(constant_damping(0.01)?);
+    let on_rock = with_layer(half_plane_of_rock, soil)?;
+    let on_rigid_bedrock = with_layer(SoilProfile::on_rigid_bedrock(), soil)?;
     println!("layer on rock:\n{on_rock}\n\nlayer on a rigid base:\n{on_rigid_bedrock}\n");
 
     // a₀ = ωB/c from 0.05 to 2.5.
-    let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
-    let frequencies: Vec<f64> = (1..=50).map(|i| 0.05 * f64::from(i) * unit).collect();
-    let half_plane = ElasticGround::new(soil, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
-    let on_rock = ElasticGround::new(on_rock, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
-    let on_rigid_bedrock =
-        ElasticGround::new(on_rigid_bedrock, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
-    let contact = StripContact::Bonded;
+    let frequency_scale = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF_WIDTH);
+    let frequencies: Vec<f64> = (1..=50).map(|i| 0.05 * f64::from(i) * frequency_scale).collect();
     let cases = [
-        ("half-plane", half_plane.impedances(&frequencies, contact, &mut unobserved)?),
-        ("layer on rock, 5 %", on_rock.impedances(&frequencies, contact, &mut unobserved)?),
-        (
-            "layer on a rigid base, 5 %",
-            on_rigid_bedrock.impedances(&frequencies, contact, &mut unobserved)?,
-        ),
+        ("half-plane", strip_impedances(soil, &frequencies)?),
+        ("layer on rock, 5 %", strip_impedances(on_rock, &frequencies)?),
+        ("layer on a rigid base, 5 %", strip_impedances(on_rigid_bedrock, &frequencies)?),
     ];
 
-    print(&cases, soil, unit);
-    draw(&cases, out)?;
-    println!("\npictures in {}", out.display());
+    print_tables(&cases, soil, frequency_scale);
+    let folder = Path::new("target/impedances");
+    draw(&cases, folder)?;
+    println!("\npictures in {}", folder.display());
 
     // Im K/μ, horizontal and vertical, at a₀ = 0.5, from tables of other programs.
-    for ((name, found), wanted) in
+    for ((name, impedances), references) in
         cases.iter().zip([[1.315, 2.019], [0.602, 0.934], [0.256, 0.490]])
     {
-        let [hh, vv, ..] = normalized(&found[9], soil);
-        for ([_, found], wanted) in [hh, vv].into_iter().zip(wanted) {
-            assert!((found / wanted - 1.0).abs() < 0.01, "{name}: {found}, not {wanted}");
+        let components = normalized(&impedances[9], soil);
+        for ([_, computed], reference) in components.into_iter().zip(references) {
+            let error = (computed / reference - 1.0).abs();
+            assert!(error < 0.01, "{name}: {computed}, not {reference}");
         }
     }
     Ok(())

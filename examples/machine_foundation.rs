@@ -1,13 +1,13 @@
-//! A machine with a rotating unbalance on a block foundation: steady vibration against the
-//! frequency domain, then a run-up through resonance with uplift.
+//! A machine with a rotating unbalance on a block foundation.
 //!
 //! ```text
 //! cargo run --release --example machine_foundation
 //! ```
 //!
 //! The unbalance m e rotates at the top of the block and pulls outwards with m e ω². For a bonded block, the
-//! amplitude follows from (K(ω) − ω² M) u = F with the impedances K of the ground. At high speed the machine
-//! lifts the block, and the frequency domain no longer applies.
+//! amplitude follows from (K(ω) − ω² M) u = F with the impedances K of the ground. Steady vibration is compared with
+//! this amplitude. In a run-up through resonance, the machine lifts the block at high speed, and the frequency domain no
+//! longer applies.
 
 use std::f64::consts::TAU;
 
@@ -16,80 +16,102 @@ use basemat::coupled::{Load, SimulationBuilder};
 use basemat::prelude::*;
 use basemat::{Complex, Result, unobserved};
 
-const WIDTH: f64 = 6.0;
-const HEIGHT: f64 = 2.0;
+const BLOCK_WIDTH: f64 = 6.0;
+const BLOCK_HEIGHT: f64 = 2.0;
 /// Unbalance m e, kg m per metre.
-const UNBALANCE: f64 = 14.0;
+const UNBALANCE_MOMENT: f64 = 14.0;
 const TIME_STEP: f64 = 1.0e-3;
 
 fn foundation() -> Result<RigidBlock> {
-    RigidBlock::new(WIDTH, HEIGHT, 2400.0)
+    RigidBlock::new(BLOCK_WIDTH, BLOCK_HEIGHT, 2400.0)
 }
 
 fn ground() -> Result<ElasticGround> {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0)?;
-    ElasticGround::new(soil, Strip::graded(-0.5 * WIDTH..0.5 * WIDTH, 16)?)
+    ElasticGround::new(soil, Strip::graded(-0.5 * BLOCK_WIDTH..0.5 * BLOCK_WIDTH, 16)?)
 }
 
-/// The block under an unbalance at the angle `turned(t)` (rad) and the speed `speed(t)` (rad/s).
+/// Angle (rad) and speed (rad/s) of the unbalance at one instant.
+struct Rotation {
+    angle: f64,
+    speed: f64,
+}
+
+/// The block under an unbalance with this rotation over time (s).
 fn machine(
-    turned: impl Fn(f64) -> f64 + Clone + Send + 'static,
-    speed: impl Fn(f64) -> f64 + Clone + Send + 'static,
+    rotation: impl Fn(f64) -> Rotation + Clone + Send + 'static,
 ) -> Result<SimulationBuilder> {
-    let (block, again, fast) = (foundation()?, turned.clone(), speed.clone());
-    let (right, up) = (block.horizontal_at(HEIGHT), block.vertical_at(0.0));
+    let block = foundation()?;
+    let top = block.horizontal_at(BLOCK_HEIGHT);
+    let unbalance = rotation.clone();
+    let horizontal = Load::new(top.clone(), move |t| {
+        let Rotation { angle, speed } = unbalance(t);
+        UNBALANCE_MOMENT * speed.powi(2) * angle.cos()
+    });
+    let vertical = Load::new(block.vertical_at(0.0), move |t| {
+        let Rotation { angle, speed } = rotation(t);
+        UNBALANCE_MOMENT * speed.powi(2) * angle.sin()
+    });
     Ok(Simulation::builder(TIME_STEP)
         .ground(ground()?)
-        .load(Load::new(right.clone(), move |t| UNBALANCE * speed(t).powi(2) * turned(t).cos()))
-        .load(Load::new(up, move |t| UNBALANCE * fast(t).powi(2) * again(t).sin()))
-        .probe(Probe::displacement("top", right))
+        .load(horizontal)
+        .load(vertical)
+        .probe(Probe::displacement("top", top))
         .structure(block))
 }
 
-/// Amplitude of the top at a steady `frequency` (Hz), in the time domain: the last ten turns of a run.
-fn marched(frequency: f64) -> Result<f64> {
+/// Amplitude of the top at a steady `frequency` (Hz) in the time domain, from the last ten turns of a run.
+fn time_domain_amplitude(frequency: f64) -> Result<f64> {
     let omega = TAU * frequency;
     // The force grows for ten turns, and the vibration becomes steady in thirty.
-    let up = move |t: f64| omega * (0.1 * frequency * t).min(1.0).sqrt();
-    let mut simulation = machine(move |t| omega * t, up)?.interface(Bonded).build()?;
-    let steps = |turns: f64| simulation.steps_for(turns / frequency);
-    let (first, rest) = (steps(40.0), steps(10.0));
-    simulation.run(first, |_| {})?;
-    let (mut cosine, mut sine, mut mean) = (0.0, 0.0, 0.0);
-    let mut series = Vec::with_capacity(rest);
-    simulation.run(rest, |state| series.push((state.time, state.probes[0])))?;
+    let builder = machine(move |t| Rotation {
+        angle: omega * t,
+        speed: omega * (0.1 * frequency * t).min(1.0).sqrt(),
+    })?;
+    let mut simulation = builder.interface(Bonded).build()?;
+    simulation.run(simulation.steps_for(40.0 / frequency), |_| {})?;
+    let steps = simulation.steps_for(10.0 / frequency);
+    let mut series = Vec::with_capacity(steps);
+    simulation.run(steps, |state| series.push((state.time, state.probes[0])))?;
+    let mut mean = 0.0;
     for (_, u) in &series {
-        mean += u / rest as f64;
+        mean += u / steps as f64;
     }
+    let mut cosine = 0.0;
+    let mut sine = 0.0;
     for (time, u) in &series {
-        cosine += 2.0 * (u - mean) * (omega * time).cos() / rest as f64;
-        sine += 2.0 * (u - mean) * (omega * time).sin() / rest as f64;
+        cosine += 2.0 * (u - mean) * (omega * time).cos() / steps as f64;
+        sine += 2.0 * (u - mean) * (omega * time).sin() / steps as f64;
     }
     Ok(cosine.hypot(sine))
 }
 
 /// The same amplitude by (K(ω) − ω² M) u = F.
 ///
-/// u holds the horizontal displacement of the base and its rotation to the right.
-fn in_frequency_domain(impedance: &StripImpedance) -> Result<f64> {
+/// u contains the horizontal displacement of the base and its rotation to the right.
+fn frequency_domain_amplitude(impedance: &StripImpedance) -> Result<f64> {
     let block = foundation()?;
-    let square = (TAU * impedance.frequency).powi(2);
-    let inertia = |mass: f64| Complex::real(square * mass);
-    let (mass, height) = (block.total_mass(), 0.5 * HEIGHT);
-    let sway = impedance.horizontal - inertia(mass);
-    let coupling = impedance.coupling - inertia(mass * height);
-    let rocking = impedance.rocking - inertia(block.base_inertia());
+    let omega_squared = (TAU * impedance.frequency).powi(2);
+    let mass = block.total_mass();
+    let center_height = 0.5 * BLOCK_HEIGHT;
+    let sway = impedance.horizontal - Complex::real(omega_squared * mass);
+    let coupling = impedance.coupling - Complex::real(omega_squared * (mass * center_height));
+    let rocking = impedance.rocking - Complex::real(omega_squared * block.base_inertia());
     // Displacement and rotation under the force at the top, by Cramer's rule.
-    let force = UNBALANCE * square;
+    let force = UNBALANCE_MOMENT * omega_squared;
     let determinant = sway * rocking - coupling * coupling;
-    let top = rocking - coupling * (2.0 * HEIGHT) + sway * (HEIGHT * HEIGHT);
+    let top = rocking - coupling * (2.0 * BLOCK_HEIGHT) + sway * (BLOCK_HEIGHT * BLOCK_HEIGHT);
     Ok((top * force * determinant.inverse()).abs())
 }
 
 /// Runs the machine up from 2 to 25 Hz in 12 s.
 fn run_up(law: impl InterfaceLaw + 'static) -> Result<Run> {
-    let (from, rate) = (TAU * 2.0, TAU * 23.0 / 12.0);
-    let builder = machine(move |t| from * t + 0.5 * rate * t * t, move |t| from + rate * t)?;
+    let first_speed = TAU * 2.0;
+    let rate = TAU * 23.0 / 12.0;
+    let builder = machine(move |t| Rotation {
+        angle: first_speed * t + 0.5 * rate * t * t,
+        speed: first_speed + rate * t,
+    })?;
     let mut simulation = builder.interface(law).build()?;
     simulation.run(simulation.steps_for(12.0), |_| {})
 }
@@ -98,10 +120,16 @@ fn main() -> Result<()> {
     let frequencies = [4.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0];
     println!("Top of the block, mm, bonded\n\n  Hz   marched   frequency domain   difference");
     for impedance in ground()?.impedances(&frequencies, StripContact::Bonded, &mut unobserved)? {
-        let (hertz, wanted) = (impedance.frequency, in_frequency_domain(&impedance)?);
-        let found = marched(hertz)?;
-        let error = found / wanted - 1.0;
-        println!("{hertz:4}{:10.4}{:19.4}{:11.2} %", 1e3 * found, 1e3 * wanted, 1e2 * error);
+        let frequency = impedance.frequency;
+        let reference = frequency_domain_amplitude(&impedance)?;
+        let computed = time_domain_amplitude(frequency)?;
+        let error = computed / reference - 1.0;
+        println!(
+            "{frequency:4}{:10.4}{:19.4}{:11.2} %",
+            1e3 * computed,
+            1e3 * reference,
+            1e2 * error
+        );
         assert!(error.abs() < 0.02);
     }
     println!(

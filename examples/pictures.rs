@@ -16,10 +16,18 @@ use basemat::prelude::*;
 use basemat::results::{DeformedShape, log_spaced};
 use basemat::{Result, unobserved};
 
-const STEPS: usize = 2400;
-const FRICTION: f64 = 0.3;
+const STEP_COUNT: usize = 2400;
+const FRICTION_COEFFICIENT: f64 = 0.3;
+const PICTURE_FOLDER: &str = "target/pictures";
 
-fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedShape)> {
+/// A run of the tower, its time series, and the mesh for pictures.
+struct Shaken {
+    run: Run,
+    series: TimeSeries,
+    shape: DeformedShape,
+}
+
+fn shake(law: impl InterfaceLaw + 'static) -> Result<Shaken> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
@@ -35,25 +43,26 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
         .interface(law)
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", roof))
-        // The bonded base has no friction of its own; its factor of safety uses this coefficient.
-        .safety_friction([FRICTION])
+        // A bonded base has no friction coefficient; its factor of safety uses this one.
+        .safety_friction([FRICTION_COEFFICIENT])
         .build()?;
     // Base and structure at every sixth step, for pictures in time.
-    let mut time_series = Recorder::new().contact(6).motion(6).start(&simulation)?;
-    let run = simulation.run(STEPS, |state| time_series.record(state))?;
-    Ok((run, time_series, shape))
+    let mut series = Recorder::new().contact(6).motion(6).start(&simulation)?;
+    let run = simulation.run(STEP_COUNT, |state| series.record(state))?;
+    Ok(Shaken { run, series, shape })
+}
+
+/// Saves SVG for the web and for paper, PNG for programs that do not read SVG.
+fn save(name: &str, picture: Svg) -> Result<()> {
+    let folder = Path::new(PICTURE_FOLDER);
+    picture.save(folder.join(format!("{name}.svg")))?;
+    picture.save_png(folder.join(format!("{name}.png")), 2.0)
 }
 
 fn main() -> Result<()> {
-    let out = Path::new("target/pictures");
-    // SVG for the web and for paper, PNG for programs that do not read SVG.
-    let save = |name: &str, picture: Svg| {
-        picture.save(out.join(format!("{name}.svg")))?;
-        picture.save_png(out.join(format!("{name}.png")), 2.0)
-    };
-    let (bonded_run, bonded, _) = shake(Bonded)?;
-    let (free_run, free, shape) = shake(Coulomb::new(FRICTION)?)?;
-    let runs = [("bonded", &bonded), ("uplift and slip", &free)];
+    let bonded = shake(Bonded)?;
+    let free = shake(Coulomb::new(FRICTION_COEFFICIENT)?)?;
+    let series = [("bonded", &bonded.series), ("uplift and slip", &free.series)];
 
     for (name, quantity) in [
         ("base_shear", Quantity::BaseShear),
@@ -63,31 +72,39 @@ fn main() -> Result<()> {
         ("safety_sliding", Quantity::SlidingSafety),
         ("safety_overturning", Quantity::OverturningSafety),
     ] {
-        save(name, plot::time_series("Tower under El Centro 1940", &runs, quantity)?)?;
+        save(name, plot::time_series("Tower under El Centro 1940", &series, quantity)?)?;
     }
-    save("roof", plot::probe_time_series("Roof acceleration", &runs, "roof")?)?;
-    save("modes", plot::mode_map("Contact modes", &free)?)?;
-    save("pressure", plot::pressure_envelope("Pressure under the base", &free_run)?)?;
-    save("energy", plot::energy("Energy", &free)?)?;
+    save("roof", plot::probe_time_series("Roof acceleration", &series, "roof")?)?;
+    save("modes", plot::mode_map("Contact modes", &free.series)?)?;
+    save("pressure", plot::pressure_envelope("Pressure under the base", &free.run)?)?;
+    save("energy", plot::energy("Energy", &free.series)?)?;
 
     let periods = log_spaced(0.05, 2.0, 100)?;
-    let ground = el_centro_1940().response_spectrum(&periods, 0.05, &mut unobserved)?;
-    let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
-    let [held, loose] = roofs;
-    let spectra =
-        [("free field", &ground[..]), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
+    let free_field = el_centro_1940().response_spectrum(&periods, 0.05, &mut unobserved)?;
+    let bonded_roof = bonded.series.floor_spectrum("roof", &periods, 0.05)?;
+    let free_roof = free.series.floor_spectrum("roof", &periods, 0.05)?;
+    let spectra = [
+        ("free field", &free_field[..]),
+        ("roof, bonded", &bonded_roof),
+        ("roof, uplift and slip", &free_roof),
+    ];
     save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
-    let rotation = free_run.whole.base_rotation;
+    let rotation = free.run.whole.base_rotation;
     let times = [rotation.lowest.time, rotation.highest.time];
-    save("shapes", plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?)?;
+    save(
+        "shapes",
+        plot::deformed_shapes("Largest rotations", &free.shape, &free.series, &times, 50.0)?,
+    )?;
     // Browsers play the animation.
-    plot::animation("Tower", &shape, &free, 50.0, 2.0)?.save(out.join("tower_moving.svg"))?;
-    let grids = paraview::write_series(out.join("vtk"), "tower", &shape, &free)?;
+    let out = Path::new(PICTURE_FOLDER);
+    plot::animation("Tower", &free.shape, &free.series, 50.0, 2.0)?
+        .save(out.join("tower_moving.svg"))?;
+    let grids = paraview::write_series(out.join("vtk"), "tower", &free.shape, &free.series)?;
 
-    println!("{free_run}");
+    println!("{}", free.run);
     let mut comparison = Comparison::default();
-    comparison.extend([("bonded", bonded_run), ("uplift and slip", free_run)]);
+    comparison.extend([("bonded", bonded.run), ("uplift and slip", free.run)]);
     println!("\n{comparison}\n\npictures and {grids} grids in {}", out.display());
     Ok(())
 }

@@ -1,10 +1,10 @@
-//! A portal frame on two strip footings: the effect of uplift and friction on each footing.
+//! Uplift and friction under the two strip footings of a portal frame.
 //!
 //! ```text
 //! cargo run --release --example portal_frame
 //! ```
 //!
-//! Each column has its own rigid footing. Only friction resists sliding. The footings rotate on their edges,
+//! Each column stands on a rigid footing. Only friction resists sliding. The footings rotate on their edges,
 //! move towards each other, and stay there. A [`Sweep`] over widths and friction coefficients shows how far
 //! they move.
 
@@ -15,59 +15,75 @@ use basemat::structure::DofCombination;
 use basemat::sweep::CaseError;
 
 /// Height of the columns and distance between them, m.
-const HEIGHT: f64 = 5.0;
-const SPAN: f64 = 8.0;
+const COLUMN_HEIGHT: f64 = 5.0;
+const BEAM_SPAN: f64 = 8.0;
 /// Area (m²/m) and second moment of area (m⁴/m): columns 0.6 × 0.6 m and a beam 0.4 × 0.8 m, every 5 m.
-const COLUMN: [f64; 2] = [0.072, 2.16e-3];
-const BEAM: [f64; 2] = [0.064, 3.413e-3];
+const COLUMN_SECTION: [f64; 2] = [0.072, 2.16e-3];
+const BEAM_SECTION: [f64; 2] = [0.064, 3.413e-3];
 const YOUNG_MODULUS: f64 = 30.0e9;
 /// Mass of the roof, frame included, kg/m.
 const ROOF_MASS: f64 = 30.0e3;
 /// Frequency of lateral vibration on a fixed base, Hz.
-const FREQUENCY: f64 = 2.707;
+const LATERAL_FREQUENCY: f64 = 2.707;
 /// Thickness (m) and density (kg/m³) of the footings.
-const FOOTING: [f64; 2] = [0.6, 2400.0];
+const FOOTING_THICKNESS: f64 = 0.6;
+const FOOTING_DENSITY: f64 = 2400.0;
 
-/// The frame on footings of `width` (m), and the drift of its roof.
-///
-/// The drift is relative to the mean displacement of the footings.
-fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
-    let member = |ends, [area, second_moment]: [f64; 2]| {
-        Beam::new(ends, YOUNG_MODULUS, area, second_moment, 0.0)
-    };
-    let [depth, density] = FOOTING;
+/// A massless member of the frame.
+fn member(ends: [usize; 2], [area, second_moment]: [f64; 2]) -> Result<Beam> {
+    Beam::new(ends, YOUNG_MODULUS, area, second_moment, 0.0)
+}
+
+/// The element of a footing between two nodes.
+fn footing(ends: [usize; 2]) -> Result<Beam> {
+    let second_moment = FOOTING_THICKNESS.powi(3) / 12.0;
+    Beam::new(ends, YOUNG_MODULUS, FOOTING_THICKNESS, second_moment, FOOTING_DENSITY)
+}
+
+/// The frame on footings of `width` (m).
+fn portal(width: f64) -> Result<FemModel> {
     let mut mesh = Mesh::new();
-    let mut lines = Vec::new();
-    for x in [-0.5 * SPAN, 0.5 * SPAN] {
-        let line = [x - 0.5 * width, x, x + 0.5 * width].map(|x| mesh.add_node(x, 0.0));
-        let line = line.into_iter().collect::<Result<Vec<_>>>()?;
-        for ends in [[line[0], line[1]], [line[1], line[2]]] {
-            mesh.add(Beam::new(ends, YOUNG_MODULUS, depth, depth.powi(3) / 12.0, density)?)?;
-        }
-        let top = mesh.add_node(x, HEIGHT)?;
-        mesh.add(member([line[1], top], COLUMN)?)?;
+    let mut footings = Vec::new();
+    for x in [-0.5 * BEAM_SPAN, 0.5 * BEAM_SPAN] {
+        let left = mesh.add_node(x - 0.5 * width, 0.0)?;
+        let foot = mesh.add_node(x, 0.0)?;
+        let right = mesh.add_node(x + 0.5 * width, 0.0)?;
+        mesh.add(footing([left, foot])?)?;
+        mesh.add(footing([foot, right])?)?;
+        let top = mesh.add_node(x, COLUMN_HEIGHT)?;
+        mesh.add(member([foot, top], COLUMN_SECTION)?)?;
         mesh.add(LumpedMass::new(top, 0.5 * ROOF_MASS)?)?;
-        lines.push(line);
+        footings.push(vec![left, foot, right]);
     }
-    let ends = [mesh.node_at(-0.5 * SPAN, HEIGHT)?, mesh.node_at(0.5 * SPAN, HEIGHT)?];
-    mesh.add(member(ends, BEAM)?)?;
-    let mut model = FemModel::on_foundations(mesh, &lines)?;
-    for line in &lines {
-        model = model.with_rigid_link(line[1], &[line[0], line[2]])?;
+    let tops = [
+        mesh.node_at(-0.5 * BEAM_SPAN, COLUMN_HEIGHT)?,
+        mesh.node_at(0.5 * BEAM_SPAN, COLUMN_HEIGHT)?,
+    ];
+    mesh.add(member(tops, BEAM_SECTION)?)?;
+    let mut model = FemModel::on_foundations(mesh, &footings)?;
+    for nodes in &footings {
+        model = model.with_rigid_link(nodes[1], &[nodes[0], nodes[2]])?;
     }
+    Ok(model)
+}
+
+/// Mean drift of the roof relative to the footings.
+fn roof_drift(model: &FemModel) -> Result<DofCombination> {
     let mut drift = DofCombination::default();
-    for x in [-0.5 * SPAN, 0.5 * SPAN] {
-        let [foot, top] = [model.mesh().node_at(x, 0.0)?, model.mesh().node_at(x, HEIGHT)?];
+    for x in [-0.5 * BEAM_SPAN, 0.5 * BEAM_SPAN] {
+        let foot = model.mesh().node_at(x, 0.0)?;
+        let top = model.mesh().node_at(x, COLUMN_HEIGHT)?;
         drift += 0.5 * model.row(top, Direction::X)? - 0.5 * model.row(foot, Direction::X)?;
     }
-    Ok((model, drift))
+    Ok(drift)
 }
 
 fn shake(width: f64, law: impl InterfaceLaw + 'static) -> Result<Run> {
-    let (model, drift) = portal(width)?;
+    let model = portal(width)?;
+    let drift = roof_drift(&model)?;
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
     // 5 % of critical damping for lateral vibration on a fixed base.
-    let damping = RayleighDamping::new(0.0, 0.05 / (std::f64::consts::PI * FREQUENCY))?;
+    let damping = RayleighDamping::new(0.0, 0.05 / (std::f64::consts::PI * LATERAL_FREQUENCY))?;
     let mut simulation = Simulation::builder(0.005)
         .ground(ElasticGround::under(soil, &model, 8)?)
         .structure(model.with_rayleigh(damping))
@@ -103,22 +119,28 @@ fn main() -> Result<()> {
             );
         }
     }
-    let (widths, frictions) = ([1.6, 2.0, 2.4, 3.0], [0.2, 0.3, 0.4, 0.5, 0.6]);
-    let [width, friction] = [("width_m", &widths[..]), ("friction", &frictions[..])]
-        .map(|(name, values)| Parameter::numbers(name, values.iter().copied()));
-    let sweep = Sweep::grid([width, friction])?;
-    let closer = sweep.collect(|case| {
+    let widths = [1.6, 2.0, 2.4, 3.0];
+    let frictions = [0.2, 0.3, 0.4, 0.5, 0.6];
+    let sweep = Sweep::grid([
+        Parameter::numbers("width_m", widths),
+        Parameter::numbers("friction", frictions),
+    ])?;
+    let approaches = sweep.collect(|case| {
         let law = Coulomb::new(case.value("friction")?)?;
         let run = shake(case.value("width_m")?, law)?;
         Ok(run.foundations[0].residual_slip - run.foundations[1].residual_slip)
     });
-    let closer = closer.into_iter().collect::<std::result::Result<Vec<_>, CaseError<_>>>()?;
+    let approaches =
+        approaches.into_iter().collect::<std::result::Result<Vec<_>, CaseError<_>>>()?;
     println!("\nBy how much the footings end closer to each other, mm\n");
-    println!("| width, m | friction {} |", frictions.map(|f| f.to_string()).join(" | "));
+    println!(
+        "| width, m | friction {} |",
+        frictions.map(|friction| friction.to_string()).join(" | ")
+    );
     println!("|---|{}", "---|".repeat(frictions.len()));
-    for (width, row) in widths.iter().zip(closer.chunks(frictions.len())) {
-        let row: Vec<_> = row.iter().map(|closer| format!("{:.1}", 1e3 * closer)).collect();
-        println!("| {width:.1} | {} |", row.join(" | "));
+    for (width, row) in widths.iter().zip(approaches.chunks(frictions.len())) {
+        let cells: Vec<_> = row.iter().map(|approach| format!("{:.1}", 1e3 * approach)).collect();
+        println!("| {width:.1} | {} |", cells.join(" | "));
     }
     Ok(())
 }

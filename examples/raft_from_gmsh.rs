@@ -1,11 +1,11 @@
-//! A building on a raft, from a mesh by Gmsh, that lifts and slides under an earthquake.
+//! A building on a raft, from a mesh by Gmsh, that lifts and slides.
 //!
 //! ```text
 //! cargo run --release --example raft_from_gmsh
 //! ```
 //!
 //! `examples/data/raft_building.py` writes the mesh with Gmsh's module for Python. The names of its groups say which
-//! elements are raft, floors, core and columns; thicknesses, sections and materials are given here. The core stands
+//! elements are raft, floors, core and columns; thicknesses, sections and materials are defined here. The core stands
 //! at one end of the building, so an earthquake along y turns it, and the far corner of the roof moves most.
 
 use basemat::fem::{BeamSection, Direction, Material};
@@ -13,10 +13,10 @@ use basemat::io::{GmshPart, GmshSpaceMesh};
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
 
-const MESH: &[u8] = include_bytes!("data/raft_building.msh");
+const GMSH_FILE: &[u8] = include_bytes!("data/raft_building.msh");
 /// Time step, s, and number of steps.
-const STEP: f64 = 0.01;
-const STEPS: usize = 1000;
+const TIME_STEP: f64 = 0.01;
+const STEP_COUNT: usize = 1000;
 
 /// The building, and the node at the far corner of its roof.
 fn building() -> basemat::Result<(FemModel, usize)> {
@@ -28,7 +28,7 @@ fn building() -> basemat::Result<(FemModel, usize)> {
     let second_moment = side.powi(4) / 12.0;
     let column = BeamSection::new(side * side, [second_moment; 2], 0.1406 * side.powi(4))?;
 
-    let gmsh = GmshSpaceMesh::from_reader("raft_building.msh", MESH)?;
+    let gmsh = GmshSpaceMesh::from_reader("raft_building.msh", GMSH_FILE)?;
     let mesh = gmsh.mesh(&[
         ("raft", GmshPart::Shell(concrete, 0.9)),
         ("floors", GmshPart::Shell(floor, 0.25)),
@@ -42,12 +42,12 @@ fn building() -> basemat::Result<(FemModel, usize)> {
 }
 
 fn main() -> basemat::Result<()> {
-    let (model, corner) = building()?;
+    let (model, roof_corner) = building()?;
     let mut mass = Triplets::new(model.dofs());
     model.mass(&mut mass)?;
     let up = model.rigid_motion(Direction::Z, [0.0; 3]);
-    let whole: f64 = mass.entries().iter().map(|&(i, j, m)| up[i] * m * up[j]).sum();
-    println!("{} degrees of freedom, {:.0} t", model.dofs(), 1e-3 * whole);
+    let total_mass: f64 = mass.entries().iter().map(|&(i, j, m)| up[i] * m * up[j]).sum();
+    println!("{} degrees of freedom, {:.0} t", model.dofs(), 1e-3 * total_mass);
 
     let soil = Soil::from_shear_wave_speed(250.0, 1.0 / 3.0, 1900.0)?;
     println!();
@@ -57,15 +57,15 @@ fn main() -> basemat::Result<()> {
     let laws: [(&str, Box<dyn InterfaceLaw>); 2] =
         [("bonded", Box::new(Bonded)), ("opens, slides", Box::new(Coulomb::new(0.4)?))];
     for (name, law) in laws {
-        let run = Simulation::builder(STEP)
+        let run = Simulation::builder(TIME_STEP)
             .ground(ElasticGround::under(soil, &model, 8)?)
             .structure(model.clone())
             .interface(law)
             .motion(Triaxial { y: Some(el_centro_1940()), ..Triaxial::default() })
-            .probe(Probe::displacement("corner", model.row(corner, Direction::Y)?))
-            .expected_steps(STEPS)
+            .probe(Probe::displacement("corner", model.row(roof_corner, Direction::Y)?))
+            .expected_steps(STEP_COUNT)
             .build()?
-            .run(STEPS, |_| {})?;
+            .run(STEP_COUNT, |_| {})?;
         println!(
             "{name:<14} {:>17.2} {:>13.1} {:>10.1} {:>17.1} {:>14.1e}",
             run.shear_coefficient().unwrap_or(0.0),

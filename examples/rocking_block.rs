@@ -17,16 +17,17 @@ use basemat::reference::RockingBlock;
 const HALF_WIDTH: f64 = 0.5;
 const HALF_HEIGHT: f64 = 2.0;
 const TIME_STEP: f64 = 2.0e-3;
-const STEPS: usize = 2000;
+const STEP_COUNT: usize = 2000;
 
 /// One sine cycle with the peak acceleration `peak` (m/s²) and the `period` (s).
 fn pulse(peak: f64, period: f64) -> Result<Record> {
-    let sine = |time: f64| peak * (std::f64::consts::TAU * time / period).sin();
-    Record::from_fn(period / 200.0, period, sine)
+    Record::from_fn(period / 200.0, period, |time| {
+        peak * (std::f64::consts::TAU * time / period).sin()
+    })
 }
 
-/// Rocks the block on soil of this shear wave speed (m/s).
-fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Run> {
+/// Rocks the block on soil of this shear wave speed (m/s) until its rotation exceeds `tipping` (rad).
+fn rock(shear_wave_speed: f64, motion: Record, tipping: f64) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(shear_wave_speed, 0.33, 1900.0)?;
     // With P–Δ the weight helps to overturn the block once it leans.
     let block = RigidBlock::new(2.0 * HALF_WIDTH, 2.0 * HALF_HEIGHT, 2400.0)?
@@ -38,17 +39,15 @@ fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Run> {
         .motion(motion)
         .build()?;
     // The observer ends the run when the block is past its tipping point.
-    simulation.run(
-        STEPS,
-        |state| {
-            if state.base_rotation.abs() > fallen { Break(()) } else { Continue(()) }
-        },
-    )
+    simulation.run(STEP_COUNT, |state| {
+        if state.base_rotation.abs() > tipping { Break(()) } else { Continue(()) }
+    })
 }
 
 fn main() -> Result<()> {
     let rigid = RockingBlock::new(HALF_WIDTH, HALF_HEIGHT, STANDARD_GRAVITY)?;
-    let (onset, tipping) = (rigid.uplift_acceleration(), rigid.slenderness_angle());
+    let onset = rigid.uplift_acceleration();
+    let tipping = rigid.slenderness_angle();
     println!(
         "Block {} m × {} m: rocks on rigid ground from {onset:.2} m/s² on, tips at {:.0} mrad",
         2.0 * HALF_WIDTH,
@@ -74,10 +73,10 @@ fn main() -> Result<()> {
                 "stands"
             };
             // The crate assumes small rotations, and warns when they become large.
-            let large = if run.warnings.is_empty() { ' ' } else { '*' };
-            warned |= large == '*';
+            let mark = if run.warnings.is_empty() { ' ' } else { '*' };
+            warned |= mark == '*';
             print!(
-                "{:>8.1} mrad{large}{:>7.0} %{:>9}{outcome:>12}",
+                "{:>8.1} mrad{mark}{:>7.0} %{:>9}{outcome:>12}",
                 1e3 * rotation,
                 100.0 * run.whole.uplifted_fraction.largest().value,
                 run.whole.uplift.count,

@@ -1,4 +1,4 @@
-//! A five-storey shear building on soil: the effect of uplift and sliding on the storeys.
+//! The effect of uplift and sliding on the storeys of a shear building.
 //!
 //! ```text
 //! cargo run --release --example shear_building
@@ -10,18 +10,18 @@
 use basemat::Result;
 use basemat::prelude::*;
 
-const STOREYS: usize = 5;
+const STOREY_COUNT: usize = 5;
 
 /// Runs twelve seconds of El Centro; `friction` is used for the factor of safety against sliding.
 fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
     // Storeys of 3 m, 30 t/m and 60 MN/m² on a mat 8 m wide; soil with a shear wave speed of 250 m/s.
-    let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREYS];
+    let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREY_COUNT];
     let building =
         ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
 
     let mut probes = Vec::new();
-    for storey in 0..STOREYS {
+    for storey in 0..STOREY_COUNT {
         probes.push(Probe::section(format!("shear {}", storey + 1), &building.shear(storey)?));
         probes.push(Probe::displacement(format!("drift {}", storey + 1), building.drift(storey)?));
     }
@@ -39,7 +39,7 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
 
 fn main() -> Result<()> {
     let cases = [
-        // The bonded base has no friction of its own; its factor of safety uses 0.25.
+        // A bonded base has no friction coefficient; its factor of safety uses 0.25.
         ("bonded", shake(Bonded, 0.25)?),
         ("uplift", shake(Coulomb::uplift_only(), f64::INFINITY)?),
         ("uplift, slip", shake(Coulomb::new(0.25)?, 0.25)?),
@@ -51,14 +51,12 @@ fn main() -> Result<()> {
         print!("{name:>22}");
     }
     println!();
-    for storey in (0..STOREYS).rev() {
+    for storey in (0..STOREY_COUNT).rev() {
         print!("{:<8}", storey + 1);
         for (_, run) in &cases {
-            let peak = |what| {
-                let extremes = run.probe(&format!("{what} {}", storey + 1))?;
-                Ok::<f64, basemat::Error>(extremes.magnitude())
-            };
-            print!("{:>12.1}{:>10.2}", 1e-3 * peak("shear")?, 1e3 * peak("drift")?);
+            let shear = run.probe(&format!("shear {}", storey + 1))?.magnitude();
+            let drift = run.probe(&format!("drift {}", storey + 1))?.magnitude();
+            print!("{:>12.1}{:>10.2}", 1e-3 * shear, 1e3 * drift);
         }
         println!();
     }

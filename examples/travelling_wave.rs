@@ -1,6 +1,6 @@
-//! A tower that may uplift and slide under one horizontal record, as four kinds of waves.
+//! A tower that may uplift and slide under four kinds of waves.
 //!
-//! The record is taken as a vertical S wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion
+//! One horizontal record is taken as a vertical S wave, an inclined SV wave, a Rayleigh wave, and a horizontal motion
 //! that travels along the surface.
 //!
 //! ```text
@@ -17,58 +17,63 @@ use basemat::motion::{Baseline, PlaneWave, TravellingWave};
 use basemat::prelude::*;
 
 const HALF_WIDTH: f64 = 5.0;
-const HEIGHT: f64 = 20.0;
-const FRICTION: f64 = 0.4;
+const TOWER_HEIGHT: f64 = 20.0;
+const FRICTION_COEFFICIENT: f64 = 0.4;
 /// Quiet time before the record, s: the vertical part of a Rayleigh wave precedes the horizontal part.
-const LEAD: f64 = 10.0;
+const QUIET_LEAD_TIME: f64 = 10.0;
 
 /// Angle of the SV wave from the vertical, degrees.
-const ANGLE: f64 = 25.0;
+const SV_WAVE_ANGLE: f64 = 25.0;
 /// Apparent velocity of the wave of horizontal motion, m/s.
-const VELOCITY: f64 = 300.0;
+const SURFACE_WAVE_VELOCITY: f64 = 300.0;
 
 fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
-    let tower = RigidBlock::new(2.0 * HALF_WIDTH, HEIGHT, 600.0)?;
-    let (top, edge) = (tower.horizontal_at(HEIGHT), tower.vertical_at(HALF_WIDTH));
+    let tower = RigidBlock::new(2.0 * HALF_WIDTH, TOWER_HEIGHT, 600.0)?;
+    let top = tower.horizontal_at(TOWER_HEIGHT);
+    let edge = tower.vertical_at(HALF_WIDTH);
     let mut simulation = Simulation::builder(5.0e-3)
         .ground(ElasticGround::under(soil, &tower, 16)?)
         .structure(tower)
-        .interface(Coulomb::new(FRICTION)?)
+        .interface(Coulomb::new(FRICTION_COEFFICIENT)?)
         .motion(motion)
         .probe(Probe::acceleration("top", top))
         .probe(Probe::acceleration("edge, up", edge))
         .build()?;
-    let steps = simulation.steps_for(LEAD + 12.0);
+    let steps = simulation.steps_for(QUIET_LEAD_TIME + 12.0);
     simulation.run(steps, |_| {})
 }
 
 fn main() -> Result<()> {
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
     // The record starts and ends at rest, as a Rayleigh wave requires.
-    let record =
-        el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?.padded(LEAD, 8.0)?;
+    let record = el_centro_1940()
+        .with_baseline(Baseline::RestToRest { degree: 4 })?
+        .padded(QUIET_LEAD_TIME, 8.0)?;
     // The left edge, which all these waves reach first.
     let origin = -HALF_WIDTH;
-    let inclined = PlaneWave::sv(soil, ANGLE.to_radians())?;
+    let inclined = PlaneWave::sv(soil, SV_WAVE_ANGLE.to_radians())?;
     let rayleigh = PlaneWave::rayleigh(soil);
 
     println!(
-        "Tower of {} m × {HEIGHT} m, friction {FRICTION}, soil of 200 m/s, El Centro 1940",
+        "Tower of {} m × {TOWER_HEIGHT} m, friction {FRICTION_COEFFICIENT}, soil of 200 m/s, El Centro 1940",
         2.0 * HALF_WIDTH
     );
     println!(
-        "Velocities along the surface: SV at {ANGLE}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {VELOCITY:.0} m/s\n",
+        "Velocities along the surface: SV at {SV_WAVE_ANGLE}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {SURFACE_WAVE_VELOCITY:.0} m/s\n",
         inclined.apparent_velocity(),
         rayleigh.apparent_velocity()
     );
     let mut comparison = Comparison::default();
     comparison.add("vertical", shake(soil, record.clone())?);
     comparison.add(
-        format!("SV, {ANGLE}°"),
+        format!("SV, {SV_WAVE_ANGLE}°"),
         shake(soil, inclined.field_from_horizontal(&record, origin)?)?,
     );
     comparison.add("Rayleigh", shake(soil, rayleigh.field_from_horizontal(&record, origin)?)?);
-    comparison.add("on surface", shake(soil, TravellingWave::new(record, VELOCITY, origin)?)?);
+    comparison.add(
+        "on surface",
+        shake(soil, TravellingWave::new(record, SURFACE_WAVE_VELOCITY, origin)?)?,
+    );
     println!("{comparison}");
     Ok(())
 }

@@ -36,13 +36,13 @@ fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N])
 }
 
 fn main() -> Result<()> {
-    let roofs = [("tall", tall()?.roof()), ("low", low()?.roof())];
-    let [on_tall, on_low] = roofs.map(|(name, roof)| Probe::acceleration(name, roof));
-    let alone = [shake(tall()?, [on_tall.clone()])?, shake(low()?, [on_low.clone()])?];
+    let tall_roof = Probe::acceleration("tall", tall()?.roof());
+    let low_roof = Probe::acceleration("low", low()?.roof());
+    let alone = [shake(tall()?, [tall_roof.clone()])?, shake(low()?, [low_roof.clone()])?];
 
     // The low building stands 13 m to the right, with 2 m between them. `probe` moves each roof's probe into the group.
     let group = StructureGroup::new().with(tall()?, 0.0)?.with(low()?, 13.0)?;
-    let probes = [group.probe(0, on_tall)?, group.probe(1, on_low)?];
+    let probes = [group.probe(0, tall_roof)?, group.probe(1, low_roof)?];
     let together = shake(group, probes)?;
 
     println!("El Centro 1940, soil with 150 m/s, friction 0.5, 2 m between the buildings\n");
@@ -52,17 +52,18 @@ fn main() -> Result<()> {
     for (k, (name, probe)) in [("8 storeys", "tall"), ("3 storeys", "low")].iter().enumerate() {
         let bases = [&alone[k].foundations[0], &together.foundations[k]];
         let roofs = [alone[k].probe(probe)?, together.probe(probe)?];
-        for ((how, base), roof) in ["alone", "together"].iter().zip(bases).zip(roofs) {
+        for ((neighbour, base), roof) in ["alone", "together"].iter().zip(bases).zip(roofs) {
             println!(
-                "| {name} | {how} | {:.1} | {:.2} | {:.0} | {:.2} |",
+                "| {name} | {neighbour} | {:.1} | {:.2} | {:.0} | {:.2} |",
                 1e-3 * base.base_shear.magnitude(),
                 1e3 * base.base_rotation.magnitude(),
                 100.0 * base.uplifted_fraction.largest().value,
                 roof.magnitude()
             );
         }
-        let [before, after] = bases.map(|base| base.base_shear.magnitude());
-        changes.push(100.0 * (after / before - 1.0));
+        let shear_alone = bases[0].base_shear.magnitude();
+        let shear_together = bases[1].base_shear.magnitude();
+        changes.push(100.0 * (shear_together / shear_alone - 1.0));
     }
     println!(
         "\nThe neighbour changes the base shear by {:+.0} % (8 storeys) and {:+.0} % (3 storeys).",

@@ -1,12 +1,12 @@
-//! A ground of your own: independent elastic columns that radiate all waves straight down.
+//! A custom ground: independent elastic columns that radiate all waves straight down.
 //!
 //! ```text
 //! cargo run --release --example your_own_ground
 //! ```
 //!
 //! Under each element stands an endless column of soil. A pressure p moves its top at the velocity p/(ρ c_P),
-//! a shear traction τ at τ/(ρ c_S), without end. The present displacement is the column's only memory. It
-//! radiates as much as a ground can, and has no static stiffness. A spring of `held` Pa/m adds one, so that
+//! a shear traction τ at τ/(ρ c_S), without end. The present displacement is the column's only state. It
+//! radiates as much as a ground can, and has no static stiffness. A spring of `spring_stiffness` Pa/m adds one, so that
 //! the structure can stand.
 //!
 //! The traction of a step is the traction in its middle, where the spring has the mean displacement of both ends. A spring
@@ -24,33 +24,44 @@ struct Columns {
     /// ρ c_P and ρ c_S, Pa·s/m.
     impedance: [f64; 2],
     /// Stiffness of springs parallel to the dashpots, Pa/m.
-    held: f64,
+    spring_stiffness: f64,
     time_step: f64,
     /// Displacements at the end of the last accepted step: normal components (down), then tangential
     /// components.
     displacement: Vec<f64>,
 }
 
+/// Factors of a step of length Δt: new displacement = `previous` · old displacement + `traction` · traction.
+struct StepFactors {
+    previous: f64,
+    traction: f64,
+}
+
 impl Columns {
-    fn new(soil: Soil, range: std::ops::Range<f64>, count: usize, held: f64) -> Result<Self> {
+    fn new(
+        soil: Soil,
+        range: std::ops::Range<f64>,
+        count: usize,
+        spring_stiffness: f64,
+    ) -> Result<Self> {
         let wave_speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
         Ok(Self {
             elements: Strip::uniform(range, count)?.elements(),
             impedance: wave_speeds.map(|speed| soil.density() * speed),
-            held,
+            spring_stiffness,
             time_step: 0.0,
             displacement: vec![0.0; 2 * count],
         })
     }
 
-    /// Factors of the displacement at the end of the next step, `kept · old + gained · traction`.
+    /// Factors of the next step for a component of the displacement.
     ///
     /// They follow from the midpoint rule for `z ds/dt + k s = traction`. `SpringGround::of_elements` is a bed of
     /// such pairs that can be a part of another ground.
-    fn step_factors(&self, component: usize) -> [f64; 2] {
+    fn step_factors(&self, component: usize) -> StepFactors {
         let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
-        let k = 0.5 * self.held;
-        [(z - k) / (z + k), 1.0 / (z + k)]
+        let k = 0.5 * self.spring_stiffness;
+        StepFactors { previous: (z - k) / (z + k), traction: 1.0 / (z + k) }
     }
 }
 
@@ -74,22 +85,23 @@ impl Ground for Columns {
         let size = self.displacement.len();
         matrix.fill(0.0);
         for i in 0..size {
-            matrix[i * size + i] = self.step_factors(i)[1];
+            matrix[i * size + i] = self.step_factors(i).traction;
         }
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         for (i, out) in displacement.iter_mut().enumerate() {
-            *out = self.step_factors(i)[0] * self.displacement[i];
+            *out = self.step_factors(i).previous * self.displacement[i];
         }
         Ok(())
     }
 
     fn commit(&mut self, traction: &[f64]) {
         for (i, traction) in traction.iter().enumerate() {
-            let [kept, gained] = self.step_factors(i);
-            self.displacement[i] = kept * self.displacement[i] + gained * traction;
+            let factors = self.step_factors(i);
+            self.displacement[i] =
+                factors.previous * self.displacement[i] + factors.traction * traction;
         }
     }
 
@@ -97,7 +109,7 @@ impl Ground for Columns {
         let size = self.displacement.len();
         matrix.fill(0.0);
         for i in 0..size {
-            matrix[i * size + i] = 1.0 / self.held;
+            matrix[i * size + i] = 1.0 / self.spring_stiffness;
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! An interface law of your own: friction that falls with the speed of sliding.
+//! A custom interface law: friction that decreases with the speed of sliding.
 //!
 //! ```text
 //! cargo run --release --example your_own_law
@@ -52,11 +52,11 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
 }
 
 fn main() -> basemat::Result<()> {
-    let own = VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 };
+    let weakening = VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 };
     let closure = VariableFriction::new(|start| 0.25 + 0.05 * (-start.slip_rate.abs() / 0.1).exp());
     let cases = [
         ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),
-        ("0.30 slow, 0.25 fast", slide(own)?),
+        ("0.30 slow, 0.25 fast", slide(weakening)?),
         ("the same, from a closure", slide(closure)?),
         ("Coulomb, 0.25", slide(Coulomb::new(0.25)?)?),
     ];

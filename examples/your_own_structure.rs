@@ -1,4 +1,4 @@
-//! A structure of your own: a five-storey shear building, written from scratch.
+//! A custom structure: a five-storey shear building, written from scratch.
 //!
 //! ```text
 //! cargo run --release --example your_own_structure
@@ -10,7 +10,7 @@
 
 use basemat::prelude::*;
 
-const FLOORS: usize = 5;
+const FLOOR_COUNT: usize = 5;
 
 /// Degrees of freedom: `[u_x, u_y, θ]` of the rigid base, then the absolute horizontal displacement of each floor.
 /// All per metre of thickness, in kg, N and m.
@@ -23,36 +23,39 @@ struct Building {
     storey_dashpot: f64,
 }
 
-const BASE: [usize; 3] = [0, 1, 2];
+/// Degrees of freedom of the base.
+const BASE_SWAY: usize = 0;
+const BASE_HEAVE: usize = 1;
+const BASE_ROTATION: usize = 2;
 
 impl Building {
     /// Drift of a storey as (degree of freedom, weight) pairs: `u_j − u_(j−1) + h θ`.
     ///
     /// A base that rotates counter-clockwise moves the points above it to the left.
     fn drift(&self, storey: usize) -> [(usize, f64); 3] {
-        let below = if storey == 0 { BASE[0] } else { storey + 2 };
-        [(storey + 3, 1.0), (below, -1.0), (BASE[2], self.storey_height)]
+        let below = if storey == 0 { BASE_SWAY } else { storey + 2 };
+        [(storey + 3, 1.0), (below, -1.0), (BASE_ROTATION, self.storey_height)]
     }
 }
 
 impl Structure for Building {
     fn dofs(&self) -> usize {
-        3 + FLOORS
+        3 + FLOOR_COUNT
     }
 
     // A rigid base needs only its two ends.
     fn base(&self) -> Base {
-        BaseNode::rigid_base(-0.5 * self.width, 0.5 * self.width, BASE).into()
+        let dofs = [BASE_SWAY, BASE_HEAVE, BASE_ROTATION];
+        BaseNode::rigid_base(-0.5 * self.width, 0.5 * self.width, dofs).into()
     }
 
     // Entries at the same place are summed.
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        let total = self.base_mass + FLOORS as f64 * self.floor_mass;
-        let [sway, heave, turn] = BASE;
-        matrix.add(sway, sway, self.base_mass);
-        matrix.add(heave, heave, total);
-        matrix.add(turn, turn, total * self.width.powi(2) / 12.0);
-        for floor in 0..FLOORS {
+        let total = self.base_mass + FLOOR_COUNT as f64 * self.floor_mass;
+        matrix.add(BASE_SWAY, BASE_SWAY, self.base_mass);
+        matrix.add(BASE_HEAVE, BASE_HEAVE, total);
+        matrix.add(BASE_ROTATION, BASE_ROTATION, total * self.width.powi(2) / 12.0);
+        for floor in 0..FLOOR_COUNT {
             matrix.add(floor + 3, floor + 3, self.floor_mass);
         }
         Ok(())
@@ -61,14 +64,14 @@ impl Structure for Building {
     // A spring of stiffness k with the deformation l·u has the matrix k lᵀl. There is no support: the ground holds the
     // building up, and rigid motions must give no force.
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        for storey in 0..FLOORS {
+        for storey in 0..FLOOR_COUNT {
             matrix.add_outer(self.drift(storey), self.storey_stiffness);
         }
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        for storey in 0..FLOORS {
+        for storey in 0..FLOOR_COUNT {
             matrix.add_outer(self.drift(storey), self.storey_dashpot);
         }
         Ok(())
@@ -85,7 +88,7 @@ fn main() -> basemat::Result<()> {
         storey_dashpot: 0.2e6,
     };
     let drift = building.drift(0).to_vec();
-    let roof = FLOORS + 2;
+    let roof = FLOOR_COUNT + 2;
 
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
@@ -97,14 +100,13 @@ fn main() -> basemat::Result<()> {
         .probe(Probe::acceleration("roof acceleration", roof))
         .build()?;
 
-    // The observer sees every step; it could return `ControlFlow::Break`.
+    // The observer receives the state of every step; it could return `ControlFlow::Break`.
     let run = simulation.run(2400, |state| {
         if state.step % 400 == 0 {
-            let [ground, _] = state.free_field;
             println!(
                 "t = {:5.2} s: roof {:8.2} mm from the ground, {:3.0} % of the base open",
                 state.time,
-                1e3 * (state.absolute_displacement()[roof] - ground),
+                1e3 * (state.absolute_displacement()[roof] - state.free_field[0]),
                 100.0 * state.uplifted_fraction
             );
         }

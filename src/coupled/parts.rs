@@ -245,7 +245,7 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     })
 }
 
-/// Coefficients for the factor of safety against sliding: by the builder, otherwise by the laws.
+/// Coefficients for the factor of safety against sliding, of the builder or of the laws.
 ///
 /// One for all elements, or one each; empty unless all laws have one.
 fn safety_friction(

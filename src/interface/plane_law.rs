@@ -11,7 +11,7 @@ use crate::error::Result;
 /// Examples are an open element that bears, or a slip that its speed resists. Such a law needs three methods. In a scene
 /// it acts as [`InPlane`]`(law)`. All other laws implement [`InterfaceLaw`] by its limits.
 ///
-/// Rubber pads under a base that never opens or slides:
+/// Rubber pads, bonded to both sides, under a block without weight:
 /// ```
 /// use basemat::Simulation;
 /// use basemat::bem::SpringGround;
@@ -48,6 +48,7 @@ use crate::error::Result;
 ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e8, 1e8)?.with_dashpots(7e5, 4e5)?)
 ///     .interface(InPlane(Pads { compliance: [1e-8, 4e-8] }))
 ///     .motion(el_centro_1940())
+///     .gravity(0.0)
 ///     .build()?;
 /// let run = simulation.run(1000, |state| {
 ///     assert!(state.contact.iter().all(|element| (element.slip - 4e-8 * element.shear).abs() < 1e-12));

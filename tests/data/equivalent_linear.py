@@ -66,13 +66,13 @@ def response(case, step, accelerations, periods):
     outcrop = profile.location("outcrop", index=-1)
     calculator(motion, profile, outcrop)
     moved = lambda place: GRAVITY * motion.calc_time_series(calculator.calc_accel_tf(outcrop, place))  # noqa: E731
-    own = []
+    layers = []
     for k, layer in enumerate(profile[:-1]):
         top = pystrata.site.Location(k, layer, "within", 0.0)
         peak = np.max(abs(moved(top)))
-        own.append([layer.shear_mod / layer.initial_shear_mod, layer.damping, layer.strain_max, peak])
+        layers.append([layer.shear_mod / layer.initial_shear_mod, layer.damping, layer.strain_max, peak])
     surface = moved(profile.location("outcrop", index=0))[: len(accelerations)]
-    return np.array(own, float), np.array(spectrum(surface, step, periods))
+    return np.array(layers, float), np.array(spectrum(surface, step, periods))
 
 
 def main(source, table=None):
@@ -86,13 +86,13 @@ def main(source, table=None):
         elif kind == "curve":
             curves.append(fields)
         elif kind == "case":
-            cases.append({"site": fields[0], "peak": fields[1], "layers": [], "own": []})
+            cases.append({"site": fields[0], "peak": fields[1], "layers": [], "computed": []})
         elif kind == "layer":
             cases[-1]["layers"].append(fields)
         else:
             numbers = [float(field) for field in fields]
-            if kind == "own":
-                cases[-1]["own"].append(numbers)
+            if kind == "computed":
+                cases[-1]["computed"].append(numbers)
             else:
                 cases[-1][kind] = numbers
     lines, worst = [], np.zeros(5)
@@ -102,13 +102,14 @@ def main(source, table=None):
             values = [float(soil.mod_reduc(strain)), float(soil.damping(strain))]
             lines.append(f"curve,{'/'.join(fields)},{strain:g},{values[0]:.8g},{values[1]:.8g}")
     for case in cases:
-        own, spectral = response(case, step, accelerations, periods)
-        errors = [*np.max(abs(np.array(case["own"]) / own - 1), axis=0), np.max(abs(case["spectrum"] / spectral - 1))]
+        expected, spectral = response(case, step, accelerations, periods)
+        layer_errors = np.max(abs(np.array(case["computed"]) / expected - 1), axis=0)
+        errors = [*layer_errors, np.max(abs(case["spectrum"] / spectral - 1))]
         worst = np.maximum(worst, errors)
         text = ", ".join(f"{error:.1e}" for error in errors)
         print(f"{case['site']:>10} {case['peak']:>5} g: {text}")
         start = f"{case['site']},{case['peak']}"
-        lines += [f"layer,{start}," + ",".join(f"{value:.6g}" for value in row) for row in own]
+        lines += [f"layer,{start}," + ",".join(f"{value:.6g}" for value in row) for row in expected]
         lines.append(f"spectrum,{start}," + ",".join(f"{value:.6g}" for value in spectral))
     if table:
         open(table, "w").write("\n".join(lines) + "\n")

@@ -1,6 +1,6 @@
-//! GOAL: the full-plane ground assesses its march before it is prepared. SCENE: four unit elements
-//! with three free ones on either side, steps that grow and steps that do not. REFERENCE: growth of
-//! the march itself; the number of coefficients requested.
+//! GOAL: the full-plane ground assesses the growth of its march before it is prepared.
+//! SCENE: four unit elements with three free elements on either side, time steps with growth and without.
+//! REFERENCE: growth of the march itself; the number of coefficients requested.
 
 use basemat::bem::Ground;
 use basemat::bem::GroundError;
@@ -14,20 +14,20 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::unit_soil;
-use basemat_problems::close;
+use basemat_problems::{close, dense::largest};
 
-/// Four unit elements with three free ones on either side.
+/// Four unit elements with three free elements on either side.
 fn ground() -> FullPlaneGround {
     FullPlaneGround::strip(unit_soil(), -2.0..2.0, 4, 3).unwrap()
 }
 
-/// The time kernel; counts the calls for coefficients.
-struct Counting {
+/// Time kernel that counts the requests for coefficients.
+struct CountingKernel {
     inner: TimeKernel,
     calls: Arc<AtomicUsize>,
 }
 
-impl BoundaryKernel for Counting {
+impl BoundaryKernel for CountingKernel {
     fn segments(&self) -> &[Segment] {
         self.inner.segments()
     }
@@ -38,16 +38,28 @@ impl BoundaryKernel for Counting {
     }
 }
 
-fn counting(calls: &Arc<AtomicUsize>) -> FullPlaneGround {
+/// The ground with a kernel that counts its requests in `calls`.
+fn counting_ground(calls: &Arc<AtomicUsize>) -> FullPlaneGround {
     let calls = Arc::clone(calls);
     ground().with_kernel(move |segments, soil, step| {
         let inner = TimeKernel::new(soil, segments, step)?;
-        Ok(Box::new(Counting { inner, calls: Arc::clone(&calls) }) as Box<dyn BoundaryKernel>)
+        Ok(Box::new(CountingKernel { inner, calls: Arc::clone(&calls) }) as Box<dyn BoundaryKernel>)
     })
 }
 
+/// Number of requests for coefficients while the ground is prepared.
+fn requests_of_preparation(
+    calls: &AtomicUsize,
+    ground: &mut FullPlaneGround,
+    time_step: f64,
+) -> usize {
+    calls.store(0, Relaxed);
+    ground.prepare(time_step, None, &mut unobserved).unwrap();
+    calls.load(Relaxed)
+}
+
 /// Largest displacement of a traction-free march after a push on one element.
-fn marched(ground: &mut FullPlaneGround, steps: usize) -> f64 {
+fn largest_displacement(ground: &mut FullPlaneGround, steps: usize) -> f64 {
     let size = 2 * ground.elements().len();
     let mut history = vec![0.0; size];
     let mut push = vec![0.0; size];
@@ -56,10 +68,10 @@ fn marched(ground: &mut FullPlaneGround, steps: usize) -> f64 {
         ground.history(&mut history).unwrap();
         ground.commit(if step == 0 { &push } else { &[] });
     }
-    ground.displacement().iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+    largest(ground.displacement())
 }
 
-/// GOAL: the step of the paper is refused, with the growth that a march of this ground shows.
+/// GOAL: the time step of the paper is refused, with the growth that a march of this ground shows.
 #[test]
 fn growth_is_refused_and_is_that_of_the_march() {
     // β = 1/2.
@@ -71,37 +83,39 @@ fn growth_is_refused_and_is_that_of_the_march() {
     assert!(growing_modes > 0);
     let mut allowed = ground().allow_growth();
     allowed.prepare(0.25, None, &mut unobserved).unwrap();
-    let [uplifted, bonded] = allowed.assess(0.25, 1e-4).unwrap().map(|own| own.growth_per_step);
-    assert_eq!(uplifted.max(bonded), growth_per_step);
+    // With the base uplifted, then bonded.
+    let assessed = allowed.assess(0.25, 1e-4).unwrap().map(|state| state.growth_per_step);
+    assert_eq!(assessed[0].max(assessed[1]), growth_per_step);
     // The base is free of traction: the growth of the uplifted state.
-    let mut again = ground().allow_growth();
-    again.prepare(0.25, None, &mut unobserved).unwrap();
-    let (early, late) = (marched(&mut allowed, 400), marched(&mut again, 800));
-    close("growth", ((late / early).ln() / 400.0).exp_m1(), uplifted, 0.0, 0.02);
+    let mut second = ground().allow_growth();
+    second.prepare(0.25, None, &mut unobserved).unwrap();
+    let early = largest_displacement(&mut allowed, 400);
+    let late = largest_displacement(&mut second, 800);
+    close("growth", ((late / early).ln() / 400.0).exp_m1(), assessed[0], 0.0, 0.02);
 }
 
-/// GOAL: a bounded step marches, and the same mesh with another kernel is bounded at the step
-/// that the time kernel is refused for.
+/// GOAL: a bounded time step marches, and convolution quadrature is bounded at the time step for
+/// which the time kernel is refused on the same mesh.
 #[test]
 fn bounded_grounds_are_prepared_and_decay() {
-    let mut long = ground();
-    long.prepare(1.0, None, &mut unobserved).unwrap();
+    let mut long_step = ground();
+    long_step.prepare(1.0, None, &mut unobserved).unwrap();
     let mut quadrature = ground().with_kernel(|segments, soil, step| {
         let kernel = ConvolutionQuadrature::new(soil, segments, step, CqMethod::Bdf2)?;
         Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
     });
     quadrature.prepare(0.25, None, &mut unobserved).unwrap();
-    for ground in [&mut long, &mut quadrature] {
-        let early = marched(ground, 200);
-        assert!(marched(ground, 1000) < early);
+    for ground in [&mut long_step, &mut quadrature] {
+        let early = largest_displacement(ground, 200);
+        assert!(largest_displacement(ground, 1000) < early);
     }
 }
 
-/// GOAL: building a simulation is where growth is found.
+/// GOAL: the builder of a simulation refuses growth.
 #[test]
 fn a_simulation_is_refused_unless_allowed() {
-    fn build(ground: impl Ground, step: f64) -> Result<Simulation> {
-        Simulation::builder(step)
+    fn build(ground: impl Ground, time_step: f64) -> Result<Simulation> {
+        Simulation::builder(time_step)
             .structure(RigidBlock::new(4.0, 2.0, 1.0).unwrap())
             .ground(ground)
             .interface(Bonded)
@@ -116,20 +130,15 @@ fn a_simulation_is_refused_unless_allowed() {
     assert!(build(boxed, 1.0).is_ok());
 }
 
-/// GOAL: an assessment is paid for once, and not at all when it is skipped.
+/// GOAL: an assessment is computed once, and not at all when growth is allowed.
 #[test]
 fn coefficients_are_asked_for_once() {
     let calls = Arc::new(AtomicUsize::new(0));
-    let taken = |ground: &mut FullPlaneGround, step: f64| {
-        calls.store(0, Relaxed);
-        ground.prepare(step, None, &mut unobserved).unwrap();
-        calls.load(Relaxed)
-    };
-    let mut ground = counting(&calls);
-    let first = taken(&mut ground, 1.0);
-    // Both states from the same lags, 64 or twice as many and so on, and a few more for their tail.
+    let mut ground = counting_ground(&calls);
+    let first = requests_of_preparation(&calls, &mut ground, 1.0);
+    // Both states use the same lags: 64 times a power of two, and a few more for their tail.
     assert!((first / 64).is_power_of_two() && first % 64 < 32, "{first}");
-    assert_eq!(taken(&mut ground, 1.0), 1);
+    assert_eq!(requests_of_preparation(&calls, &mut ground, 1.0), 1);
     calls.store(0, Relaxed);
     assert!(ground.prepare(1.25, None, &mut unobserved).is_err());
     assert!(calls.load(Relaxed) > 32);
@@ -138,19 +147,20 @@ fn coefficients_are_asked_for_once() {
         Ok(Box::new(TimeKernel::new(soil, segments, step)?) as Box<dyn BoundaryKernel>)
     });
     assert!(ground.prepare(0.25, None, &mut unobserved).is_err());
-    let mut ground = counting(&calls).allow_growth();
-    assert_eq!(taken(&mut ground, 0.25), 1);
+    let mut ground = counting_ground(&calls).allow_growth();
+    assert_eq!(requests_of_preparation(&calls, &mut ground, 0.25), 1);
 }
 
-/// GOAL: what grows too slowly for the run is let pass.
+/// GOAL: growth below the smallest growth of interest counts as bounded.
 #[test]
 fn the_smallest_growth_is_chosen() {
-    let [uplifted, bonded] = ground().assess(0.25, 0.25).unwrap();
-    assert!(uplifted.is_bounded() && bonded.is_bounded());
+    let assessed = ground().assess(0.25, 0.25).unwrap();
+    assert!(assessed[0].is_bounded() && assessed[1].is_bounded());
     for growth in [0.0, 1.0, f64::NAN] {
         assert!(matches!(ground().assess(1.0, growth), Err(Error::Input { .. })), "{growth}");
     }
-    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(ground().assess(step, 1e-4), Err(Error::Input { .. })), "{step}");
+    for time_step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = ground().assess(time_step, 1e-4);
+        assert!(matches!(refused, Err(Error::Input { .. })), "{time_step}");
     }
 }

@@ -1,6 +1,5 @@
 //! GOAL: input that makes no sense, and two motions at once, are refused.
-//! SCENE: empty, degenerate and non-finite boundaries; an incident field beside a motion of the
-//! scene.
+//! SCENE: empty, degenerate and non-finite boundaries; an incident field beside a motion of the scene.
 //! REFERENCE: the typed error.
 
 use basemat::bem::Ground;
@@ -15,8 +14,7 @@ use basemat::{Error, Simulation, unobserved};
 use super::soil;
 use crate::full_plane::incident_waves::{canyon, waves};
 
-/// GOAL: no silent answers: a boundary that is not flat needs its incident field, and that one does
-/// not go with a motion of the scene.
+/// GOAL: a boundary that is not flat needs its incident field, and refuses a motion of the scene beside it.
 #[test]
 fn two_motions_are_refused() {
     let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
@@ -43,10 +41,20 @@ fn two_motions_are_refused() {
     assert!(message.contains("ground motion"), "{message}");
 }
 
+/// Unit element of the surface, from x to the right.
+fn unit_element(x: f64) -> Segment {
+    Segment { from: [x, 0.0], to: [x + 1.0, 0.0] }
+}
+
+/// Time kernel of one element.
+fn unit_kernel() -> Box<TimeKernel> {
+    Box::new(TimeKernel::new(soil(0.25), &[unit_element(0.0)], 0.5).unwrap())
+}
+
+/// GOAL: boundaries, marches and grounds refuse input that makes no sense.
 #[test]
 fn bad_input_is_refused() {
     let soil = soil(0.25);
-    let flat = |x: f64| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] };
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
     assert!(matches!(ground.step_compliance(&mut [0.0; 16]), Err(Error::Scene { .. })));
@@ -58,19 +66,19 @@ fn bad_input_is_refused() {
     assert!(matches!(ground.step_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
     assert!(matches!(ground.static_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
     ground.commit(&[]);
-    let [empty, nan, point] =
-        [vec![], vec![flat(f64::NAN)], vec![Segment { from: [1.0; 2], to: [1.0; 2] }]];
-    assert!(matches!(Boundary::new(empty, &[]), Err(Error::Size { .. })));
-    assert!(matches!(Boundary::new(nan, &[0]), Err(Error::Input { .. })));
-    assert!(matches!(Boundary::new(point, &[0]), Err(Error::Input { .. })));
-    assert!(matches!(Boundary::new(vec![flat(0.0)], &[1]), Err(Error::Index { .. })));
-    assert!(matches!(Boundary::new(vec![flat(0.0)], &[]), Err(Error::Size { .. })));
-    assert!(matches!(Boundary::new(vec![flat(0.0), flat(0.3)], &[0]), Err(Error::Input { .. })));
+    let not_finite = vec![unit_element(f64::NAN)];
+    let point = vec![Segment { from: [1.0; 2], to: [1.0; 2] }];
+    let overlapping = vec![unit_element(0.0), unit_element(0.3)];
     let slope = vec![Segment { from: [0.0, 0.0], to: [1.0, 0.1] }];
+    assert!(matches!(Boundary::new(vec![], &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(not_finite, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(point, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(vec![unit_element(0.0)], &[1]), Err(Error::Index { .. })));
+    assert!(matches!(Boundary::new(vec![unit_element(0.0)], &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(overlapping, &[0]), Err(Error::Input { .. })));
     assert!(matches!(Boundary::new(slope, &[0]), Err(Error::Input { .. })));
-    let kernel = || Box::new(TimeKernel::new(soil, &[flat(0.0)], 0.5).unwrap());
-    assert!(matches!(BoundaryMarch::new(kernel(), &[]), Err(Error::Size { .. })));
-    let mut march = BoundaryMarch::new(kernel(), &[Given::Traction; 2]).unwrap();
+    assert!(matches!(BoundaryMarch::new(unit_kernel(), &[]), Err(Error::Size { .. })));
+    let mut march = BoundaryMarch::new(unit_kernel(), &[Given::Traction; 2]).unwrap();
     assert!(matches!(march.step(&[1.0]), Err(Error::Size { .. })));
     assert!(matches!(VerticalWaves::new(soil, AtRest, f64::NAN), Err(Error::Input { .. })));
 }

@@ -18,14 +18,23 @@ fn soil() -> Soil {
     Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap()
 }
 
+fn hysteretic(ratio: f64) -> Hysteretic {
+    Hysteretic::new(ratio).unwrap()
+}
+
 /// A trench of half width and depth 1.
-fn ground(profile: impl Into<SoilProfile>, [base, wall]: [usize; 2]) -> TrenchGround {
+fn ground(profile: impl Into<SoilProfile>, base: usize, wall: usize) -> TrenchGround {
     let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(base, wall).unwrap();
     TrenchGround::new(profile, elements).unwrap()
 }
 
-fn at(ground: &TrenchGround, omega: f64) -> StripImpedance {
+fn impedance_at(ground: &TrenchGround, omega: f64) -> StripImpedance {
     ground.impedances(&[omega / TAU], &mut unobserved).unwrap()[0]
+}
+
+/// Horizontal, vertical, rocking and coupling impedance.
+fn components(impedance: &StripImpedance) -> [Complex; 4] {
+    [impedance.horizontal, impedance.vertical, impedance.rocking, impedance.coupling]
 }
 
 fn numbers(line: &str) -> Vec<f64> {
@@ -38,24 +47,31 @@ fn row(table: &str, first: &[f64]) -> Vec<f64> {
     rows.map(numbers).find(|row| row.starts_with(first)).unwrap()
 }
 
+/// Complex numbers of a table, as real and imaginary parts.
+fn complex_numbers(parts: &[f64]) -> Vec<Complex> {
+    parts.chunks(2).map(|part| Complex::new(part[0], part[1])).collect()
+}
+
 /// Relative errors of hh, vv, rr, and of hr by the mean of hh and rr.
-fn errors(found: &StripImpedance, wanted: &[f64]) -> [f64; 4] {
-    let wanted: Vec<Complex> = wanted.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
-    let found = [found.horizontal, found.vertical, found.rocking, found.coupling];
+fn errors(computed: &StripImpedance, expected: &[Complex]) -> [f64; 4] {
+    let computed = components(computed);
     std::array::from_fn(|k| {
         let size =
-            if k == 3 { (wanted[0].abs() * wanted[2].abs()).sqrt() } else { wanted[k].abs() };
-        (found[k] - wanted[k]).abs() / size
+            if k == 3 { (expected[0].abs() * expected[2].abs()).sqrt() } else { expected[k].abs() };
+        (computed[k] - expected[k]).abs() / size
     })
 }
 
+/// GOAL: impedances of a block in a half-plane agree with finite elements, at second order of the mesh.
 #[test]
 fn embedded_impedances_match_the_table_with_second_order() {
     let table = include_str!("../data/embedded/impedance_embedded_nu0333.csv");
-    let meshes = [[4, 3], [8, 6]].map(|counts| ground(soil(), counts));
+    let coarse_ground = ground(soil(), 4, 3);
+    let fine_ground = ground(soil(), 8, 6);
     for a0 in [0.5, 2.0] {
-        let row = row(table, &[1.0, a0]);
-        let [coarse, fine] = meshes.each_ref().map(|ground| errors(&at(ground, a0), &row[2..10]));
+        let expected = complex_numbers(&row(table, &[1.0, a0])[2..10]);
+        let coarse = errors(&impedance_at(&coarse_ground, a0), &expected);
+        let fine = errors(&impedance_at(&fine_ground, a0), &expected);
         println!("{a0}: {coarse:?} {fine:?}");
         assert!(fine.iter().all(|error| *error < 5e-3), "{fine:?}");
         for (coarse, fine) in coarse.iter().zip(fine) {
@@ -64,74 +80,75 @@ fn embedded_impedances_match_the_table_with_second_order() {
     }
 }
 
+/// GOAL: translation and rotation of the massless block under vertical waves agree with the table.
 #[test]
 fn kinematic_motions_match_the_table() {
     let table = include_str!("../data/embedded/kinematic_embedded_nu0333.csv");
-    let ground = ground(soil(), [8, 6]);
+    let ground = ground(soil(), 8, 6);
     for a0 in [0.5, 2.0] {
         let row = row(table, &[1.0, a0]);
-        let found = ground.kinematic_motions(&[a0 / TAU], &mut unobserved).unwrap()[0];
-        let wanted = [Complex::new(row[2], row[3]), Complex::new(row[4], row[5])];
-        let errors = [found.horizontal - wanted[0], found.rotation - wanted[1]];
+        let computed = ground.kinematic_motions(&[a0 / TAU], &mut unobserved).unwrap()[0];
+        let expected = [Complex::new(row[2], row[3]), Complex::new(row[4], row[5])];
+        let errors = [computed.horizontal - expected[0], computed.rotation - expected[1]];
         println!("{a0}: {errors:?}");
-        assert!(errors.iter().all(|error| error.abs() < 1.5e-3 * wanted[0].abs()), "{errors:?}");
+        assert!(errors.iter().all(|error| error.abs() < 1.5e-3 * expected[0].abs()), "{errors:?}");
     }
     // Walls pull the base along with the waves above it: less than cos(ωd/c_P) of the surface, with a phase.
-    let found = ground.kinematic_motions(&[1.0 / TAU], &mut unobserved).unwrap()[0];
-    assert!((found.vertical.abs() - 0.5_f64.cos()).abs() < 0.1, "{found:?}");
+    let motion = ground.kinematic_motions(&[1.0 / TAU], &mut unobserved).unwrap()[0];
+    assert!((motion.vertical.abs() - 0.5_f64.cos()).abs() < 0.1, "{motion:?}");
 }
 
+/// GOAL: impedances of a block in a layer on rock agree with the table.
 #[test]
 fn embedded_impedances_in_layers_match_the_table() {
     let table = include_str!("../data/embedded/impedance_embedded_layered.csv");
-    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
-    let ground = ground(p1(damping(0.05), damping(0.01)), [8, 6]);
+    let ground = ground(p1(hysteretic(0.05), hysteretic(0.01)), 8, 6);
     for a0 in [0.5, 2.0] {
         let lines = table.lines().filter(|line| line.starts_with("layer"));
         let row = lines.map(numbers).find(|row| row[0] == a0).unwrap();
-        let found = errors(&at(&ground, a0), &row[2..10]);
-        println!("{a0}: {found:?}");
-        assert!(found.iter().all(|error| *error < 1e-3), "{found:?}");
+        let errors = errors(&impedance_at(&ground, a0), &complex_numbers(&row[2..10]));
+        println!("{a0}: {errors:?}");
+        assert!(errors.iter().all(|error| *error < 1e-3), "{errors:?}");
     }
 }
 
-/// The same elements by wavenumber integrals; finite elements of degree 4 differ by less than a tenth of the mesh's error.
+/// GOAL: finite elements of degree 4 differ from wavenumber integrals by less than a tenth of the mesh's error.
+/// REFERENCE: the same elements on the surface.
 #[test]
 fn a_trench_without_depth_is_a_strip_on_the_surface() {
-    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
-    let profiles = [p1(damping(0.05), damping(0.01)), p3(damping(0.05)), soil().into()];
-    for profile in profiles {
+    let layer_on_rock = p1(hysteretic(0.05), hysteretic(0.01));
+    for profile in [layer_on_rock, p3(hysteretic(0.05)), soil().into()] {
         let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(8, 0).unwrap();
-        let found = at(&TrenchGround::new(profile.clone(), elements).unwrap(), 1.5);
+        let trench = TrenchGround::new(profile.clone(), elements).unwrap();
         let strip = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
         let bonded = StripContact::Bonded;
-        let wanted = strip.impedances(&[1.5 / TAU], bonded, &mut unobserved).unwrap()[0];
-        let all = [wanted.horizontal, wanted.vertical, wanted.rocking, wanted.coupling];
-        let wanted: Vec<f64> = all.iter().flat_map(|k| [k.re, k.im]).collect();
-        let errors = errors(&found, &wanted);
+        let expected = strip.impedances(&[1.5 / TAU], bonded, &mut unobserved).unwrap()[0];
+        let errors = errors(&impedance_at(&trench, 1.5), &components(&expected));
         println!("{errors:?}");
         assert!(errors.iter().all(|error| *error < 1e-3), "{errors:?}");
     }
 }
 
-/// 32 elements, gathered at both ends, against a spectral method.
+/// GOAL: 32 elements, shorter towards both ends, agree with a spectral method.
 #[test]
 fn a_trench_without_depth_matches_the_table_of_a_strip() {
     let table = include_str!("../data/strip_bonded_nu0333_xi00.csv");
     let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(32, 0).unwrap();
     let ground = TrenchGround::new(soil(), elements).unwrap();
     for a0 in [0.5, 2.0] {
-        let found = errors(&at(&ground, a0), &row(table, &[a0])[1..9]);
-        println!("{a0}: {found:?}");
-        assert!(found.iter().all(|error| *error < 2e-3), "{found:?}");
+        let expected = complex_numbers(&row(table, &[a0])[1..9]);
+        let errors = errors(&impedance_at(&ground, a0), &expected);
+        println!("{a0}: {errors:?}");
+        assert!(errors.iter().all(|error| *error < 2e-3), "{errors:?}");
     }
 }
 
+/// GOAL: rigid bedrock gives a static stiffness, and the body moves with it at frequency zero.
 #[test]
 fn a_rigid_base_holds_the_body_at_rest() {
-    let ground = ground(p3(Elastic), [4, 3]);
-    let still = at(&ground, 0.0);
-    let slow = at(&ground, 0.1);
+    let ground = ground(p3(Elastic), 4, 3);
+    let still = impedance_at(&ground, 0.0);
+    let slow = impedance_at(&ground, 0.1);
     for (still, slow) in [(still.horizontal, slow.horizontal), (still.rocking, slow.rocking)] {
         assert_eq!(still.im, 0.0);
         assert!((slow.re / still.re - 1.0).abs() < 0.01 && slow.im.abs() < 1e-6 * still.re);
@@ -144,23 +161,25 @@ fn a_rigid_base_holds_the_body_at_rest() {
     assert!((motion.vertical.re - 1.0).abs() < 1e-9);
 }
 
-/// Backfill of a quarter of the soil's modulus, half as wide as the half width of the trench.
+/// GOAL: soft backfill reduces the rocking stiffness; backfill of the soil itself changes nothing.
+/// SCENE: a quarter of the soil's modulus, half as wide as the half width of the trench.
 #[test]
 fn backfill_softens_the_walls() {
     let soft = Soil::new(0.25, 1.0 / 3.0, 1.0).unwrap();
-    let filled =
-        ground(soil(), [8, 6]).with_backfill(0.5, soft, Hysteretic::new(0.05).unwrap()).unwrap();
-    let found = at(&filled, 0.5).rocking;
-    // Of 40 elements: 3.65 + 0.88i; without backfill 5.25 + 1.61i.
-    assert!((found - Complex::new(3.65, 0.88)).abs() < 0.03, "{found:?}");
-    let found = filled.kinematic_motions(&[0.1], &mut unobserved);
-    assert!(matches!(found, Err(Error::Scene { quantity: "backfill", .. })), "{found:?}");
+    let filled = ground(soil(), 8, 6).with_backfill(0.5, soft, hysteretic(0.05)).unwrap();
+    let rocking = impedance_at(&filled, 0.5).rocking;
+    // With 40 elements: 3.65 + 0.88i; without backfill 5.25 + 1.61i.
+    assert!((rocking - Complex::new(3.65, 0.88)).abs() < 0.03, "{rocking:?}");
+    let refused = filled.kinematic_motions(&[0.1], &mut unobserved);
+    assert!(matches!(refused, Err(Error::Scene { quantity: "backfill", .. })), "{refused:?}");
     // Backfill of the soil itself changes the mesh and nothing else.
-    let same = ground(soil(), [4, 3]).with_backfill(0.5, soil(), Elastic).unwrap();
-    let [with, without] = [at(&same, 0.5), at(&ground(soil(), [4, 3]), 0.5)];
-    assert!((with.rocking - without.rocking).abs() < 1e-4 * without.rocking.abs());
+    let filled_with_soil = ground(soil(), 4, 3).with_backfill(0.5, soil(), Elastic).unwrap();
+    let filled = impedance_at(&filled_with_soil, 0.5).rocking;
+    let unfilled = impedance_at(&ground(soil(), 4, 3), 0.5).rocking;
+    assert!((filled - unfilled).abs() < 1e-4 * unfilled.abs());
 }
 
+/// GOAL: trenches and frequencies out of range give typed errors.
 #[test]
 fn bad_trenches_and_frequencies_are_errors() {
     for (sides, depth) in
@@ -175,13 +194,13 @@ fn bad_trenches_and_frequencies_are_errors() {
     assert!(matches!(trench.elements(usize::MAX - 1, usize::MAX), Err(Error::Memory(_))));
     let deep = Trench::new(-1.0..1.0, 2.0).unwrap().elements(4, 3).unwrap();
     assert!(matches!(TrenchGround::new(p3(Elastic), deep), Err(Error::Input { value: 2.0, .. })));
-    let ground = ground(soil(), [4, 3]);
+    let half_plane = ground(soil(), 4, 3);
     for frequency in [0.0, -1.0, f64::NAN, 10.0] {
-        let found = ground.impedances(&[frequency], &mut unobserved);
-        assert!(matches!(found, Err(Error::Input { .. })), "{frequency}: {found:?}");
+        let refused = half_plane.impedances(&[frequency], &mut unobserved);
+        assert!(matches!(refused, Err(Error::Input { .. })), "{frequency}: {refused:?}");
     }
     // At the cut-off frequency of an undamped layer on rigid bedrock.
-    let layer = self::ground(p3(Elastic), [4, 3]);
-    let found = layer.impedances(&[0.25 * 0.5], &mut unobserved);
-    assert!(matches!(found, Err(Error::Ground(GroundError::GuidedWave { .. }))), "{found:?}");
+    let layer = ground(p3(Elastic), 4, 3);
+    let refused = layer.impedances(&[0.25 * 0.5], &mut unobserved);
+    assert!(matches!(refused, Err(Error::Ground(GroundError::GuidedWave { .. }))), "{refused:?}");
 }

@@ -1,5 +1,5 @@
 //! GOAL: the direct history is the convolution sum, however its memory grows.
-//! SCENE: uniform, graded and double strips, random tractions, runs longer than what was reserved.
+//! SCENE: uniform, graded and double strips, random tractions, runs longer than the reserved memory.
 //! REFERENCE: a plain double loop over the influence coefficients.
 
 use std::sync::Arc;
@@ -25,7 +25,8 @@ fn plain_sum(
         for (p, receiver) in elements.iter().enumerate() {
             for (q, source) in elements.iter().enumerate() {
                 let influence = kernel.coefficients(*receiver, *source, lag).unwrap();
-                let (pressure, shear) = (traction[q], traction[count + q]);
+                let pressure = traction[q];
+                let shear = traction[count + q];
                 displacement[p] += influence.zz * pressure + influence.zx * shear;
                 displacement[count + p] += influence.xx * shear - influence.zx * pressure;
             }
@@ -34,8 +35,8 @@ fn plain_sum(
     displacement
 }
 
-/// Largest difference between both, relative to the largest displacement; noise goes into `out`.
-fn difference(strips: &[Strip], poisson: f64, reserve: usize, steps: usize) -> f64 {
+/// Largest difference of direct history and plain sum, relative to the largest displacement.
+fn relative_difference(strips: &[Strip], poisson: f64, reserve: usize, steps: usize) -> f64 {
     let soil = Soil::new(8e7, poisson, 2000.0).unwrap();
     let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
     let time_step = 1.5e-3;
@@ -45,76 +46,82 @@ fn difference(strips: &[Strip], poisson: f64, reserve: usize, steps: usize) -> f
     history.prepare(reserve, &mut unobserved).unwrap();
     let size = 2 * elements.len();
     let mut random = Random(3);
-    let mut out = vec![0.0; size];
+    let mut displacement = vec![0.0; size];
     let mut tractions: Vec<Vec<f64>> = Vec::new();
-    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    let mut largest_difference = 0.0_f64;
+    let mut largest = 0.0_f64;
     for step in 0..steps {
         assert_eq!(history.steps(), step);
-        // Evaluating changes nothing, and what was in the slice does not matter.
+        // An evaluation changes no state, and overwrites the noise in the slice.
         for _ in 0..2 {
-            out.fill_with(|| random.within(-1e9, 1e9));
-            history.evaluate(&mut out).unwrap();
+            displacement.fill_with(|| random.within(-1e9, 1e9));
+            history.evaluate(&mut displacement).unwrap();
         }
         if step % 7 == 0 || step + 3 > steps {
-            let wanted = plain_sum(&kernel, &elements, &tractions);
-            for (a, b) in out.iter().zip(&wanted) {
-                worst = worst.max((a - b).abs());
-                largest = largest.max(b.abs());
+            let expected = plain_sum(&kernel, &elements, &tractions);
+            for (computed, expected) in displacement.iter().zip(&expected) {
+                largest_difference = largest_difference.max((computed - expected).abs());
+                largest = largest.max(expected.abs());
             }
         }
         let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
         history.push(&traction);
         tractions.push(traction);
     }
-    worst / largest
+    largest_difference / largest
 }
 
+/// GOAL: the direct history is the plain sum, whatever the strips and Poisson's ratio.
 #[test]
 fn direct_history_is_the_plain_sum() {
     let uniform = [Strip::uniform(-2.0..2.0, 6).unwrap()];
     let graded = [Strip::new(-2.0..2.0, 5, Grading::Cosine).unwrap()];
-    let two =
+    let two_strips =
         [Strip::uniform(-4.0..-1.0, 3).unwrap(), Strip::new(0.5..2.0, 3, Grading::Cosine).unwrap()];
-    for (name, strips) in [("uniform", &uniform[..]), ("graded", &graded), ("two strips", &two)] {
+    for (name, strips) in
+        [("uniform", &uniform[..]), ("graded", &graded), ("two strips", &two_strips)]
+    {
         for poisson in [0.0, 1.0 / 3.0, 0.49] {
-            let found = difference(strips, poisson, 100, 100);
-            println!("{name}, ν = {poisson}: {found:e}");
-            assert!(found < 1e-13, "{name}, ν = {poisson}: {found:e}");
+            let difference = relative_difference(strips, poisson, 100, 100);
+            println!("{name}, ν = {poisson}: {difference:e}");
+            assert!(difference < 1e-13, "{name}, ν = {poisson}: {difference:e}");
         }
     }
 }
 
-/// 64 lags are the least that is kept: 150 steps grow twice, and reach the series for late times.
+/// GOAL: the memory grows beyond the reserved steps.
+/// SCENE: at least 64 lags are stored: 150 steps grow twice, and reach the series for late times.
 #[test]
 fn memory_grows_beyond_what_was_reserved() {
     let strips = [Strip::uniform(-1.0..1.0, 3).unwrap(), Strip::uniform(2.0..3.0, 1).unwrap()];
     for reserve in [0, 10, 63, 149] {
-        let found = difference(&strips, 0.25, reserve, 150);
-        println!("{reserve} steps reserved: {found:e}");
-        assert!(found < 1e-13, "{reserve} steps reserved: {found:e}");
+        let difference = relative_difference(&strips, 0.25, reserve, 150);
+        println!("{reserve} steps reserved: {difference:e}");
+        assert!(difference < 1e-13, "{reserve} steps reserved: {difference:e}");
     }
 }
 
-/// Growing must not move a bit: the same sums in the same order.
+/// History after 200 steps of a ground prepared for `expected_steps`.
+fn history_of_random_run(expected_steps: Option<usize>) -> Vec<f64> {
+    let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
+    let ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
+    let mut ground = ground.with_history(HistoryMethod::RelaxedFft).unwrap();
+    ground.prepare(2e-3, expected_steps, &mut unobserved).unwrap();
+    let mut random = Random(5);
+    let mut history = vec![f64::NAN; 8];
+    for _ in 0..200 {
+        ground.history(&mut history).unwrap();
+        let traction: Vec<f64> = (0..8).map(|_| random.within(-1.0, 1.0)).collect();
+        ground.commit(&traction);
+    }
+    history
+}
+
+/// GOAL: growth of the memory changes no bit: the same sums in the same order.
 #[test]
 fn ground_does_not_depend_on_the_hint() {
-    let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
-    let run = |hint: Option<usize>| {
-        let ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
-        let ground = ground.with_history(HistoryMethod::RelaxedFft);
-        let mut ground = ground.unwrap();
-        ground.prepare(2e-3, hint, &mut unobserved).unwrap();
-        let mut random = Random(5);
-        let mut out = vec![f64::NAN; 8];
-        for _ in 0..200 {
-            ground.history(&mut out).unwrap();
-            let traction: Vec<f64> = (0..8).map(|_| random.within(-1.0, 1.0)).collect();
-            ground.commit(&traction);
-        }
-        out
-    };
-    let wanted = run(Some(200));
-    assert!(wanted.iter().all(|x| x.is_finite()));
-    assert_eq!(run(None), wanted);
-    assert_eq!(run(Some(90)), wanted);
+    let expected = history_of_random_run(Some(200));
+    assert!(expected.iter().all(|x| x.is_finite()));
+    assert_eq!(history_of_random_run(None), expected);
+    assert_eq!(history_of_random_run(Some(90)), expected);
 }

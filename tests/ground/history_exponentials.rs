@@ -9,8 +9,9 @@ use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, HistoryMethod,
     HistoryOptions,
 };
-use basemat::{Error, MemoryError, Soil, unobserved};
+use basemat::{Error, MemoryError, Result, Soil, unobserved};
 
+use basemat_problems::dense::dot;
 use basemat_problems::heavy;
 use basemat_problems::passivity::Scene;
 use basemat_problems::random::Random;
@@ -34,58 +35,73 @@ fn two_strips() -> Vec<ContactElement> {
 }
 
 /// Results of a march in parallel with the direct sum.
-struct March {
+struct ComparedMarch {
     /// Largest difference over the largest displacement.
     difference: f64,
-    /// Largest change of a difference over a step, over what was promised.
+    /// Largest change of a difference over a step, over its bound.
     increment: f64,
-    /// Difference of the works done, over what was promised, and what was promised over the work.
-    work: [f64; 2],
+    /// Difference of the works done, over its bound.
+    work_difference: f64,
+    /// Bound on the difference of the works, over the work.
+    relative_work_bound: f64,
 }
 
-fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> March {
+fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> ComparedMarch {
     let mut history = ExponentialHistory::new(Arc::clone(kernel), tolerance).unwrap();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
-    let steps = 4 * history.fit().window + 200;
-    let count = kernel.classes().elements().len();
-    let size = 2 * count;
-    let mut instantaneous = vec![0.0; size * size];
-    kernel.step_compliance(&mut instantaneous).unwrap();
+    let elements = kernel.classes().elements();
+    let size = 2 * elements.len();
+    let mut step_compliance = vec![0.0; size * size];
+    kernel.step_compliance(&mut step_compliance).unwrap();
     let mut random = Random(7);
-    let [mut a, mut b, mut traction, mut before, mut last] = [(); 5].map(|()| vec![0.0; size]);
-    let (mut worst, mut largest, mut increment) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut apart, mut bound, mut work) = (0.0, 0.0, 0.0);
-    for _ in 0..steps {
-        a.fill(f64::NAN);
-        history.evaluate(&mut a).unwrap();
-        direct.evaluate(&mut b).unwrap();
-        let promised = history.increment_error_bound();
+    let mut computed = vec![0.0; size];
+    let mut expected = vec![0.0; size];
+    let mut traction = vec![0.0; size];
+    let mut difference = vec![0.0; size];
+    let mut displacement = vec![0.0; size];
+    let mut largest_difference = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut increment = 0.0_f64;
+    let mut work_difference = 0.0;
+    let mut work_bound = 0.0;
+    let mut work = 0.0;
+    for _ in 0..4 * history.fit().window + 200 {
+        computed.fill(f64::NAN);
+        history.evaluate(&mut computed).unwrap();
+        direct.evaluate(&mut expected).unwrap();
+        let bound = history.increment_error_bound();
         for i in 0..size {
-            let change = a[i] - b[i] - before[i];
-            before[i] = a[i] - b[i];
-            worst = worst.max(before[i].abs());
-            largest = largest.max(b[i].abs());
+            let change = computed[i] - expected[i] - difference[i];
+            difference[i] = computed[i] - expected[i];
+            largest_difference = largest_difference.max(difference[i].abs());
+            largest = largest.max(expected[i].abs());
             if change.abs() > 1e-13 * largest {
-                increment = increment.max(change.abs() / promised);
+                increment = increment.max(change.abs() / bound);
             }
             traction[i] = 0.9 * traction[i] + random.within(-1.0, 1.0);
-            let length = kernel.classes().elements()[i % count].length();
-            apart += length * traction[i] * change;
-            bound += length * traction[i].abs() * promised;
+            let length = elements[i % elements.len()].length();
+            work_difference += length * traction[i] * change;
+            work_bound += length * traction[i].abs() * bound;
         }
         for i in 0..size {
-            let row = &instantaneous[i * size..(i + 1) * size];
-            let now = b[i] + row.iter().zip(&traction).map(|(g, t)| g * t).sum::<f64>();
-            work += kernel.classes().elements()[i % count].length() * traction[i] * (now - last[i]);
-            last[i] = now;
+            let end = expected[i] + dot(&step_compliance[i * size..(i + 1) * size], &traction);
+            let length = elements[i % elements.len()].length();
+            work += length * traction[i] * (end - displacement[i]);
+            displacement[i] = end;
         }
         history.push(&traction);
         direct.push(&traction);
         assert_eq!(history.steps(), direct.steps());
     }
-    March { difference: worst / largest, increment, work: [apart.abs() / bound, bound / work] }
+    ComparedMarch {
+        difference: largest_difference / largest,
+        increment,
+        work_difference: work_difference.abs() / work_bound,
+        relative_work_bound: work_bound / work,
+    }
 }
 
+/// GOAL: differences of displacements, of their increments and of work stay within tolerance and bounds.
 #[test]
 fn stays_within_its_tolerance_of_the_direct_sum() {
     for (name, elements) in [
@@ -100,23 +116,40 @@ fn stays_within_its_tolerance_of_the_direct_sum() {
         {
             let kernel = kernel(poisson, beta, elements.clone());
             for tolerance in [1e-4, 1e-10] {
-                let March { difference, increment, work } = march(&kernel, tolerance);
+                let march = march(&kernel, tolerance);
+                let difference = march.difference;
                 println!(
-                    "{name}, ν = {poisson}, β = {beta}, {tolerance:e}: {difference:.1e}, \
-                     {increment:.1e} {work:?}"
+                    "{name}, ν = {poisson}, β = {beta}, {tolerance:e}: {difference:.1e}, {:.1e} \
+                     [{}, {}]",
+                    march.increment, march.work_difference, march.relative_work_bound
                 );
                 assert!(difference <= tolerance, "{name}: {difference:e} for {tolerance:e}");
-                assert!(increment <= 1.0, "{name}: {increment} times what was promised");
-                assert!(work[0] <= 1.0, "{name}: {} times the work promised", work[0]);
-                assert!(work[1] < 300.0 * tolerance, "{name}: promises nothing, {}", work[1]);
+                assert!(march.increment <= 1.0, "{name}: {} times the bound", march.increment);
+                let work_difference = march.work_difference;
+                assert!(work_difference <= 1.0, "{name}: {work_difference} times the work's bound");
+                let work_bound = march.relative_work_bound;
+                assert!(
+                    work_bound < 300.0 * tolerance,
+                    "{name}: the bound is useless: {work_bound}"
+                );
             }
-            // Coarse exponentials must show: otherwise they were not looked at.
-            assert!(march(&kernel, 1e-3).difference > 1e-9, "{name}: only the window was seen");
+            // Coarse exponentials must differ: otherwise only the window of exact lags was compared.
+            assert!(march(&kernel, 1e-3).difference > 1e-9, "{name}: only the window was compared");
         }
     }
 }
 
-/// The answer to a pulse is the coefficients themselves, lag by lag.
+/// Coefficients zz and xx of a pair of elements at a lag.
+fn pair_coefficients(kernel: &dyn ConvolutionWeights, pair: usize, lag: usize) -> [f64; 2] {
+    let pair = kernel.classes().pairs()[pair];
+    let mut weights = [[0.0]; 3];
+    kernel
+        .coefficients(pair.class, lag, &mut weights.each_mut().map(|list| &mut list[..]))
+        .unwrap();
+    [pair.scale * weights[0][0], pair.scale * weights[1][0]]
+}
+
+/// GOAL: the response to a pulse is the coefficients themselves, lag by lag, up to the horizon.
 #[test]
 fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it() {
     let kernel = kernel(1.0 / 3.0, 0.5, strip(2, Grading::Uniform));
@@ -126,45 +159,41 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
             ExponentialHistory::with_horizon(Arc::clone(&kernel), tolerance, horizon).unwrap();
         let bound = history.fit().error_bound;
         assert!(bound <= tolerance && bound > 0.0);
-        let mut out = [0.0; 4];
-        let mut beyond = 0.0_f64;
+        let mut displacement = [0.0; 4];
+        let mut error_beyond = 0.0_f64;
         history.push(&[1.0, 0.0, 0.0, 1.0]);
         for lag in 2..=100_000_usize {
             if lag > 40 && lag % (1 + lag / 40) == 0 || lag == history.fit().window + 1 {
-                history.evaluate(&mut out).unwrap();
-                let pairs = kernel.classes().pairs();
-                let of = |pair: usize| {
-                    let [mut zz, mut xx, mut zx] = [[0.0]; 3];
-                    let class = pairs[pair].class;
-                    kernel.coefficients(class, lag, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
-                    [pairs[pair].scale * zz[0], pairs[pair].scale * xx[0]]
-                };
-                let (near, far) = (of(0), of(1));
-                for (found, wanted, largest) in [
-                    (out[0], near[0], near[0]),
-                    (out[1], far[0], near[0]),
-                    (out[2], far[1], near[1]),
-                    (out[3], near[1], near[1]),
+                history.evaluate(&mut displacement).unwrap();
+                let near = pair_coefficients(kernel.as_ref(), 0, lag);
+                let far = pair_coefficients(kernel.as_ref(), 1, lag);
+                for (computed, expected, largest) in [
+                    (displacement[0], near[0], near[0]),
+                    (displacement[1], far[0], near[0]),
+                    (displacement[2], far[1], near[1]),
+                    (displacement[3], near[1], near[1]),
                 ] {
-                    let error = (found - wanted).abs() / largest;
+                    let error = (computed - expected).abs() / largest;
                     if lag <= horizon {
                         assert!(error <= 1.3 * bound, "lag {lag}: {error:e}, bound {bound:e}");
                     } else {
-                        beyond = beyond.max(error / (lag as f64 / horizon as f64));
+                        error_beyond = error_beyond.max(error / (lag as f64 / horizon as f64));
                     }
                 }
             }
             history.push(&[]);
         }
-        println!("beyond: {beyond:e} times lag over horizon");
-        assert!(beyond <= 2.0 * tolerance, "{beyond:e}");
+        println!("beyond: {error_beyond:e} times lag over horizon");
+        assert!(error_beyond <= 2.0 * tolerance, "{error_beyond:e}");
     }
 }
 
+/// GOAL: random tractions never extract energy, and tractions of random displacements do not grow.
 #[test]
 fn random_tractions_never_extract_energy() {
     let steps = if heavy() { 8000 } else { 2000 };
-    let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
+    let mut smallest_work = f64::INFINITY;
+    let mut largest_growth = 0.0_f64;
     for beta in [0.25, 0.5, 2.0, 50.0] {
         for poisson in [-0.5, 0.0, 1.0 / 3.0, 0.4999] {
             for (graded, tolerance) in [(false, 1e-3), (true, 1e-10)] {
@@ -178,69 +207,75 @@ fn random_tractions_never_extract_energy() {
                     history: HistoryMethod::Exponentials,
                     tolerance,
                 };
-                let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
+                let work = scene.least_work();
+                let growth = scene.growth_of_tractions();
                 assert!(work >= 0.0, "{scene:?}: {work:e}");
                 assert!(growth < 2.0, "{scene:?}: {growth}");
-                (least, largest) = (least.min(work), largest.max(growth));
+                smallest_work = smallest_work.min(work);
+                largest_growth = largest_growth.max(growth);
             }
         }
     }
-    println!("least work {least:e}, largest growth {largest}");
+    println!("smallest work {smallest_work:e}, largest growth {largest_growth}");
 }
 
+/// GOAL: the margin of passivity is positive, and a property of the kernel.
 #[test]
 fn margins_are_positive_and_do_not_depend_on_the_tolerance() {
     for (poisson, beta) in [(1.0 / 3.0, 0.5), (0.0, 0.1), (0.49, 5.0)] {
         let kernel = kernel(poisson, beta, strip(5, Grading::Cosine));
-        let margin = |tolerance| {
+        let [coarse, fine] = [1e-5, 1e-11].map(|tolerance| {
             let history = ExponentialHistory::new(Arc::clone(&kernel), tolerance).unwrap();
             history.fit().passivity_margin
-        };
-        let (coarse, fine) = (margin(1e-5), margin(1e-11));
+        });
         println!("ν = {poisson}, β = {beta}: {coarse:.6} {fine:.6}");
         assert!(fine > 1e-3, "{fine}");
         assert!((coarse / fine - 1.0).abs() < 1e-2, "{coarse} {fine}");
     }
 }
 
+/// GOAL: the memory of the exponentials does not depend on the number of steps.
 #[test]
 fn memory_does_not_grow() {
     let kernel = kernel(1.0 / 3.0, 0.5, strip(10, Grading::Uniform));
     let mut history = ExponentialHistory::new(kernel, 1e-9).unwrap();
-    let held = history.memory();
+    let initial_memory = history.memory();
     history.prepare(usize::MAX, &mut unobserved).unwrap();
     for step in 0..3_000 {
         history.push(&[f64::from(step % 7); 20]);
     }
-    assert_eq!(history.memory(), held);
-    assert!(held < 1_000_000, "{held} bytes");
+    assert_eq!(history.memory(), initial_memory);
+    assert!(initial_memory < 1_000_000, "{initial_memory} bytes");
     assert!(history.save().unwrap().len() < 10_000);
 }
 
+/// Ground of unit modulus and density under a strip of length 2.
+fn unit_ground(strip: Strip) -> ElasticGround {
+    ElasticGround::new(Soil::new(1.0, 0.3, 1.0).unwrap(), strip).unwrap()
+}
+
+/// GOAL: tolerances, time steps and memory out of range give typed errors.
 #[test]
 fn bad_input_is_an_error() {
     let kernel = kernel(0.3, 0.5, strip(2, Grading::Uniform));
     for tolerance in [0.0, -1.0, 1e-13, 0.1, f64::NAN, f64::INFINITY] {
-        let found = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
-        assert!(matches!(found, Some(Error::Input { .. })), "{tolerance}: {found:?}");
+        let refused = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
+        assert!(matches!(refused, Some(Error::Input { .. })), "{tolerance}: {refused:?}");
     }
-    let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
-    let ground = || ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
-    let options = HistoryOptions::default();
-    assert!(
-        ground().with_history(HistoryOptions { tolerance: Some(f64::NAN), ..options }).is_err()
-    );
+    let uniform = Strip::uniform(-1.0..1.0, 2).unwrap();
+    let no_tolerance = HistoryOptions { tolerance: Some(f64::NAN), ..HistoryOptions::default() };
+    assert!(unit_ground(uniform.clone()).with_history(no_tolerance).is_err());
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
-    let mut short = ground().with_history(HistoryMethod::Exponentials).unwrap();
-    assert!(matches!(short.prepare(1e-7, None, &mut unobserved), Err(Error::Input { .. })));
-    // So is what takes more memory than allowed, before any of it is taken.
+    let mut ground = unit_ground(uniform).with_history(HistoryMethod::Exponentials).unwrap();
+    assert!(matches!(ground.prepare(1e-7, None, &mut unobserved), Err(Error::Input { .. })));
+    // More memory than allowed is refused before any of it is allocated.
     let begin = std::time::Instant::now();
-    for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
-        let asked = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 24).unwrap()).unwrap();
-        let mut own = HistoryOptions::from(HistoryMethod::Exponentials);
-        own.memory = memory.unwrap_or(own.memory);
-        let mut asked = asked.with_history(own).unwrap();
-        let refused = asked.prepare(step, None, &mut unobserved).unwrap_err();
+    for (time_step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
+        let mut options = HistoryOptions::from(HistoryMethod::Exponentials);
+        options.memory = memory.unwrap_or(options.memory);
+        let ground = unit_ground(Strip::graded(-1.0..1.0, 24).unwrap());
+        let mut ground = ground.with_history(options).unwrap();
+        let refused = ground.prepare(time_step, None, &mut unobserved).unwrap_err();
         let Error::Memory(MemoryError { needed, limit, .. }) = refused else { panic!("{refused}") };
         assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
     }
@@ -250,24 +285,35 @@ fn bad_input_is_an_error() {
     assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));
 }
 
-/// One rule: exponentials on the half-plane, unless they begin late or take more memory than is allowed.
+/// Ground of the choices: six elements on a soil in SI units.
+fn six_element_ground() -> ElasticGround {
+    let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
+    ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap()
+}
+
+/// The method that the ground chooses, and its error bound.
+fn choose(
+    tolerance: Option<f64>,
+    memory: Option<usize>,
+    steps: Option<usize>,
+    time_step: f64,
+) -> Result<(HistoryMethod, f64)> {
+    let mut options = HistoryOptions { tolerance, ..HistoryOptions::default() };
+    options.memory = memory.unwrap_or(options.memory);
+    let mut ground = six_element_ground().with_history(options).unwrap();
+    assert_eq!(ground.description().history, None);
+    ground.prepare(time_step, steps, &mut unobserved)?;
+    let choice = ground.description().history.unwrap();
+    println!("{choice}");
+    assert_eq!(choice.to_string().contains("no known end"), steps.is_none());
+    Ok((choice.kind, choice.error_bound))
+}
+
+/// GOAL: exponentials are chosen on the half-plane, unless they begin late or need more memory than allowed.
 #[test]
 fn the_choice_is_made_and_explained() {
     use HistoryMethod::{Exponentials, RelaxedFft};
 
-    let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
-    let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
-        let ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
-        let mut options = HistoryOptions { tolerance, ..HistoryOptions::default() };
-        options.memory = memory.unwrap_or(options.memory);
-        let mut ground = ground.with_history(options).unwrap();
-        assert_eq!(ground.description().history, None);
-        ground.prepare(dt, steps, &mut unobserved)?;
-        let choice = ground.description().history.unwrap();
-        println!("{choice}");
-        assert_eq!(choice.to_string().contains("no known end"), steps.is_none());
-        Ok::<_, Error>((choice.kind, choice.error_bound))
-    };
     for (tolerance, steps) in [
         (None, Some(40)),
         (None, Some(20_000)),
@@ -279,7 +325,7 @@ fn the_choice_is_made_and_explained() {
         assert_eq!(kind, Exponentials);
         assert!(0.0 < bound && bound <= tolerance.unwrap_or(1e-12), "{bound:e}");
     }
-    // They begin after more lags than a run is expected to have, or take more memory.
+    // They begin after more lags than the run is expected to have, or need more memory.
     assert_eq!(choose(None, None, Some(500), 1e-6), Ok((RelaxedFft, 0.0)));
     assert_eq!(choose(None, Some(35_000), Some(60), 1e-3), Ok((RelaxedFft, 0.0)));
     for memory in [35_000, 1_000] {
@@ -289,12 +335,9 @@ fn the_choice_is_made_and_explained() {
         };
         assert!(asked == 1_500.0 && limit == memory as f64 && needed > limit);
     }
-    let mut asked = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap())
-        .unwrap()
-        .with_history(Exponentials)
-        .unwrap();
-    asked.prepare(1e-3, None, &mut unobserved).unwrap();
-    let choice = asked.description().history.unwrap();
+    let mut ground = six_element_ground().with_history(Exponentials).unwrap();
+    ground.prepare(1e-3, None, &mut unobserved).unwrap();
+    let choice = ground.description().history.unwrap();
     assert_eq!(choice.kind, Exponentials);
     assert!(choice.error_bound > 0.0 && choice.error_bound <= 1e-10);
 }

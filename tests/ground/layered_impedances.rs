@@ -3,22 +3,25 @@
 //! REFERENCE: tables of other programs, statics and the cut-off frequency of a layer.
 
 use basemat::bem::GroundError;
-use basemat::bem::layered::StripContact;
+use basemat::bem::layered::{StripContact, StripImpedance};
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
-use basemat::{Complex, Error, Soil, unobserved};
+use basemat::{Complex, Error, Result, Soil, unobserved};
 
 use basemat_problems::profiles::{p1, p3};
 
+fn hysteretic(ratio: f64) -> Hysteretic {
+    Hysteretic::new(ratio).unwrap()
+}
+
 /// Bonded hh, vv, rr, hr and relaxed hh, vv, rr.
-fn all(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {
+fn impedance_components(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {
     let strip = Strip::new(-1.0..1.0, count, Grading::Cosine).unwrap();
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();
-    let at = |contact| {
-        let frequency = omega / std::f64::consts::TAU;
-        ground.impedances(&[frequency], contact, &mut unobserved).unwrap()[0]
-    };
-    let (bonded, relaxed) = (at(StripContact::Bonded), at(StripContact::Relaxed));
+    let frequencies = [omega / std::f64::consts::TAU];
+    let bonded = ground.impedances(&frequencies, StripContact::Bonded, &mut unobserved).unwrap()[0];
+    let relaxed =
+        ground.impedances(&frequencies, StripContact::Relaxed, &mut unobserved).unwrap()[0];
     [
         bonded.horizontal,
         bonded.vertical,
@@ -30,120 +33,127 @@ fn all(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {
     ]
 }
 
+/// Numbers of the lines that begin with a digit.
 fn rows(table: &str) -> Vec<Vec<f64>> {
-    let numeric = |line: &&str| line.starts_with(|c: char| c.is_ascii_digit());
-    let parse = |line: &str| line.split(',').map(|x| x.parse().unwrap()).collect();
-    table.lines().filter(numeric).map(parse).collect()
+    table
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
+        .collect()
 }
 
-/// Largest errors with 16, 32 and 64 elements, and after extrapolation from the last two; relative
-/// to hh, vv, rr of the row (hr: of their mean).
-fn errors(
+/// Largest errors with 16, 32 and 64 elements, and after extrapolation from the last two.
+///
+/// Relative to hh, vv, rr of the row (hr: to hh). `expected` gives components of a row.
+fn largest_errors(
     profile: &SoilProfile,
     rows: &[Vec<f64>],
-    wanted: impl Fn(&[f64]) -> Vec<(usize, Complex)>,
+    expected: impl Fn(&[f64]) -> Vec<(usize, Complex)>,
 ) -> [f64; 4] {
-    let mut worst = [0.0_f64; 4];
+    let mut largest = [0.0_f64; 4];
     for row in rows {
-        let meshes = [16, 32, 64].map(|count| all(profile, count, row[0]));
-        for (component, wanted) in wanted(row) {
-            let size = if component == 3 { meshes[2][0].abs() } else { wanted.abs() };
-            for (worst, mesh) in worst.iter_mut().zip(&meshes) {
-                *worst = worst.max((mesh[component] - wanted).abs() / size);
+        let meshes = [16, 32, 64].map(|count| impedance_components(profile, count, row[0]));
+        for (component, expected) in expected(row) {
+            let size = if component == 3 { meshes[2][0].abs() } else { expected.abs() };
+            for (largest, mesh) in largest.iter_mut().zip(&meshes) {
+                *largest = largest.max((mesh[component] - expected).abs() / size);
             }
-            let [_, b, c] = meshes.map(|mesh| mesh[component]);
-            let extrapolated = c * (4.0 / 3.0) - b * (1.0 / 3.0);
-            worst[3] = worst[3].max((extrapolated - wanted).abs() / size);
+            let extrapolated =
+                meshes[2][component] * (4.0 / 3.0) - meshes[1][component] * (1.0 / 3.0);
+            largest[3] = largest[3].max((extrapolated - expected).abs() / size);
         }
     }
-    worst
+    largest
 }
 
-fn assert_second_order(name: &str, worst: [f64; 4], least: f64) {
-    println!("{name}: 16, 32, 64 elements, extrapolated: {worst:?}");
-    for pair in worst[..3].windows(2) {
+fn assert_second_order(name: &str, errors: [f64; 4], extrapolated_limit: f64) {
+    println!("{name}: 16, 32, 64 elements, extrapolated: {errors:?}");
+    for pair in errors[..3].windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((order - 2.0).abs() < 0.25, "{name}: order {order}");
     }
-    assert!(worst[0] < 1.2e-2, "{name}: {worst:?}");
-    assert!(worst[3] < least, "{name}: {worst:?}");
+    assert!(errors[0] < 1.2e-2, "{name}: {errors:?}");
+    assert!(errors[3] < extrapolated_limit, "{name}: {errors:?}");
 }
 
-/// Layered tables (y down as here, cosine meshes extrapolated, good to about 1e-3 by their own account).
+/// GOAL: strips on layers agree with the tables of another program.
+/// REFERENCE: y down as here, cosine meshes extrapolated, stated to be good to about 1e-3.
 #[test]
 fn layered_strips_match_the_tables() {
-    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
     for (name, profile, table) in [
         (
             "layer on rock",
-            p1(damping(0.05), damping(0.01)),
+            p1(hysteretic(0.05), hysteretic(0.01)),
             include_str!("../data/layered/impedance_P1_layer_on_rock.csv"),
         ),
         (
             "layer on rigid base",
-            p3(damping(0.05)),
+            p3(hysteretic(0.05)),
             include_str!("../data/layered/impedance_P3_layer_on_rigid_base.csv"),
         ),
     ] {
         let rows: Vec<_> = rows(table).into_iter().step_by(3).collect();
         assert!(rows.len() > 4);
-        let worst = errors(&profile, &rows, |row| {
+        let errors = largest_errors(&profile, &rows, |row| {
             let columns = [(0, 1), (1, 3), (2, 5), (3, 7), (5, 9), (6, 11)];
             columns.map(|(c, i)| (c, Complex::new(row[i], row[i + 1]))).to_vec()
         });
-        assert_second_order(name, worst, 4e-4);
+        assert_second_order(name, errors, 4e-4);
     }
 }
 
-/// A damped half-plane (spectral solution, 1e-9): mesh error of second order and nothing else.
+/// GOAL: on a damped half-plane the only error is the mesh's, of second order.
+/// REFERENCE: a spectral solution, good to 1e-9.
 #[test]
 fn half_plane_strips_match_the_tables() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
-    let profile = SoilProfile::on_half_plane(soil).with_damping(Hysteretic::new(0.05).unwrap());
+    let profile = SoilProfile::on_half_plane(soil).with_damping(hysteretic(0.05));
     let table = include_str!("../data/layered/strip_bonded_nu025_xi05.csv");
     let rows: Vec<_> = rows(table).into_iter().filter(|row| (0.4..8.1).contains(&row[0])).collect();
     let rows: Vec<_> = rows.iter().step_by(rows.len().div_ceil(8)).cloned().collect();
     assert!(rows.len() >= 4);
-    let worst = errors(&profile, &rows, |row| {
+    let errors = largest_errors(&profile, &rows, |row| {
         (0..4).map(|c| (c, Complex::new(row[1 + 2 * c], row[2 + 2 * c]))).collect()
     });
-    assert_second_order("half-plane", worst, 1e-4);
+    assert_second_order("half-plane", errors, 1e-4);
 }
 
-/// Static stiffness of a layer on a rigid base.
+/// GOAL: static stiffness of a layer on a rigid base.
 #[test]
 fn static_strips_match_the_table() {
     let table = include_str!("../data/layered/ref_static_layer_on_rigid_base.csv");
-    let mut worst = 0.0_f64;
-    let mut before = [0.0_f64; 2];
+    let mut extrapolated_error = 0.0_f64;
+    let mut mesh_errors = [0.0_f64; 2];
     for row in rows(table) {
         let soil = Soil::new(1.0, row[0], 1.0).unwrap();
         let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, row[1]).unwrap();
         // As the table was made: 12 and 24 elements, extrapolated.
-        let [a, b] = [12, 24].map(|count| all(&profile, count, 0.0));
+        let meshes = [12, 24].map(|count| impedance_components(&profile, count, 0.0));
         for (component, column) in [(0, 2), (1, 3), (2, 4), (3, 5), (5, 6), (6, 7)] {
-            let found = (4.0 * b[component].re - a[component].re) / 3.0;
-            let size = if component == 3 { row[2] } else { row[column] };
-            worst = worst.max((found - row[column]).abs() / size);
-            for (before, mesh) in before.iter_mut().zip([a, b]) {
-                *before = before.max((mesh[component].re - row[column]).abs() / size);
+            let expected = row[column];
+            let extrapolated = (4.0 * meshes[1][component].re - meshes[0][component].re) / 3.0;
+            let size = if component == 3 { row[2] } else { expected };
+            extrapolated_error = extrapolated_error.max((extrapolated - expected).abs() / size);
+            for (error, mesh) in mesh_errors.iter_mut().zip(meshes) {
+                *error = error.max((mesh[component].re - expected).abs() / size);
             }
         }
     }
-    println!("static: {worst:e}; 12 and 24 elements {before:?}");
-    assert!(worst < 1e-7, "{worst:e}");
+    println!("static: {extrapolated_error:e}; 12 and 24 elements {mesh_errors:?}");
+    assert!(extrapolated_error < 1e-7, "{extrapolated_error:e}");
 }
 
-/// Below the first frequency of the layer nothing radiates: Im K = 2ξ K static.
+/// GOAL: below the first frequency of the layer nothing radiates: Im K = 2ξ K static.
 #[test]
 fn rigid_base_has_a_cut_off_frequency() {
-    let profile = p3(Hysteretic::new(0.05).unwrap());
-    let [still, slow] = [0.0, 0.2].map(|omega| all(&profile, 32, omega)[0]);
+    let profile = p3(hysteretic(0.05));
+    let still = impedance_components(&profile, 32, 0.0)[0];
+    let slow = impedance_components(&profile, 32, 0.2)[0];
+    let fast = impedance_components(&profile, 32, 2.0)[0];
     println!("{:.6} and {:.6}", slow.im, 0.1 * still.re);
     assert!((slow.im / (0.1 * still.re) - 1.0).abs() < 1e-3);
     assert!((slow.im - 0.24722).abs() < 3e-4);
-    // Above the cut-off it does: a0 = π/4 for this layer.
-    let fast = all(&profile, 32, 2.0)[0];
+    // Above the cut-off, a0 = π/4 for this layer, waves radiate.
     assert!(fast.im > 3.0 * slow.im, "{fast:?}");
 }
 
@@ -160,53 +170,63 @@ fn undamped_ground_is_extrapolated() {
         let rows = rows(table).into_iter();
         let rows: Vec<_> = rows.filter(|row| (0.04..8.1).contains(&row[0])).step_by(12).collect();
         assert!(rows.len() > 6);
-        let worst = errors(&SoilProfile::on_half_plane(soil), &rows, |row| {
-            let value = |c: usize| Complex::new(row[1 + 2 * c], row[2 + 2 * c]);
-            let components: &[usize] = if bonded { &[0, 1, 2, 3] } else { &[4, 5, 6] };
-            components.iter().map(|c| (*c, value(c % 4))).collect()
+        let errors = largest_errors(&SoilProfile::on_half_plane(soil), &rows, |row| {
+            let components = if bonded { 0..4 } else { 4..7 };
+            components
+                .map(|c| {
+                    let column = 1 + 2 * (c % 4);
+                    (c, Complex::new(row[column], row[column + 1]))
+                })
+                .collect()
         });
-        assert_second_order(if bonded { "bonded" } else { "relaxed" }, worst, 2e-4);
+        assert_second_order(if bonded { "bonded" } else { "relaxed" }, errors, 2e-4);
     }
-    let loss = || Hysteretic::new(1e-3).unwrap();
+    let slightly_damped_layer = p1(hysteretic(1e-3), hysteretic(1e-3));
     for (undamped, damped) in
-        [(p1(Elastic, Elastic), p1(loss(), loss())), (p3(Elastic), p3(loss()))]
+        [(p1(Elastic, Elastic), slightly_damped_layer), (p3(Elastic), p3(hysteretic(1e-3)))]
     {
         for omega in [0.3, 0.6, 1.1, 2.1] {
-            let [found, wanted] = [&undamped, &damped].map(|profile| all(profile, 8, omega));
+            let computed = impedance_components(&undamped, 8, omega);
+            let expected = impedance_components(&damped, 8, omega);
             for k in [0, 1, 2] {
-                let error = (found[k] - wanted[k]).abs() / wanted[k].abs();
+                let error = (computed[k] - expected[k]).abs() / expected[k].abs();
                 assert!(error < 0.02, "{omega} {k}: {error:e}");
             }
         }
     }
-    // A ground takes its own profile, a half-plane too.
-    let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
-    let own = ground.impedances(&[0.1, 0.2], StripContact::Bonded, &mut unobserved).unwrap();
-    let omega = 0.2 * std::f64::consts::TAU;
-    let same = all(&SoilProfile::on_half_plane(soil), 8, omega);
-    assert_eq!((own[1].horizontal, own[1].frequency), (same[0], 0.2));
-    assert_eq!(own[1].stiffnesses()[2], same[2].re);
-    assert!((own[1].dashpots()[1] - same[1].im / omega).abs() < 1e-12);
 }
 
+/// GOAL: a ground on a soil is a ground on its half-plane profile; stiffness and dashpot are parts of the impedance.
+#[test]
+fn impedances_of_a_soil_are_those_of_its_profile() {
+    let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
+    let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
+    let contact = StripContact::Bonded;
+    let impedance = ground.impedances(&[0.1, 0.2], contact, &mut unobserved).unwrap()[1];
+    let omega = 0.2 * std::f64::consts::TAU;
+    let expected = impedance_components(&SoilProfile::on_half_plane(soil), 8, omega);
+    assert_eq!((impedance.horizontal, impedance.frequency), (expected[0], 0.2));
+    assert_eq!(impedance.stiffnesses()[2], expected[2].re);
+    assert!((impedance.dashpots()[1] - expected[1].im / omega).abs() < 1e-12);
+}
+
+/// Impedances of four elements at one frequency (Hz).
+fn impedances_at(profile: SoilProfile, frequency: f64) -> Result<Vec<StripImpedance>> {
+    let ground = ElasticGround::new(profile, Strip::uniform(-1.0..1.0, 4).unwrap())?;
+    ground.impedances(&[frequency], StripContact::Bonded, &mut unobserved)
+}
+
+/// GOAL: frequencies out of range, resonances and profiles without soil are refused.
 #[test]
 fn bad_frequencies_and_resonances_are_refused() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
-    let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
-    let at = |profile: &SoilProfile, frequency: f64| {
-        ElasticGround::new(profile.clone(), &strip)?.impedances(
-            &[frequency],
-            StripContact::Bonded,
-            &mut unobserved,
-        )
-    };
-    // An undamped layer 2 m thick begins to guide waves at 1/8 Hz.
+    // An undamped layer 2 m thick guides waves from 1/8 Hz.
     let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
-    let found = at(&layer, 0.125);
-    assert!(matches!(found, Err(Error::Ground(GroundError::Unresolved { .. }))), "{found:?}");
+    let refused = impedances_at(layer, 0.125);
+    assert!(matches!(refused, Err(Error::Ground(GroundError::Unresolved { .. }))), "{refused:?}");
     for frequency in [-1.0, f64::NAN, f64::INFINITY, 0.0] {
-        let found = at(&SoilProfile::on_half_plane(soil), frequency);
-        assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");
+        let refused = impedances_at(SoilProfile::on_half_plane(soil), frequency);
+        assert!(matches!(refused, Err(Error::Input { .. })), "{refused:?}");
     }
-    assert!(at(&SoilProfile::on_rigid_bedrock(), 1.0).is_err());
+    assert!(impedances_at(SoilProfile::on_rigid_bedrock(), 1.0).is_err());
 }

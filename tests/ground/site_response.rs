@@ -1,32 +1,35 @@
-//! GOAL: vertically travelling waves reach the surface as they should, and go back.
+//! GOAL: vertical waves move the surface correctly, and deconvolution recovers them.
 //! SCENE: damped and elastic layers on rock and on a rigid base.
 //! REFERENCE: a table of another program, sums of reflections, the motion itself.
 
 use basemat::motion::{Record, el_centro_1940};
-use basemat::site::{ControlPoint, SiteWarning, SoilColumn, VerticalWave};
+use basemat::site::{ControlPoint, SiteMotion, SiteWarning, SoilColumn, VerticalWave};
 use basemat::soil::SoilError;
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, Soil, unobserved};
 
 use basemat_problems::profiles::p1;
 
-/// `amplification_1d.csv`: surface over outcrop, hysteretic damping.
+/// GOAL: the surface over the outcrop of a hysteretic layer on rock.
+/// REFERENCE: `amplification_1d.csv` by another program.
 #[test]
 fn amplification_matches_the_table() {
-    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
-    let column = SoilColumn::new(p1(damping(0.05), damping(0.01)), VerticalWave::Shear).unwrap();
+    let layer_on_rock = p1(Hysteretic::new(0.05).unwrap(), Hysteretic::new(0.01).unwrap());
+    let column = SoilColumn::new(layer_on_rock, VerticalWave::Shear).unwrap();
     let table = include_str!("../data/layered/amplification_1d.csv");
-    let (mut worst, mut rows) = (0.0_f64, 0);
+    let mut largest_error = 0.0_f64;
+    let mut rows = 0;
     for line in table.lines().filter(|line| line.starts_with("P1")) {
-        let n: Vec<f64> = line.split(',').skip(1).map(|x| x.parse().unwrap()).collect();
-        let found = column.transfer(ControlPoint::Outcrop, n[0] / std::f64::consts::TAU).unwrap();
-        let wanted = Complex::new(n[1], n[2]);
-        worst = worst.max((found - wanted).abs() / wanted.abs());
+        let fields: Vec<f64> = line.split(',').skip(1).map(|x| x.parse().unwrap()).collect();
+        let frequency = fields[0] / std::f64::consts::TAU;
+        let computed = column.transfer(ControlPoint::Outcrop, frequency).unwrap();
+        let expected = Complex::new(fields[1], fields[2]);
+        largest_error = largest_error.max((computed - expected).abs() / expected.abs());
         rows += 1;
     }
-    println!("{rows} frequencies: {worst:e}");
+    println!("{rows} frequencies: {largest_error:e}");
     assert_eq!(rows, 160);
-    assert!(worst < 1e-10, "{worst:e}");
+    assert!(largest_error < 1e-10, "{largest_error:e}");
 }
 
 fn ricker(t: f64) -> f64 {
@@ -34,68 +37,108 @@ fn ricker(t: f64) -> f64 {
     (1.0 - 2.0 * a) * (-a).exp()
 }
 
-/// One elastic layer on rock: the pulse arrives h/c late and then comes back −r times after each 2h/c.
+/// Time between samples of the pulses, s.
+const TIME_STEP: f64 = 0.01;
+
+/// 15 s of the Ricker pulse.
+fn ricker_samples() -> Vec<f64> {
+    (0..1500).map(|i| ricker(TIME_STEP * f64::from(i))).collect()
+}
+
+/// Motion of the surface of an elastic layer by its reflections.
+struct ReflectedPulse {
+    /// Impedance of the layer over the rock's.
+    impedance_ratio: f64,
+    /// Travel time through the layer.
+    travel: f64,
+}
+
+impl ReflectedPulse {
+    fn at_surface(&self, t: f64) -> f64 {
+        let r = (1.0 - self.impedance_ratio) / (1.0 + self.impedance_ratio);
+        (0..400_i32)
+            .map(|m| (-r).powi(m) * ricker(t - f64::from(2 * m + 1) * self.travel))
+            .sum::<f64>()
+            * 2.0
+            / (1.0 + self.impedance_ratio)
+    }
+
+    fn at_bottom(&self, t: f64) -> f64 {
+        0.5 * (self.at_surface(t - self.travel) + self.at_surface(t + self.travel))
+    }
+}
+
+/// GOAL: a pulse through one elastic layer on rock, up to the surface and down again.
+/// REFERENCE: it arrives after h/c, then returns −r times as large after each 2h/c.
 #[test]
 fn reflections_in_an_elastic_layer() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let rock = Soil::from_shear_wave_speed(600.0, 0.25, 2200.0).unwrap();
     let height = 35.0;
     let profile = SoilProfile::on_half_plane(rock).with_layer(layer, height).unwrap();
-    let (dt, count) = (0.01, 1500);
-    let motion: Vec<f64> = (0..count).map(|i| ricker(dt * i as f64)).collect();
+    let motion = ricker_samples();
     for (wave, speeds) in [
         (VerticalWave::Shear, [layer.shear_wave_speed(), rock.shear_wave_speed()]),
         (VerticalWave::Pressure, [layer.pressure_wave_speed(), rock.pressure_wave_speed()]),
     ] {
         let column = SoilColumn::new(profile.clone(), wave).unwrap();
-        let surface =
-            column.to_surface(ControlPoint::Outcrop, dt, &motion, &mut unobserved).unwrap().samples;
-        let within = column
-            .from_surface(ControlPoint::Within, dt, &surface, &mut unobserved)
+        let surface = column
+            .to_surface(ControlPoint::Outcrop, TIME_STEP, &motion, &mut unobserved)
             .unwrap()
             .samples;
-        let ratio = layer.density() * speeds[0] / (rock.density() * speeds[1]);
-        let (r, travel) = ((1.0 - ratio) / (1.0 + ratio), height / speeds[0]);
-        let wanted = |t: f64| -> f64 {
-            (0..400_i32)
-                .map(|m| (-r).powi(m) * ricker(t - f64::from(2 * m + 1) * travel))
-                .sum::<f64>()
-                * 2.0
-                / (1.0 + ratio)
+        let within = column
+            .from_surface(ControlPoint::Within, TIME_STEP, &surface, &mut unobserved)
+            .unwrap()
+            .samples;
+        let expected = ReflectedPulse {
+            impedance_ratio: layer.density() * speeds[0] / (rock.density() * speeds[1]),
+            travel: height / speeds[0],
         };
-        let mut worst = [0.0_f64; 2];
-        for i in 0..count {
-            let t = dt * i as f64;
-            worst[0] = worst[0].max((surface[i] - wanted(t)).abs());
-            let below = 0.5 * (wanted(t - travel) + wanted(t + travel));
-            worst[1] = worst[1].max((within[i] - below).abs());
+        let mut surface_error = 0.0_f64;
+        let mut within_error = 0.0_f64;
+        for i in 0..motion.len() {
+            let t = TIME_STEP * i as f64;
+            surface_error = surface_error.max((surface[i] - expected.at_surface(t)).abs());
+            within_error = within_error.max((within[i] - expected.at_bottom(t)).abs());
         }
-        println!("{wave:?}: surface {:e}, within {:e}", worst[0], worst[1]);
-        assert!(worst[0] < 1e-9 && worst[1] < 1e-9, "{wave:?} {worst:?}");
+        println!("{wave:?}: surface {surface_error:e}, within {within_error:e}");
+        assert!(surface_error < 1e-9, "{wave:?} {surface_error:e}");
+        assert!(within_error < 1e-9, "{wave:?} {within_error:e}");
     }
 }
 
-/// An elastic layer on a rigid base never comes to rest: nothing of it may wrap around.
+/// GOAL: an elastic layer on a rigid base never comes to rest, and no part of its motion wraps around.
 #[test]
 fn reflections_on_a_rigid_base_never_end() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(layer, 35.0).unwrap();
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
-    let (dt, count, travel) = (0.01, 1500, 35.0 / 200.0);
-    let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
-    let surface =
-        column.to_surface(ControlPoint::Outcrop, dt, &motion, &mut unobserved).unwrap().samples;
-    let mut worst = 0.0_f64;
+    let travel = 35.0 / 200.0;
+    let motion = ricker_samples();
+    let surface = column
+        .to_surface(ControlPoint::Outcrop, TIME_STEP, &motion, &mut unobserved)
+        .unwrap()
+        .samples;
+    let mut largest_error = 0.0_f64;
     for (i, surface) in surface.iter().enumerate() {
-        let late = |m: i32| ricker(dt * i as f64 - f64::from(2 * m + 1) * travel);
-        let wanted: f64 = (0..60).map(|m| 2.0 * (-1.0_f64).powi(m) * late(m)).sum();
-        worst = worst.max((surface - wanted).abs());
+        let expected: f64 = (0..60)
+            .map(|m| {
+                let delayed = ricker(TIME_STEP * i as f64 - f64::from(2 * m + 1) * travel);
+                2.0 * (-1.0_f64).powi(m) * delayed
+            })
+            .sum();
+        largest_error = largest_error.max((surface - expected).abs());
     }
-    println!("{worst:e}");
-    assert!(worst < 1e-7, "{worst:e}");
+    println!("{largest_error:e}");
+    assert!(largest_error < 1e-7, "{largest_error:e}");
 }
 
-/// There and back again, through damped layers, with a record that ends at rest.
+/// Largest difference of two motions.
+fn largest_difference(one: &[f64], two: &[f64]) -> f64 {
+    one.iter().zip(two).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
+}
+
+/// GOAL: deconvolution recovers a motion that passed damped layers and ends at rest.
 #[test]
 fn deconvolution_undoes_convolution() {
     let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
@@ -117,21 +160,16 @@ fn deconvolution_undoes_convolution() {
                 let surface = column.to_surface(control, 0.005, &motion, &mut unobserved).unwrap();
                 let back =
                     column.from_surface(control, 0.005, &surface.samples, &mut unobserved).unwrap();
-                let worst = motion
-                    .iter()
-                    .zip(&back.samples)
-                    .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-                let change = motion
-                    .iter()
-                    .zip(&surface.samples)
-                    .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-                println!("{wave:?} {control:?}: {worst:e}");
-                assert!(worst < 1e-8 && change > 0.05, "{wave:?} {control:?} {worst:e} {change}");
+                let error = largest_difference(&motion, &back.samples);
+                let change = largest_difference(&motion, &surface.samples);
+                println!("{wave:?} {control:?}: {error:e}");
+                assert!(error < 1e-8 && change > 0.05, "{wave:?} {control:?} {error:e} {change}");
             }
         }
     }
 }
 
+/// GOAL: motions, frequencies and profiles without an answer are refused.
 #[test]
 fn bad_motions_are_refused() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
@@ -155,43 +193,48 @@ fn bad_motions_are_refused() {
     assert!(SoilColumn::new(SoilProfile::on_rigid_bedrock(), VerticalWave::Shear).is_err());
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
     let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
-    let found = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
-    assert!(matches!(found, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))));
-    assert!(found.unwrap_err().to_string().contains("GeneralizedMaxwell"));
+    let refused = column.to_surface(control, 0.1, &[1.0], &mut unobserved);
+    assert!(matches!(refused, Err(Error::Soil(SoilError::NotCausal { layer: 1, .. }))));
+    assert!(refused.unwrap_err().to_string().contains("GeneralizedMaxwell"));
 }
 
-/// El Centro taken down through 100 m of soft, damped soil: noise at the highest frequencies, which a low-pass removes.
-/// Firm soil deconvolves without a warning.
+/// One damped layer on rock.
+fn damped_layer(speed: f64, thickness: f64, damping_ratio: f64) -> SoilColumn {
+    let rock = Soil::from_shear_wave_speed(760.0, 0.25, 2200.0).unwrap();
+    let soil = Soil::from_shear_wave_speed(speed, 0.4, 1700.0).unwrap();
+    let law = GeneralizedMaxwell::constant_q(damping_ratio, [0.2, 30.0], 1.0).unwrap();
+    let profile = SoilProfile::on_half_plane(rock).with_layer(soil, thickness).unwrap();
+    SoilColumn::new(profile.with_damping(law), VerticalWave::Shear).unwrap()
+}
+
+/// Outcrop motion of a record of the surface.
+fn deconvolved(column: &SoilColumn, record: &Record) -> SiteMotion {
+    let samples = record.accelerations();
+    column
+        .from_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)
+        .unwrap()
+}
+
+/// GOAL: deconvolution warns of the frequency above which it amplifies noise; a low-pass filter or firm soil avoids it.
+/// SCENE: El Centro at the surface of 100 m of soft, damped soil.
 #[test]
 fn deconvolution_warns_of_what_it_amplifies() {
-    let rock = Soil::from_shear_wave_speed(760.0, 0.25, 2200.0).unwrap();
-    let column = |speed: f64, depth: f64, ratio: f64| {
-        let soil = Soil::from_shear_wave_speed(speed, 0.4, 1700.0).unwrap();
-        let law = GeneralizedMaxwell::constant_q(ratio, [0.2, 30.0], 1.0).unwrap();
-        let profile = SoilProfile::on_half_plane(rock).with_layer(soil, depth).unwrap();
-        SoilColumn::new(profile.with_damping(law), VerticalWave::Shear).unwrap()
-    };
     let record = el_centro_1940().padded(10.0, 40.0).unwrap();
-    let down = |column: &SoilColumn, record: &Record| {
-        let samples = record.accelerations();
-        column
-            .from_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)
-            .unwrap()
-    };
-    let soft = column(100.0, 100.0, 0.15);
-    let found = down(&soft, &record);
-    assert!(found.peak() > 1e5);
-    let Some(SiteWarning::Amplified { frequency }) = found.warning() else { panic!("{found}") };
-    // There the way down amplifies a hundredfold, and above it more.
-    let gain = |frequency| soft.transfer(ControlPoint::Outcrop, frequency).unwrap().abs().recip();
-    assert!((gain(frequency) / 100.0 - 1.0).abs() < 0.05, "{frequency} {}", gain(frequency));
-    assert!(gain(2.0 * frequency) > 1e3 && gain(0.8 * frequency) < 100.0);
-    let filtered = record.low_pass(0.5 * frequency, 8).unwrap();
-    let calm = down(&soft, &filtered);
-    assert_eq!(calm.warning(), None);
-    assert!(calm.peak() < 1e-3 * found.peak(), "{calm}");
-    let firm = column(300.0, 30.0, 0.05);
-    assert_eq!(down(&firm, &record).warning(), None);
+    let soft = damped_layer(100.0, 100.0, 0.15);
+    let noisy = deconvolved(&soft, &record);
+    assert!(noisy.peak() > 1e5);
+    let Some(SiteWarning::Amplified { frequency }) = noisy.warning() else { panic!("{noisy}") };
+    // At this frequency deconvolution amplifies a hundredfold, and above it more.
+    let [below, gain, above] = [0.8, 1.0, 2.0].map(|ratio| {
+        soft.transfer(ControlPoint::Outcrop, ratio * frequency).unwrap().abs().recip()
+    });
+    assert!((gain / 100.0 - 1.0).abs() < 0.05, "{frequency} {gain}");
+    assert!(above > 1e3 && below < 100.0);
+    let filtered = deconvolved(&soft, &record.low_pass(0.5 * frequency, 8).unwrap());
+    assert_eq!(filtered.warning(), None);
+    assert!(filtered.peak() < 1e-3 * noisy.peak(), "{filtered}");
+    let firm = damped_layer(300.0, 30.0, 0.05);
+    assert_eq!(deconvolved(&firm, &record).warning(), None);
     let samples = record.accelerations();
     let up = soft
         .to_surface(ControlPoint::Outcrop, record.time_step(), samples, &mut unobserved)

@@ -1,25 +1,26 @@
-//! GOAL: waves at the faces of a trench are those of the profile, at every depth of every layer.
+//! GOAL: motions at the faces of a trench are those of the profile, at every depth of every layer.
 //! SCENE: trenches that end in, at or below layers; vertical, inclined and Rayleigh waves, with and without damping.
 //! REFERENCE: the half-plane, for layers of its soil; waves up and down in time, and transfer functions, through layers.
 
 use std::f64::consts::{PI, TAU};
 
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
-use basemat::motion::{FreeField, PlaneWave, Record, TravellingWave, VerticalIncidence};
+use basemat::motion::{FreeField, PlaneWave, Record, VerticalIncidence};
 use basemat::site::TrenchMotion;
 use basemat::soil::{Elastic, GeneralizedMaxwell, Relaxation, SoilProfile};
 use basemat::{Complex, Soil, unobserved};
 
-const DEPTH: f64 = 5.0;
-const WALL: usize = 6;
-/// Number of elements of the base.
-const BASE: usize = 2;
-/// Rate of the pulse, 1/s, and its middle, s.
-const RATE: f64 = 25.0;
-const MIDDLE: f64 = 1.0;
+/// Depth of the trench, m.
+const TRENCH_DEPTH: f64 = 5.0;
+const WALL_ELEMENTS: usize = 6;
+const BASE_ELEMENTS: usize = 2;
+/// Inverse of the pulse's width, 1/s.
+const PULSE_RATE: f64 = 25.0;
+/// Middle of the pulse, s.
+const PULSE_TIME: f64 = 1.0;
 
 fn elements() -> TrenchElements {
-    Trench::new(-4.0..6.0, DEPTH).unwrap().elements(BASE, WALL).unwrap()
+    Trench::new(-4.0..6.0, TRENCH_DEPTH).unwrap().elements(BASE_ELEMENTS, WALL_ELEMENTS).unwrap()
 }
 
 fn soil(speed: f64, poisson: f64, density: f64) -> Soil {
@@ -28,25 +29,45 @@ fn soil(speed: f64, poisson: f64, density: f64) -> Soil {
 
 /// (1 − 2x²) exp(−x²), the displacement of the surface.
 fn pulse(time: f64) -> f64 {
-    let square = (RATE * (time - MIDDLE)).powi(2);
+    let square = (PULSE_RATE * (time - PULSE_TIME)).powi(2);
     (1.0 - 2.0 * square) * (-square).exp()
 }
 
+/// Second derivative of the pulse.
+fn pulse_acceleration(time: f64) -> f64 {
+    let square = (PULSE_RATE * (time - PULSE_TIME)).powi(2);
+    PULSE_RATE * PULSE_RATE * (-6.0 + square * (24.0 - 8.0 * square)) * (-square).exp()
+}
+
 fn record(step: f64) -> Record {
-    let second = |time: f64| {
-        let square = (RATE * (time - MIDDLE)).powi(2);
-        RATE * RATE * (-6.0 + square * (24.0 - 8.0 * square)) * (-square).exp()
-    };
-    Record::from_fn(step, 2.0, second).unwrap()
+    Record::from_fn(step, 2.0, pulse_acceleration).unwrap()
 }
 
 /// Displacements and impulses at all elements, normal components first.
 fn at_faces(motion: &TrenchMotion, time: f64) -> [Vec<f64>; 2] {
     let elements = elements().elements();
-    let mut found = [vec![0.0; 2 * elements.len()], vec![0.0; 2 * elements.len()]];
-    let [moved, impulse] = &mut found;
-    assert!(motion.at_faces(&elements, time, moved, impulse));
-    found
+    let mut displacement = vec![0.0; 2 * elements.len()];
+    let mut impulse = vec![0.0; 2 * elements.len()];
+    assert!(motion.at_faces(&elements, time, &mut displacement, &mut impulse));
+    [displacement, impulse]
+}
+
+/// Largest differences of two quantities, relative to their largest expected values.
+#[derive(Default)]
+struct RelativeErrors {
+    differences: [f64; 2],
+    largest: [f64; 2],
+}
+
+impl RelativeErrors {
+    fn add(&mut self, k: usize, computed: f64, expected: f64) {
+        self.differences[k] = self.differences[k].max((computed - expected).abs());
+        self.largest[k] = self.largest[k].max(expected.abs());
+    }
+
+    fn values(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.differences[k] / self.largest[k])
+    }
 }
 
 fn layered<L: Relaxation + Clone + 'static>(
@@ -61,158 +82,182 @@ fn layered<L: Relaxation + Clone + 'static>(
     TrenchGround::new(profile, elements()).unwrap()
 }
 
-fn same_soil_changes_nothing<L: Relaxation + Clone + 'static>(damping: &L) {
-    let soil = soil(200.0, 0.3, 1900.0);
+/// Motions by vertical, SV, P and Rayleigh waves.
+fn motions_by_all_waves(soil: Soil, ground: &TrenchGround) -> Vec<TrenchMotion> {
     let record = record(0.005);
     let sv = PlaneWave::sv(soil, 0.4).unwrap().field_from_horizontal(&record, -4.0).unwrap();
     let p = PlaneWave::p(soil, -0.7).unwrap().field_from_horizontal(&record, 6.0).unwrap();
-    let surface = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -4.0).unwrap();
-    let both = VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(record) };
-    let travelling = |ground: &TrenchGround, wave: &TravellingWave| {
-        TrenchMotion::travelling(ground, wave, &mut unobserved).unwrap()
-    };
-    let motions = |layers: &[f64]| -> Vec<TrenchMotion> {
-        let ground = layered(soil, damping, layers);
-        let vertical = TrenchMotion::new(&ground, both.clone(), &mut unobserved).unwrap();
-        let waves = [&sv, &p, &surface].map(|wave| travelling(&ground, wave));
-        std::iter::once(vertical).chain(waves).collect()
-    };
-    let wanted = motions(&[]);
+    let rayleigh = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -4.0).unwrap();
+    let vertical = VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(record) };
+    let mut motions = vec![TrenchMotion::new(ground, vertical, &mut unobserved).unwrap()];
+    for wave in [sv, p, rayleigh] {
+        motions.push(TrenchMotion::travelling(ground, &wave, &mut unobserved).unwrap());
+    }
+    motions
+}
+
+/// Compares layers of one soil with its half-plane.
+fn check_layers_of_one_soil<L: Relaxation + Clone + 'static>(damping: &L) {
+    let soil = soil(200.0, 0.3, 1900.0);
+    let expected_motions = motions_by_all_waves(soil, &layered(soil, damping, &[]));
     let thicknesses: [&[f64]; 5] =
-        [&[0.5], &[DEPTH], &[2.0 * DEPTH], &[0.7, 0.4, 2.1, 1.8, 3.0], &[0.3; 18]];
+        [&[0.5], &[TRENCH_DEPTH], &[2.0 * TRENCH_DEPTH], &[0.7, 0.4, 2.1, 1.8, 3.0], &[0.3; 18]];
     for layers in thicknesses {
-        for (kind, (found, wanted)) in motions(layers).iter().zip(&wanted).enumerate() {
-            let [mut apart, mut largest] = [[0.0_f64; 2]; 2];
+        let motions = motions_by_all_waves(soil, &layered(soil, damping, layers));
+        for (wave, (motion, expected_motion)) in motions.iter().zip(&expected_motions).enumerate() {
+            let mut errors = RelativeErrors::default();
             for step in 0..25 {
                 let time = 0.85 + 0.013 * f64::from(step);
-                let pairs = at_faces(found, time).into_iter().zip(at_faces(wanted, time));
-                for (k, (found, wanted)) in pairs.enumerate() {
-                    for (found, wanted) in found.iter().zip(&wanted) {
-                        apart[k] = apart[k].max((found - wanted).abs());
-                        largest[k] = largest[k].max(wanted.abs());
+                let computed = at_faces(motion, time);
+                let expected = at_faces(expected_motion, time);
+                for k in 0..2 {
+                    for (computed, expected) in computed[k].iter().zip(&expected[k]) {
+                        errors.add(k, *computed, *expected);
                     }
                 }
             }
-            for k in 0..2 {
-                let error = apart[k] / largest[k];
-                assert!(error < 1e-10, "layers {layers:?}, wave {kind}, number {k}: {error:e}");
+            for (k, error) in errors.values().into_iter().enumerate() {
+                assert!(error < 1e-10, "layers {layers:?}, wave {wave}, number {k}: {error:e}");
             }
         }
     }
 }
 
+/// GOAL: interfaces within one elastic soil change nothing.
 #[test]
 fn a_layer_of_the_same_soil_changes_nothing() {
-    same_soil_changes_nothing(&Elastic);
+    check_layers_of_one_soil(&Elastic);
 }
 
+/// GOAL: interfaces within one damped soil change nothing.
 #[test]
 fn a_layer_of_the_same_damped_soil_changes_nothing() {
-    same_soil_changes_nothing(&GeneralizedMaxwell::constant_q(0.04, [0.1, 40.0], 1.0).unwrap());
+    check_layers_of_one_soil(&GeneralizedMaxwell::constant_q(0.04, [0.1, 40.0], 1.0).unwrap());
 }
 
-struct Layer {
+/// A layer of the profile that damped and undamped waves pass.
+struct ProfileLayer {
     soil: Soil,
     thickness: f64,
 }
 
-fn layers() -> [Layer; 3] {
+/// Two layers and the rock.
+fn layers() -> [ProfileLayer; 3] {
     [
-        Layer { soil: soil(120.0, 0.35, 1600.0), thickness: 1.3 },
-        Layer { soil: soil(260.0, 0.25, 2000.0), thickness: 2.6 },
-        Layer { soil: soil(500.0, 0.3, 2200.0), thickness: f64::INFINITY },
+        ProfileLayer { soil: soil(120.0, 0.35, 1600.0), thickness: 1.3 },
+        ProfileLayer { soil: soil(260.0, 0.25, 2000.0), thickness: 2.6 },
+        ProfileLayer { soil: soil(500.0, 0.3, 2200.0), thickness: f64::INFINITY },
     ]
 }
 
 /// The layer at a depth, and the depth below its top.
 fn layer_at(depth: f64) -> (usize, f64) {
-    let mut below = depth;
+    let mut below_top = depth;
     for (k, layer) in layers().iter().enumerate() {
-        if below <= layer.thickness {
-            return (k, below);
+        if below_top <= layer.thickness {
+            return (k, below_top);
         }
-        below -= layer.thickness;
+        below_top -= layer.thickness;
     }
     unreachable!("the last layer has no end")
 }
 
-/// Mean over each level of a pair of functions of depth, and the pair at the base.
-fn levels(at: impl Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
-    // The stress on a vertical plane jumps where the soil changes.
-    const POINTS: usize = 2000;
-    let ends = |e: usize| {
-        let own = elements().elements()[e];
-        let [middle, half] = [-own.center()[2], 0.5 * own.length()];
-        [middle - half, middle + half]
-    };
-    let mut found = vec![];
-    for e in 0..WALL {
-        let [top, bottom] = ends(e);
-        let mut sum = [0.0; 3];
-        for k in 0..POINTS {
-            let depth = top + (bottom - top) * (k as f64 + 0.5) / POINTS as f64;
-            for (sum, value) in sum.iter_mut().zip(at(depth)) {
-                *sum += value / POINTS as f64;
-            }
-        }
-        found.push(sum);
-    }
-    found.push(at(DEPTH));
-    found
+/// What a wave does at a depth.
+#[derive(Clone, Copy, Default)]
+struct WaveAtDepth {
+    /// To the right or up.
+    displacement: f64,
+    /// Impulse of the stress on a horizontal plane.
+    impulse: f64,
+    /// Impulse of the stress on a vertical plane.
+    lateral_impulse: f64,
 }
 
-/// Largest error of motion and impulses over their largest values, at the levels of the left wall and the base.
+/// Points of the mean over an element: the stress on a vertical plane jumps where the soil changes.
+const POINTS_PER_ELEMENT: usize = 2000;
+
+/// Means over each element of the left wall, and the values at the base.
+fn means_over_elements(at: impl Fn(f64) -> WaveAtDepth) -> Vec<WaveAtDepth> {
+    let mut means = vec![];
+    for element in &elements().elements()[..WALL_ELEMENTS] {
+        let middle = -element.center()[2];
+        let half_length = 0.5 * element.length();
+        let top = middle - half_length;
+        let bottom = middle + half_length;
+        let mut mean = WaveAtDepth::default();
+        for k in 0..POINTS_PER_ELEMENT {
+            let depth = top + (bottom - top) * (k as f64 + 0.5) / POINTS_PER_ELEMENT as f64;
+            let wave = at(depth);
+            mean.displacement += wave.displacement / POINTS_PER_ELEMENT as f64;
+            mean.impulse += wave.impulse / POINTS_PER_ELEMENT as f64;
+            mean.lateral_impulse += wave.lateral_impulse / POINTS_PER_ELEMENT as f64;
+        }
+        means.push(mean);
+    }
+    means.push(at(TRENCH_DEPTH));
+    means
+}
+
+/// Largest error of displacements and impulses, relative to their largest values, at the left wall and the base.
 ///
-/// `wanted` at a time and depth: displacement to the right or up, impulse of the stress of the wave, and impulse of the
-/// stress on a vertical plane.
-fn error(motion: &TrenchMotion, is_shear: bool, wanted: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
-    let count = 2 * WALL + BASE;
-    let [mut apart, mut largest] = [[0.0_f64; 2]; 2];
+/// `expected` is the wave at a time and depth.
+fn largest_error(
+    motion: &TrenchMotion,
+    is_shear: bool,
+    expected: impl Fn(f64, f64) -> WaveAtDepth,
+) -> f64 {
+    let count = 2 * WALL_ELEMENTS + BASE_ELEMENTS;
+    let mut errors = RelativeErrors::default();
     for step in 0..24 {
         let time = 0.85 + 0.015 * f64::from(step);
-        let [moved, impulse] = at_faces(motion, time);
-        for (e, [displacement, stress, sideways]) in
-            levels(|depth| wanted(time, depth)).into_iter().enumerate()
-        {
+        let [displacement, impulse] = at_faces(motion, time);
+        let expected = means_over_elements(|depth| expected(time, depth));
+        for (e, wave) in expected.into_iter().enumerate() {
             // Normals lead into the soil: to the left at the wall, down at the base; the wall's tangent leads down.
-            let pairs = match (is_shear, e == WALL) {
-                (true, false) => [(-moved[e], displacement), (impulse[count + e], stress)],
-                (true, true) => [(moved[count + e], displacement), (-impulse[count + e], stress)],
-                (false, false) => [(-moved[count + e], displacement), (impulse[e], sideways)],
-                (false, true) => [(-moved[e], displacement), (impulse[e], stress)],
+            let is_base = e == WALL_ELEMENTS;
+            let computed = match (is_shear, is_base) {
+                (true, false) => [-displacement[e], impulse[count + e]],
+                (true, true) => [displacement[count + e], -impulse[count + e]],
+                (false, false) => [-displacement[count + e], impulse[e]],
+                (false, true) => [-displacement[e], impulse[e]],
             };
-            for (k, (found, wanted)) in pairs.into_iter().enumerate() {
-                apart[k] = apart[k].max((found - wanted).abs());
-                largest[k] = largest[k].max(wanted.abs());
-            }
+            let is_lateral = !is_shear && !is_base;
+            errors.add(0, computed[0], wave.displacement);
+            let impulse = if is_lateral { wave.lateral_impulse } else { wave.impulse };
+            errors.add(1, computed[1], impulse);
         }
     }
-    (apart[0] / largest[0]).max(apart[1] / largest[1])
+    errors.values()[0].max(errors.values()[1])
 }
 
-/// Displacement and impulse of the stress at a depth: waves up and down in each layer, of the ones in the layer above.
-fn waves(time: f64, layer: usize, below: f64, is_shear: bool) -> [f64; 2] {
-    let Layer { soil, .. } = layers()[layer];
+/// Displacement and impulse of the stress in a layer: waves up and down, of those in the layer above.
+fn waves_up_and_down(time: f64, layer: usize, below_top: f64, is_shear: bool) -> [f64; 2] {
+    let soil = layers()[layer].soil;
     let speed = if is_shear { soil.shear_wave_speed() } else { soil.pressure_wave_speed() };
     let impedance = soil.density() * speed;
-    // Displacement and impulse at the top of the layer.
-    let at_top = |time: f64| match layer {
-        0 => [pulse(time), 0.0],
-        _ => waves(time, layer - 1, layers()[layer - 1].thickness, is_shear),
-    };
-    let [earlier, later] = [at_top(time + below / speed), at_top(time - below / speed)];
+    let earlier = waves_at_top(time + below_top / speed, layer, is_shear);
+    let later = waves_at_top(time - below_top / speed, layer, is_shear);
     let up = 0.5 * (earlier[0] + earlier[1] / impedance);
     let down = 0.5 * (later[0] - later[1] / impedance);
     [up + down, impedance * (up - down)]
 }
 
-/// Undamped layers: each sends the waves of its top down and up again, in time.
+/// Displacement and impulse of the stress at the top of a layer.
+fn waves_at_top(time: f64, layer: usize, is_shear: bool) -> [f64; 2] {
+    match layer {
+        0 => [pulse(time), 0.0],
+        _ => waves_up_and_down(time, layer - 1, layers()[layer - 1].thickness, is_shear),
+    }
+}
+
+/// GOAL: vertical waves in undamped layers.
+/// REFERENCE: each layer transmits the waves of its top down and up again, in time.
 #[test]
 fn vertical_waves_in_layers_are_waves_up_and_down() {
-    let [upper, middle, rock] = layers();
-    let profile = SoilProfile::on_half_plane(rock.soil)
-        .with_layer(upper.soil, upper.thickness)
-        .and_then(|profile| profile.with_layer(middle.soil, middle.thickness))
+    let layers = layers();
+    let profile = SoilProfile::on_half_plane(layers[2].soil)
+        .with_layer(layers[0].soil, layers[0].thickness)
+        .and_then(|profile| profile.with_layer(layers[1].soil, layers[1].thickness))
         .unwrap();
     let ground = TrenchGround::new(profile, elements()).unwrap();
     for is_shear in [true, false] {
@@ -223,70 +268,84 @@ fn vertical_waves_in_layers_are_waves_up_and_down() {
             VerticalIncidence { horizontal: None, vertical: Some(record) }
         };
         let motion = TrenchMotion::new(&ground, motion, &mut unobserved).unwrap();
-        let found = error(&motion, is_shear, |time, depth| {
-            let (layer, below) = layer_at(depth);
-            let [displacement, impulse] = waves(time, layer, below, is_shear);
-            let poisson = layers()[layer].soil.poisson();
-            [displacement, impulse, poisson / (1.0 - poisson) * impulse]
+        let error = largest_error(&motion, is_shear, |time, depth| {
+            let (layer, below_top) = layer_at(depth);
+            let wave = waves_up_and_down(time, layer, below_top, is_shear);
+            let poisson = layers[layer].soil.poisson();
+            WaveAtDepth {
+                displacement: wave[0],
+                impulse: wave[1],
+                lateral_impulse: poisson / (1.0 - poisson) * wave[1],
+            }
         });
-        assert!(found < 2e-4, "shear waves {is_shear}: {found:e}");
+        assert!(error < 2e-4, "shear waves {is_shear}: {error:e}");
     }
 }
 
-/// Damped layers on rock: the sum over frequencies of transfer functions of the surface's motion.
+/// Damping of the two layers and the rock.
+fn damping_laws() -> [GeneralizedMaxwell; 3] {
+    [0.06, 0.03, 0.01].map(|ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 40.0], 1.0).unwrap())
+}
+
+/// Displacement and impulse of the stress at a depth per unit motion of the surface, at s = iω.
+fn transfer_to_depth(laws: &[GeneralizedMaxwell; 3], s: Complex, depth: f64) -> [Complex; 2] {
+    let (last, below_top) = layer_at(depth);
+    let mut displacement = Complex::real(1.0);
+    let mut stress = Complex::default();
+    for (k, layer) in layers().iter().enumerate().take(last + 1) {
+        let height = if k == last { below_top } else { layer.thickness };
+        let modulus = laws[k].modulus(s) * Complex::real(layer.soil.shear_modulus());
+        let slowness = s * (Complex::real(layer.soil.density()) / modulus).sqrt();
+        let up = (slowness * Complex::real(height)).exp();
+        let down = (slowness * Complex::real(-height)).exp();
+        let even = (up + down) * 0.5;
+        let odd = (up - down) * 0.5;
+        let stiffness = modulus * slowness;
+        (displacement, stress) = (
+            displacement * even + stress * odd / stiffness,
+            displacement * odd * stiffness + stress * even,
+        );
+    }
+    [displacement, stress / s]
+}
+
+/// Fourier transform of the pulse about its middle.
+fn pulse_spectrum(omega: f64) -> f64 {
+    let size = PI.sqrt() / PULSE_RATE * 0.5 * (omega / PULSE_RATE).powi(2);
+    size * (-(0.5 * omega / PULSE_RATE).powi(2)).exp()
+}
+
+/// GOAL: vertical waves in damped layers on rock.
+/// REFERENCE: the sum over frequencies of transfer functions of the surface's motion.
 #[test]
 fn damped_vertical_waves_in_layers_follow_their_transfer_functions() {
-    const PERIOD: f64 = 6.0;
-    let laws = [0.06, 0.03, 0.01]
-        .map(|ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 40.0], 1.0).unwrap());
-    let [upper, middle, rock] = layers();
-    let [of_upper, of_middle, of_rock] = laws.clone();
-    let profile = SoilProfile::on_half_plane(rock.soil)
-        .with_bedrock_damping(of_rock)
-        .with_layer(upper.soil, upper.thickness)
+    /// Time after which the Fourier sum repeats, s.
+    const FOURIER_PERIOD: f64 = 6.0;
+    let laws = damping_laws();
+    let layers = layers();
+    let profile = SoilProfile::on_half_plane(layers[2].soil)
+        .with_bedrock_damping(laws[2].clone())
+        .with_layer(layers[0].soil, layers[0].thickness)
         .unwrap()
-        .with_damping(of_upper)
-        .with_layer(middle.soil, middle.thickness)
+        .with_damping(laws[0].clone())
+        .with_layer(layers[1].soil, layers[1].thickness)
         .unwrap()
-        .with_damping(of_middle);
+        .with_damping(laws[1].clone());
     let ground = TrenchGround::new(profile, elements()).unwrap();
-    // Displacement and stress at a depth per unit motion of the surface, at iω.
-    let transfer = |s: Complex, depth: f64| {
-        let (last, below) = layer_at(depth);
-        let [mut moved, mut stress] = [Complex::real(1.0), Complex::default()];
-        for (k, layer) in layers().iter().enumerate().take(last + 1) {
-            let height = if k == last { below } else { layer.thickness };
-            let modulus = laws[k].modulus(s) * Complex::real(layer.soil.shear_modulus());
-            let slowness = s * (Complex::real(layer.soil.density()) / modulus).sqrt();
-            let [up, down] = [height, -height].map(|z| (slowness * Complex::real(z)).exp());
-            let [even, odd] = [(up + down) * 0.5, (up - down) * 0.5];
-            let stiffness = modulus * slowness;
-            (moved, stress) =
-                (moved * even + stress * odd / stiffness, moved * odd * stiffness + stress * even);
-        }
-        [moved, stress / s]
-    };
-    // Spectrum of the pulse.
-    let spectrum = |omega: f64| {
-        let size = PI.sqrt() / RATE * 0.5 * (omega / RATE).powi(2);
-        size * (-(0.5 * omega / RATE).powi(2)).exp()
-    };
-    let step = TAU / PERIOD;
-    let found = {
-        let motion = VerticalIncidence { horizontal: Some(record(0.001)), vertical: None };
-        let motion = TrenchMotion::new(&ground, motion, &mut unobserved).unwrap();
-        error(&motion, true, |time, depth| {
-            let mut sum = [0.0; 2];
-            for k in 1..260 {
-                let omega = step * f64::from(k);
-                let turned = Complex::new(0.0, omega * (time - MIDDLE)).exp();
-                let of_wave = transfer(Complex::new(0.0, omega), depth);
-                for (sum, value) in sum.iter_mut().zip(of_wave) {
-                    *sum += step / PI * spectrum(omega) * (value * turned).re;
-                }
+    let motion = VerticalIncidence { horizontal: Some(record(0.001)), vertical: None };
+    let motion = TrenchMotion::new(&ground, motion, &mut unobserved).unwrap();
+    let frequency_step = TAU / FOURIER_PERIOD;
+    let error = largest_error(&motion, true, |time, depth| {
+        let mut sum = [0.0; 2];
+        for k in 1..260 {
+            let omega = frequency_step * f64::from(k);
+            let phase = Complex::new(0.0, omega * (time - PULSE_TIME)).exp();
+            let transfer = transfer_to_depth(&laws, Complex::new(0.0, omega), depth);
+            for (sum, value) in sum.iter_mut().zip(transfer) {
+                *sum += frequency_step / PI * pulse_spectrum(omega) * (value * phase).re;
             }
-            [sum[0], sum[1], 0.0]
-        })
-    };
-    assert!(found < 5e-4, "{found:e}");
+        }
+        WaveAtDepth { displacement: sum[0], impulse: sum[1], lateral_impulse: 0.0 }
+    });
+    assert!(error < 5e-4, "{error:e}");
 }

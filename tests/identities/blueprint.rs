@@ -39,6 +39,8 @@ pub(crate) struct Blueprint {
     pub(crate) in_space: bool,
     pub(crate) young: f64,
     pub(crate) density: f64,
+    /// Point whose displacements are compared.
+    pub(crate) top: usize,
     /// Leader and followers of a rigid link.
     pub(crate) link: Option<(usize, Vec<usize>)>,
     /// Damping ratio of Rayleigh damping at 1 and 20 Hz; zero without.
@@ -46,7 +48,7 @@ pub(crate) struct Blueprint {
     pub(crate) p_delta: bool,
 }
 
-pub(crate) const POISSON: f64 = 0.2;
+pub(crate) const POISSON_RATIO: f64 = 0.2;
 
 impl Blueprint {
     /// A model without points; forces in the plane are per metre.
@@ -57,6 +59,7 @@ impl Blueprint {
             in_space,
             young,
             density,
+            top: 0,
             link: None,
             damping: 0.0,
             p_delta: false,
@@ -68,14 +71,17 @@ impl Blueprint {
         self.points.len() - 1
     }
 
-    /// Points of a grid over a range along x and y at a height, row by row.
+    /// Points of a grid over a rectangle about the origin at a height, row by row.
     pub(crate) fn grid(&mut self, sides: [f64; 2], counts: [usize; 2], z: f64) -> Vec<Vec<usize>> {
-        let at = |side: f64, k: usize, count: usize| side * (k as f64 / count as f64 - 0.5);
         let mut rows = Vec::new();
         for row in 0..=counts[1] {
-            let y = at(sides[1], row, counts[1]);
-            let nodes = (0..=counts[0]).map(|k| self.point([at(sides[0], k, counts[0]), y, z]));
-            rows.push(nodes.collect());
+            let y = sides[1] * (row as f64 / counts[1] as f64 - 0.5);
+            let mut nodes = Vec::new();
+            for column in 0..=counts[0] {
+                let x = sides[0] * (column as f64 / counts[0] as f64 - 0.5);
+                nodes.push(self.point([x, y, z]));
+            }
+            rows.push(nodes);
         }
         rows
     }
@@ -100,11 +106,11 @@ impl Blueprint {
     pub(crate) fn model(&self, view: &View) -> Result<FemModel> {
         let mut mesh = if self.in_space { Mesh::in_space() } else { Mesh::new() };
         for point in view.ordered(self.points.clone()) {
-            let [x, y, z] = view.point(point);
+            let point = view.point(point);
             if self.in_space {
-                mesh.add_node_at([x, y, z])?
+                mesh.add_node_at(point)?
             } else {
-                mesh.add_node(x, z)?
+                mesh.add_node(point[0], point[2])?
             };
         }
         for piece in view.ordered(self.pieces.clone()) {
@@ -142,72 +148,77 @@ impl Blueprint {
     /// Adds the element of a piece as a view writes it.
     pub(crate) fn add_piece(&self, mesh: &mut Mesh, piece: Piece, view: &View) -> Result<usize> {
         let frame = &view.frame;
-        let (length, pressure) = (frame.length, frame.pressure());
+        let length = frame.length;
+        let pressure = frame.pressure();
         let material =
-            Material::new(self.young * pressure, POISSON, self.density * frame.density())?;
+            Material::new(self.young * pressure, POISSON_RATIO, self.density * frame.density())?;
         // Force over length, and mass, of this model.
         let stiffness = if self.in_space { pressure * length } else { pressure };
         let mass_unit = if self.in_space { frame.mass } else { frame.mass / length };
         let mirrored = frame.mirrored;
-        let at = |points: &[usize]| -> Vec<usize> {
+        let nodes_of = |points: &[usize]| -> Vec<usize> {
             points.iter().map(|point| self.node(*point, view)).collect()
         };
         match piece {
             Piece::Quad(corners) => {
                 let corners = if mirrored { reversed(corners) } else { corners };
-                let nodes = fixed(at(&corners));
+                let nodes = fixed(nodes_of(&corners));
                 add(mesh, Quad4::new(nodes, material, QuadFormulation::default()), view)
             }
             Piece::Quad8([a, b, c, d, ab, bc, cd, da]) => {
-                let all = if mirrored {
+                let points = if mirrored {
                     [d, c, b, a, cd, bc, ab, da]
                 } else {
                     [a, b, c, d, ab, bc, cd, da]
                 };
-                add(mesh, Quad8::new(fixed(at(&all)), material), view)
+                add(mesh, Quad8::new(fixed(nodes_of(&points)), material), view)
             }
             Piece::Brick([a, b, c, d, e, f, g, h]) => {
-                let all =
+                let points =
                     if mirrored { [d, c, b, a, h, g, f, e] } else { [a, b, c, d, e, f, g, h] };
-                add(mesh, Hex8::new(fixed(at(&all)), material), view)
+                add(mesh, Hex8::new(fixed(nodes_of(&points)), material), view)
             }
             Piece::Shell(corners, thickness) => {
-                add(mesh, Shell::new(at(&corners), material, thickness * length)?, view)
+                add(mesh, Shell::new(nodes_of(&corners), material, thickness * length)?, view)
             }
             Piece::Beam(ends, depth) => {
                 let depth = depth * length;
                 let moment = depth.powi(3) / 12.0;
                 let young = self.young * pressure;
                 let density = self.density * frame.density();
-                add(mesh, Beam::new(fixed(at(&ends)), young, depth, moment, density)?, view)
+                add(mesh, Beam::new(fixed(nodes_of(&ends)), young, depth, moment, density)?, view)
             }
             Piece::SpaceBeam(ends, side, plane) => {
                 let section = Self::section(side * length)?;
                 add(
                     mesh,
-                    SpaceBeam::new(fixed(at(&ends)), material, section, view.vector(plane))?,
+                    SpaceBeam::new(fixed(nodes_of(&ends)), material, section, view.vector(plane))?,
                     view,
                 )
             }
             Piece::Truss(ends, area) => {
-                let (young, area) = (self.young * pressure, area * length * length);
+                let young = self.young * pressure;
+                let area = area * length * length;
                 let density = self.density * frame.density();
-                add(mesh, Truss::in_space(fixed(at(&ends)), young, area, density)?, view)
+                add(mesh, Truss::in_space(fixed(nodes_of(&ends)), young, area, density)?, view)
             }
             Piece::Mass(point, mass) => {
-                let (node, mass) = (self.node(point, view), mass * mass_unit);
+                let node = self.node(point, view);
+                let mass = mass * mass_unit;
                 if self.in_space {
                     add(mesh, LumpedMass::in_space(node, mass, [0.0; 3])?, view)
                 } else {
                     add(mesh, LumpedMass::new(node, mass)?, view)
                 }
             }
-            Piece::Spring(ends, coefficient) => {
-                add(mesh, Spring::axial_in_space(fixed(at(&ends)), coefficient * stiffness)?, view)
-            }
+            Piece::Spring(ends, coefficient) => add(
+                mesh,
+                Spring::axial_in_space(fixed(nodes_of(&ends)), coefficient * stiffness)?,
+                view,
+            ),
             Piece::Dashpot(ends, coefficient) => {
                 let coefficient = coefficient * stiffness * frame.time;
-                add(mesh, Dashpot::axial(fixed(at(&ends)), coefficient)?, view)
+                add(mesh, Dashpot::axial(fixed(nodes_of(&ends)), coefficient)?, view)
             }
         }
     }
@@ -231,12 +242,12 @@ fn reversed([a, b, c, d]: [usize; 4]) -> [usize; 4] {
     [d, c, b, a]
 }
 
-/// A list of known length.
+/// The list as an array.
 fn fixed<const N: usize>(list: Vec<usize>) -> [usize; N] {
     list.try_into().unwrap_or_else(|list: Vec<usize>| panic!("{} nodes, {N} needed", list.len()))
 }
 
 /// Adds an element, as a user's one if the view says so.
 fn add(mesh: &mut Mesh, element: impl Element + 'static, view: &View) -> Result<usize> {
-    if view.by_user { mesh.add(user::Element(Box::new(element))) } else { mesh.add(element) }
+    if view.by_user { mesh.add(user::UserElement(Box::new(element))) } else { mesh.add(element) }
 }

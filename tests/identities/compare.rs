@@ -1,18 +1,25 @@
-//! Comparison of two writings of a scene.
+//! Comparison of two variants of a scene.
 
 use super::parts::Choice;
-use super::scene::{Response, Writing, kind, run};
-use super::tally::Tally;
-use super::view::{PLAIN, View};
+use super::scene::{SceneResponse, SceneVariant, error_kind, run};
+use super::tally::IdentityTally;
+use super::view::{PLAIN_VIEW, View};
 
-/// Factor by which two writings may differ more than two scenes that differ by 1e-10.
-const AMPLIFICATION: f64 = 30.0;
+/// Factor by which two variants may differ more than two scenes that differ by 1e-10.
+const AMPLIFICATION_FACTOR: f64 = 30.0;
 
-/// The scene as it is usually written; `None`, and noted, if a builder refuses it.
-pub(crate) fn usual(choice: &Choice, tally: &mut Tally) -> Option<Response> {
-    super::grounds::next_scene();
+/// A scene written another way, with a name for the report.
+pub(crate) struct NamedVariant<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) view: &'a View,
+    pub(crate) variant: SceneVariant,
+}
+
+/// Response of the usual variant; `None`, and noted, if a builder refuses it.
+pub(crate) fn usual_response(choice: &Choice, tally: &mut IdentityTally) -> Option<SceneResponse> {
+    super::grounds::clear_shared_kernels();
     tally.scene(&choice.words());
-    match run(choice, &PLAIN, Writing::Usual) {
+    match run(choice, &PLAIN_VIEW, SceneVariant::Usual) {
         Ok(response) => Some(response),
         Err(error) => {
             tally.refuse(format!("{}: {error}", choice.name()));
@@ -21,32 +28,53 @@ pub(crate) fn usual(choice: &Choice, tally: &mut Tally) -> Option<Response> {
     }
 }
 
-/// Compares a writing in a view with the `usual` response, to a limit relative to each group's largest number.
+/// Compares a variant with the usual response, to a limit relative to each group's largest number.
 ///
-/// Landings and slips amplify rounding: where the limit is exceeded, scenes that differ by 1e-10 show by how much.
-pub(crate) fn same(
+/// Landings and slips amplify rounding: where the limit is exceeded, perturbed scenes show by how much.
+pub(crate) fn compare_variant(
     choice: &Choice,
-    usual: &Response,
-    (name, view, writing): (&str, &View, Writing),
+    usual: &SceneResponse,
+    named: &NamedVariant,
     limit: f64,
-    tally: &mut Tally,
+    tally: &mut IdentityTally,
 ) {
-    let place = format!("{name}: {}", choice.name());
-    match run(choice, view, writing) {
+    let place = format!("{}: {}", named.name, choice.name());
+    match run(choice, named.view, named.variant) {
         Ok(response) => {
-            let (value, group) = usual.apart(&response);
-            let limit = if value > limit { limit.max(amplified(choice, usual)) } else { limit };
-            tally.within(&format!("{group}, {place}"), value, limit);
+            let difference = usual.difference(&response);
+            let limit = if difference.value > limit {
+                limit.max(amplified_perturbation(choice, usual))
+            } else {
+                limit
+            };
+            tally.within(&format!("{}, {place}", difference.group), difference.value, limit);
         }
-        Err(error) => tally.fail(format!("{place}: refused, {}: {error}", kind(&error))),
+        Err(error) => tally.fail(format!("{place}: refused, {}: {error}", error_kind(&error))),
     }
 }
 
-/// How much a scene amplifies differences of 1e-10 in shaking, soil and friction.
-fn amplified(choice: &Choice, usual: &Response) -> f64 {
-    let ways = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    ways.into_iter().fold(0.0, |largest, way| {
-        let nearly = run(choice, &PLAIN, Writing::Nearly(way));
-        nearly.map_or(largest, |nearly| usual.apart(&nearly).0.max(largest))
-    }) * AMPLIFICATION
+/// Largest difference of scenes that differ by 1e-10 in shaking, soil and friction, amplified.
+fn amplified_perturbation(choice: &Choice, usual: &SceneResponse) -> f64 {
+    let mut largest = 0.0_f64;
+    for factors in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+        if let Ok(perturbed) = run(choice, &PLAIN_VIEW, SceneVariant::Perturbed(factors)) {
+            largest = usual.difference(&perturbed).value.max(largest);
+        }
+    }
+    largest * AMPLIFICATION_FACTOR
+}
+
+/// Largest difference of two lists.
+pub(crate) fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()))
+}
+
+/// Largest difference, relative to the largest expected number; NaN if the last one is.
+pub(crate) fn relative_difference(expected: &[f64], computed: &[f64]) -> f64 {
+    let scale = expected.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let pairs = expected.iter().zip(computed);
+    pairs.fold(0.0, |largest: f64, (a, b)| {
+        let difference = (a - b).abs() / scale;
+        if difference.is_nan() { f64::NAN } else { largest.max(difference) }
+    })
 }

@@ -1,5 +1,7 @@
-//! The paper's ground translated, mirrored and in other units is the same ground; its own kernel, given by a user, is its
-//! kernel. Runs would grow (tests/full_plane): the rows compare the ground's answers to tractions.
+//! GOAL: the paper's ground translated, mirrored and in other units is the same ground; its kernel, given by a user, is
+//! its kernel.
+//! SCENE: two strips under random tractions; runs would grow (`tests/full_plane`).
+//! REFERENCE: step compliance and displacements by past tractions in SI units.
 
 use basemat::bem::full_plane::{Boundary, BoundaryKernel, FullPlaneGround, TimeKernel};
 use basemat::bem::{Ground, Strip};
@@ -7,20 +9,22 @@ use basemat::{Result, Soil, unobserved};
 use basemat_problems::random::Random;
 use basemat_problems::scenes::{Frame, SI};
 
+use super::compare::relative_difference;
 use super::numbers::SOIL_DENSITY;
-use super::tally::{Tally, scenes};
+use super::tally::{IdentityTally, scenes};
+use super::view::random_units;
 
-/// Steps of a convolution.
-const LAGS: usize = 8;
-/// Elements of both strips.
-const COUNTS: [usize; 2] = [3, 2];
-const CONTACT: usize = COUNTS[0] + COUNTS[1];
-const SIZE: usize = 2 * CONTACT;
+const CONVOLUTION_STEPS: usize = 8;
+/// Elements of each strip.
+const STRIP_ELEMENTS: [usize; 2] = [3, 2];
+const CONTACT_ELEMENTS: usize = STRIP_ELEMENTS[0] + STRIP_ELEMENTS[1];
+/// Components of a vector of tractions.
+const VECTOR_LENGTH: usize = 2 * CONTACT_ELEMENTS;
 /// Rounding, which a scheme that grows amplifies.
-const LIMIT: f64 = 1e-9;
+const DIFFERENCE_LIMIT: f64 = 1e-9;
 
 /// Two strips of a surface, in SI units.
-struct Scene {
+struct TwoStrips {
     modulus: f64,
     poisson: f64,
     /// Ends of both strips, m.
@@ -32,15 +36,19 @@ struct Scene {
     tractions: Vec<Vec<f64>>,
 }
 
-impl Scene {
+impl TwoStrips {
     fn draw(random: &mut Random) -> Self {
         let modulus = SOIL_DENSITY * random.log_within(100.0, 400.0).powi(2);
-        let [left, right] = [random.within(1.0, 4.0), random.within(1.0, 4.0)];
+        let left = random.within(1.0, 4.0);
+        let right = random.within(1.0, 4.0);
         let gap = random.within(0.5, 2.0);
         let speed = (modulus / SOIL_DENSITY).sqrt();
-        let mut traction = || -> Vec<f64> { (0..SIZE).map(|_| random.within(-1e4, 1e4)).collect() };
+        let mut tractions = vec![];
+        for _ in 0..CONVOLUTION_STEPS {
+            tractions.push((0..VECTOR_LENGTH).map(|_| random.within(-1e4, 1e4)).collect());
+        }
         Self {
-            tractions: (0..LAGS).map(|_| traction()).collect(),
+            tractions,
             modulus,
             poisson: random.within(0.1, 0.4),
             strips: [[-left, 0.0], [gap, gap + right]],
@@ -54,9 +62,9 @@ impl Scene {
         let density = SOIL_DENSITY * frame.density();
         let soil = Soil::new(self.modulus * frame.pressure(), self.poisson, density)?;
         let mut strips = Vec::new();
-        for (ends, count) in self.strips.iter().zip(COUNTS) {
-            let [one, other] = ends.map(|x| (frame.sign() * x + shift) * frame.length);
-            strips.push(Strip::uniform(one.min(other)..one.max(other), count)?);
+        for (ends, count) in self.strips.iter().zip(STRIP_ELEMENTS) {
+            let ends = ends.map(|x| (frame.sign() * x + shift) * frame.length);
+            strips.push(Strip::uniform(ends[0].min(ends[1])..ends[0].max(ends[1]), count)?);
         }
         if frame.mirrored {
             strips.reverse();
@@ -65,76 +73,71 @@ impl Scene {
     }
 
     /// Step compliance and displacements by past tractions of all steps, in SI units and the order of the scene.
-    fn answers(&self, mut ground: FullPlaneGround, frame: &Frame) -> Result<Vec<f64>> {
-        ground.prepare(self.time_step * frame.time, Some(LAGS), &mut unobserved)?;
-        // Place and sign in the view of each number of a contact vector.
-        let places: Vec<(usize, f64)> = (0..SIZE)
+    fn response(&self, mut ground: FullPlaneGround, frame: &Frame) -> Result<Vec<f64>> {
+        ground.prepare(self.time_step * frame.time, Some(CONVOLUTION_STEPS), &mut unobserved)?;
+        // Index and sign in the view of each component of a contact vector.
+        let components: Vec<(usize, f64)> = (0..VECTOR_LENGTH)
             .map(|i| {
-                let (component, element) = (i / CONTACT, i % CONTACT);
-                let place = if frame.mirrored { CONTACT - 1 - element } else { element };
-                let sign = if component == 0 { 1.0 } else { frame.sign() };
-                (component * CONTACT + place, sign)
+                let direction = i / CONTACT_ELEMENTS;
+                let element = i % CONTACT_ELEMENTS;
+                let in_view = if frame.mirrored { CONTACT_ELEMENTS - 1 - element } else { element };
+                let sign = if direction == 0 { 1.0 } else { frame.sign() };
+                (direction * CONTACT_ELEMENTS + in_view, sign)
             })
             .collect();
-        let mut matrix = vec![0.0; SIZE * SIZE];
+        let mut matrix = vec![0.0; VECTOR_LENGTH * VECTOR_LENGTH];
         ground.step_compliance(&mut matrix)?;
         let unit = frame.pressure() / frame.length;
-        let mut found = Vec::new();
-        for (row, row_sign) in &places {
-            for (column, column_sign) in &places {
+        let mut response = Vec::new();
+        for (row, row_sign) in &components {
+            for (column, column_sign) in &components {
                 // Pressures of 10 kPa.
-                let value = matrix[row * SIZE + column] * unit * 1e4;
-                found.push(row_sign * column_sign * value);
+                let value = matrix[row * VECTOR_LENGTH + column] * unit * 1e4;
+                response.push(row_sign * column_sign * value);
             }
         }
         for traction in &self.tractions {
-            let mut seen = vec![0.0; SIZE];
-            for ((place, sign), value) in places.iter().zip(traction) {
-                seen[*place] = sign * value * frame.pressure();
+            let mut in_view = vec![0.0; VECTOR_LENGTH];
+            for ((index, sign), value) in components.iter().zip(traction) {
+                in_view[*index] = sign * value * frame.pressure();
             }
-            ground.commit(&seen);
-            let mut history = vec![0.0; SIZE];
+            ground.commit(&in_view);
+            let mut history = vec![0.0; VECTOR_LENGTH];
             ground.history(&mut history)?;
-            found.extend(places.iter().map(|(place, sign)| sign * history[*place] / frame.length));
+            let in_scene =
+                components.iter().map(|(index, sign)| sign * history[*index] / frame.length);
+            response.extend(in_scene);
         }
-        Ok(found)
+        Ok(response)
     }
 }
 
-/// Largest difference, relative to the largest number.
-fn apart(one: &[f64], other: &[f64]) -> f64 {
-    let scale = one.iter().fold(0.0, |scale: f64, value| scale.max(value.abs()));
-    let pairs = one.iter().zip(other);
-    pairs.fold(0.0, |largest: f64, (a, b)| {
-        let difference = (a - b).abs() / scale;
-        if difference.is_nan() { f64::NAN } else { largest.max(difference) }
-    })
-}
-
+/// GOAL: views and a user's kernel do not change the response.
 #[test]
 fn the_papers_ground_is_the_same_from_everywhere() {
-    let mut tally = Tally::new("full plane: views and users' kernels");
+    let mut tally = IdentityTally::new("full plane: views and users' kernels");
     let mut random = Random(151);
     for number in 0..scenes(6, 100) {
-        let scene = Scene::draw(&mut random);
-        let mut unit = || 10.0_f64.powf(random.within(-3.0, 3.0));
-        let units = Frame { length: unit(), time: unit(), mass: unit(), mirrored: false };
+        let scene = TwoStrips::draw(&mut random);
+        let units = random_units(&mut random);
         let mirrored = Frame { mirrored: true, ..SI };
         let shift = random.within(-50.0, 50.0);
         tally.scene(&["full plane", "strip"]);
-        let usual = scene.ground(&SI, 0.0).and_then(|ground| scene.answers(ground, &SI)).unwrap();
+        let expected = scene.response(scene.ground(&SI, 0.0).unwrap(), &SI).unwrap();
         let views = [("translated", SI, shift), ("mirrored", mirrored, 0.0), ("units", units, 0.0)];
         for (name, frame, shift) in views {
             let ground = scene.ground(&frame, shift).unwrap();
-            let found = scene.answers(ground, &frame).unwrap();
-            tally.within(&format!("{number}: {name}"), apart(&usual, &found), LIMIT);
+            let computed = scene.response(ground, &frame).unwrap();
+            let difference = relative_difference(&expected, &computed);
+            tally.within(&format!("{number}: {name}"), difference, DIFFERENCE_LIMIT);
         }
         let ground = scene.ground(&SI, 0.0).unwrap().with_kernel(|segments, soil, time_step| {
             let kernel = TimeKernel::new(soil, segments, time_step)?;
             Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
         });
-        let found = scene.answers(ground, &SI).unwrap();
-        tally.within(&format!("{number}: kernel of a user"), apart(&usual, &found), 1e-14);
+        let computed = scene.response(ground, &SI).unwrap();
+        let difference = relative_difference(&expected, &computed);
+        tally.within(&format!("{number}: kernel of a user"), difference, 1e-14);
     }
     tally.close(1.0);
 }

@@ -7,8 +7,8 @@ use basemat::fem::{Material, Mesh};
 use basemat::io::{GmshMesh, GmshPart, GmshSpaceMesh};
 use basemat::structure::FemModel;
 
-use super::blueprint::{Blueprint, POISSON, Piece};
-use super::view::PLAIN;
+use super::blueprint::{Blueprint, POISSON_RATIO, Piece};
+use super::view::PLAIN_VIEW;
 
 /// Kind and nodes of a piece in a file; `None` for a piece that a mesh from Gmsh does not have.
 fn cell(piece: &Piece) -> Option<(usize, &[usize])> {
@@ -32,7 +32,7 @@ fn dimension(kind: usize) -> usize {
     }
 }
 
-/// The cells of a blueprint in format 2.2, each a physical group of its own with the number of the piece.
+/// The cells of a blueprint in format 2.2, each a physical group with the number of the piece.
 fn text(plan: &Blueprint) -> String {
     let cells: Vec<_> = plan
         .pieces
@@ -47,8 +47,8 @@ fn text(plan: &Blueprint) -> String {
     }
     let _ = writeln!(text, "$EndPhysicalNames\n$Nodes\n{}", plan.points.len());
     for (number, [x, y, z]) in plan.points.iter().enumerate() {
-        let [second, third] = if plan.in_space { [y, z] } else { [z, y] };
-        let _ = writeln!(text, "{} {x:?} {second:?} {third:?}", number + 1);
+        let others = if plan.in_space { [y, z] } else { [z, y] };
+        let _ = writeln!(text, "{} {x:?} {:?} {:?}", number + 1, others[0], others[1]);
     }
     let _ = writeln!(text, "$EndNodes\n$Elements\n{}", cells.len());
     for (number, kind, nodes) in &cells {
@@ -63,20 +63,19 @@ fn text(plan: &Blueprint) -> String {
 
 /// The model of a blueprint in SI units, with the mesh of its file.
 pub(crate) fn model(plan: &Blueprint) -> Result<FemModel> {
-    let (mut mesh, others) = read(plan)?;
-    for piece in others {
-        plan.add_piece(&mut mesh, piece, &PLAIN)?;
+    let mut mesh = mesh_from_file(plan)?;
+    for piece in plan.pieces.iter().filter(|piece| cell(piece).is_none()) {
+        plan.add_piece(&mut mesh, piece.clone(), &PLAIN_VIEW)?;
     }
-    plan.completed(mesh, &PLAIN)
+    plan.completed(mesh, &PLAIN_VIEW)
 }
 
-/// The mesh of a blueprint in SI units as read from its file, and the pieces that the file has not.
-fn read(plan: &Blueprint) -> Result<(Mesh, Vec<Piece>)> {
+/// The mesh of a blueprint in SI units as read from its file, without the pieces that a file does not have.
+fn mesh_from_file(plan: &Blueprint) -> Result<Mesh> {
     let text = text(plan);
-    let material = Material::new(plan.young, POISSON, plan.density)?;
+    let material = Material::new(plan.young, POISSON_RATIO, plan.density)?;
     let mut names = Vec::new();
     let mut parts = Vec::new();
-    let mut others = Vec::new();
     for (number, piece) in plan.pieces.iter().enumerate() {
         let part = match piece {
             Piece::SpaceBeam(_, side, plane) => {
@@ -84,21 +83,17 @@ fn read(plan: &Blueprint) -> Result<(Mesh, Vec<Piece>)> {
             }
             Piece::Shell(_, thickness) => GmshPart::Shell(material, *thickness),
             Piece::Quad(_) | Piece::Quad8(_) | Piece::Brick(_) => GmshPart::Solid(material),
-            other => {
-                others.push(other.clone());
-                continue;
-            }
+            _ => continue,
         };
         names.push((number + 1).to_string());
         parts.push(part);
     }
     let names = names.iter().map(String::as_str);
-    let mesh = if plan.in_space {
+    if plan.in_space {
         let parts: Vec<_> = names.zip(parts).collect();
-        GmshSpaceMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&parts)?
+        GmshSpaceMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&parts)
     } else {
         let materials: Vec<_> = names.map(|name| (name, material)).collect();
-        GmshMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&materials)?
-    };
-    Ok((mesh, others))
+        GmshMesh::from_reader("blueprint.msh", text.as_bytes())?.mesh(&materials)
+    }
 }

@@ -19,8 +19,8 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::Structure;
 use basemat::{Result, Soil, unobserved};
 
-use super::numbers::{Numbers, SOIL_DENSITY, STEPS};
-use super::parts::{self, Choice, Law, Motion, Space};
+use super::numbers::{Numbers, RUN_STEPS, SOIL_DENSITY};
+use super::parts::{Choice, GroundPart, LawPart, MotionPart, Space};
 use super::structures::trench_depth;
 use super::view::View;
 
@@ -29,14 +29,15 @@ thread_local! {
     static KERNELS: RefCell<SharedKernels> = RefCell::default();
 }
 
-/// Forgets the weights of the last scene.
-pub(crate) fn next_scene() {
+/// Removes the weights of the last scene.
+pub(crate) fn clear_shared_kernels() {
     KERNELS.replace(SharedKernels::default());
 }
 
-/// Elements of a strip; cells along the shorter side of a mat.
-pub(crate) const ELEMENTS: usize = 6;
-pub(crate) const CELLS: usize = 4;
+/// Elements of a strip.
+pub(crate) const STRIP_ELEMENTS: usize = 6;
+/// Cells along the shorter side of a mat.
+pub(crate) const MAT_CELLS: usize = 4;
 
 /// A damped layer of the soil on rock.
 fn layers(numbers: &Numbers, view: &View) -> Result<SoilProfile> {
@@ -51,20 +52,20 @@ fn layers(numbers: &Numbers, view: &View) -> Result<SoilProfile> {
 
 pub(crate) fn profile(choice: &Choice, numbers: &Numbers, view: &View) -> Result<SoilProfile> {
     match choice.ground {
-        parts::Ground::Layers => layers(numbers, view),
+        GroundPart::Layers => layers(numbers, view),
         _ => Ok(numbers.soil(view).into()),
     }
 }
 
 /// Elements of the trench under the middle of the scene.
 pub(crate) fn trench(numbers: &Numbers, view: &View) -> Result<TrenchElements> {
-    let [center, _] = view.place([0.0; 2]);
-    let half = 0.5 * numbers.sides[0] * view.frame.length;
+    let center = view.surface_point([0.0; 2])[0];
+    let half_width = 0.5 * numbers.sides[0] * view.frame.length;
     let depth = trench_depth(numbers) * view.frame.length;
-    Trench::new(center - half..center + half, depth)?.elements(2, 2)
+    Trench::new(center - half_width..center + half_width, depth)?.elements(2, 2)
 }
 
-/// Stages of a scene: the rule that chooses them has a frequency in hertz, so other units would change them.
+/// Stages of a scene, fixed because the automatic choice depends on a frequency in hertz and thus on units.
 fn stages(choice: &Choice) -> Stages {
     if choice.seed.is_multiple_of(3) { Stages::Three } else { Stages::Two }
 }
@@ -83,8 +84,8 @@ pub(crate) fn ground(
         let ground = ground.with_stages(stages(choice));
         return Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))));
     }
-    let count = if choice.space == Space::Plan { CELLS } else { ELEMENTS };
-    if choice.ground == parts::Ground::Springs {
+    let count = if choice.space == Space::Plan { MAT_CELLS } else { STRIP_ELEMENTS };
+    if choice.ground == GroundPart::Springs {
         let stiffness = numbers.modulus * frame.pressure() / (numbers.sides[0] * frame.length);
         let speed = (numbers.modulus / SOIL_DENSITY).sqrt() * frame.length / frame.time;
         let dashpot = SOIL_DENSITY * frame.density() * speed;
@@ -93,7 +94,7 @@ pub(crate) fn ground(
     }
     let profile = profile(choice, numbers, view)?;
     let mut ground = ElasticGround::under(profile, structure, count)?;
-    if choice.ground == parts::Ground::Layers {
+    if choice.ground == GroundPart::Layers {
         ground = ground.with_stages(stages(choice));
     }
     if choice.space == Space::Plane {
@@ -103,24 +104,26 @@ pub(crate) fn ground(
 }
 
 /// The law of a choice, for any element of its base.
-pub(crate) fn law(kind: Law, numbers: &Numbers, view: &View) -> Result<Box<dyn InterfaceLaw>> {
+pub(crate) fn law(kind: LawPart, numbers: &Numbers, view: &View) -> Result<Box<dyn InterfaceLaw>> {
     let frame = &view.frame;
     let friction = numbers.friction;
     let pressure = numbers.pressure() * frame.pressure();
     let stiffness = numbers.modulus * frame.pressure() / (0.05 * numbers.sides[0] * frame.length);
     Ok(match kind {
-        Law::Bonded => Box::new(Bonded),
-        Law::Friction => Box::new(Coulomb::new(friction)?),
-        Law::Tension => Box::new(Coulomb::new(friction)?.with_tensile_strength(0.3 * pressure)?),
-        Law::Cohesive => Box::new(Cohesive::new(0.3 * pressure, 0.5 * pressure, friction)?),
-        Law::Yielding => Box::new(Yielding::new(4.0 * pressure, friction)?),
+        LawPart::Bonded => Box::new(Bonded),
+        LawPart::Friction => Box::new(Coulomb::new(friction)?),
+        LawPart::Tension => {
+            Box::new(Coulomb::new(friction)?.with_tensile_strength(0.3 * pressure)?)
+        }
+        LawPart::Cohesive => Box::new(Cohesive::new(0.3 * pressure, 0.5 * pressure, friction)?),
+        LawPart::Yielding => Box::new(Yielding::new(4.0 * pressure, friction)?),
         // Soil that stands without the wall, so that the law suits the base too.
-        Law::Earth => Box::new(EarthPressure::new(0.0, 6.0 * pressure, friction)?),
-        Law::Layer => {
+        LawPart::Earth => Box::new(EarthPressure::new(0.0, 6.0 * pressure, friction)?),
+        LawPart::Layer => {
             let layer = ThinLayer::from_stiffness(stiffness, 0.5 * stiffness, friction)?;
             Box::new(layer.with_debonded_ratio(0.0)?.with_slip_sense(SlipSense::Inelastic))
         }
-        Law::Varying => {
+        LawPart::Varying => {
             let speed = 0.05 * frame.length / frame.time;
             Box::new(VariableFriction::new(move |start| {
                 friction * (0.8 + 0.2 * (-start.slip_rate.abs() / speed).exp())
@@ -129,49 +132,62 @@ pub(crate) fn law(kind: Law, numbers: &Numbers, view: &View) -> Result<Box<dyn I
     })
 }
 
-/// Motion of the ground along one axis of the scene as the view has it: the axis and its sign.
-fn turned(view: &View, axis: usize) -> (usize, f64) {
+/// Axis and sign in the view of an axis of the scene.
+fn axis_in_view(view: &View, axis: usize) -> (usize, f64) {
     let mut unit = [0.0; 3];
     unit[axis] = 1.0;
-    let along = view.vector(unit);
-    let axis = along.iter().position(|part| *part != 0.0).unwrap_or(axis);
-    (axis, along[axis])
+    let in_view = view.vector(unit);
+    let axis = in_view.iter().position(|part| *part != 0.0).unwrap_or(axis);
+    (axis, in_view[axis])
 }
 
 /// The record of a peak (m/s²) in the view's units.
 pub(crate) fn record(numbers: &Numbers, peak: f64, view: &View) -> Result<Record> {
     let scale = peak * view.frame.acceleration();
-    let samples = (0..=STEPS).map(|k| scale * numbers.shape(k as f64 * numbers.time_step));
+    let samples = (0..=RUN_STEPS).map(|k| scale * numbers.shape(k as f64 * numbers.time_step));
     Record::new(numbers.time_step * view.frame.time, samples.collect())
 }
 
-/// A wave over the soil, whose direction and strongest motion the view turns.
-fn wave(kind: Motion, choice: &Choice, numbers: &Numbers, view: &View) -> Result<TravellingWave> {
+/// A wave over the soil, in the direction and with the strongest motion as the view has them.
+fn wave(
+    kind: MotionPart,
+    choice: &Choice,
+    numbers: &Numbers,
+    view: &View,
+) -> Result<TravellingWave> {
     let soil = numbers.soil(view);
     let in_plan = choice.space == Space::Plan;
     let azimuth = if in_plan { numbers.azimuth } else { 0.0 };
     let direction = [azimuth.cos(), azimuth.sin(), 0.0];
-    let reach = -0.5 * numbers.sides[0].hypot(if in_plan { numbers.sides[1] } else { 0.0 });
-    let first = view.place([reach * direction[0], reach * direction[1]]);
-    let [x, y, _] = view.vector(direction);
-    let forward = in_plan || x > 0.0;
-    let origin = if in_plan { x * first[0] + y * first[1] } else { first[0] };
-    let turn = |wave: PlaneWave| if forward { wave } else { wave.reversed() };
-    let sign = if forward { 1.0 } else { -1.0 };
-    let record = |peak: f64| record(numbers, peak, view);
+    let distance = -0.5 * numbers.sides[0].hypot(if in_plan { numbers.sides[1] } else { 0.0 });
+    let first = view.surface_point([distance * direction[0], distance * direction[1]]);
+    let direction = view.vector(direction);
+    let is_forward = in_plan || direction[0] > 0.0;
+    let origin = if in_plan { direction[0] * first[0] + direction[1] * first[1] } else { first[0] };
     let angle = numbers.angle;
-    let wave = match kind {
-        Motion::Pressure => turn(PlaneWave::p(soil, angle)?)
-            .field_from_vertical(&record(numbers.peaks[2])?, origin)?,
-        Motion::Across => {
-            // The mirror image of a motion to the left of the way is one to the right.
-            let peak = view.frame.sign() * numbers.peaks[0];
-            turn(PlaneWave::sh(soil, angle)?).field_from_across(&record(peak)?, origin)?
-        }
-        _ => turn(PlaneWave::sv(soil, angle)?)
-            .field_from_horizontal(&record(sign * numbers.peaks[0])?, origin)?,
+    let mut plane_wave = match kind {
+        MotionPart::Pressure => PlaneWave::p(soil, angle)?,
+        MotionPart::Across => PlaneWave::sh(soil, angle)?,
+        _ => PlaneWave::sv(soil, angle)?,
     };
-    if in_plan { wave.with_azimuth(y.atan2(x)) } else { Ok(wave) }
+    if !is_forward {
+        plane_wave = plane_wave.reversed();
+    }
+    let wave = match kind {
+        MotionPart::Pressure => {
+            plane_wave.field_from_vertical(&record(numbers, numbers.peaks[2], view)?, origin)?
+        }
+        MotionPart::Across => {
+            // The mirror image of a motion to the left of the direction is one to the right.
+            let peak = view.frame.sign() * numbers.peaks[0];
+            plane_wave.field_from_across(&record(numbers, peak, view)?, origin)?
+        }
+        _ => {
+            let peak = if is_forward { numbers.peaks[0] } else { -numbers.peaks[0] };
+            plane_wave.field_from_horizontal(&record(numbers, peak, view)?, origin)?
+        }
+    };
+    if in_plan { wave.with_azimuth(direction[1].atan2(direction[0])) } else { Ok(wave) }
 }
 
 /// Pulse of displacements along x (m) at a time, in SI units.
@@ -190,36 +206,43 @@ pub(crate) fn motion(
     let record = |peak: f64| record(numbers, peak, view);
     let along = frame.sign() * numbers.peaks[0];
     Ok(match choice.motion {
-        Motion::Record => Box::new(record(along)?),
-        Motion::Vertical => Box::new(VerticalIncidence {
+        MotionPart::Record => Box::new(record(along)?),
+        MotionPart::Vertical => Box::new(VerticalIncidence {
             horizontal: Some(record(along)?),
             vertical: Some(record(numbers.peaks[2])?),
         }),
-        Motion::Function => {
+        MotionPart::Function => {
             let numbers = *numbers;
-            let at = move |time: f64| frame.length * displacement(&numbers, time / frame.time);
-            Box::new(FreeFieldFn::new(move |_, time| [frame.sign() * at(time), 0.3 * at(time)]))
+            Box::new(FreeFieldFn::new(move |_, time| {
+                let u = frame.length * displacement(&numbers, time / frame.time);
+                [frame.sign() * u, 0.3 * u]
+            }))
         }
-        Motion::Pulse => {
+        MotionPart::Pulse => {
             let duration = numbers.duration() * frame.time;
             let rate = 14.0 / numbers.duration();
             let amplitude = frame.sign() * numbers.peaks[0] / (6.0 * rate * rate) * frame.length;
             Box::new(RickerDisplacement::new(amplitude, duration / 14.0, 0.4 * duration)?)
         }
-        Motion::Inclined | Motion::Pressure | Motion::Across => {
+        MotionPart::Inclined | MotionPart::Pressure | MotionPart::Across => {
             Box::new(wave(choice.motion, choice, numbers, view)?)
         }
-        Motion::Triaxial => {
-            let mut records = [None, None];
+        MotionPart::Triaxial => {
+            let up = Some(record(numbers.peaks[2])?);
+            let mut motion = Triaxial { x: None, y: None, up };
             for axis in 0..2 {
-                let (to, sign) = turned(view, axis);
-                records[to] = Some(record(sign * numbers.peaks[axis])?);
+                let (axis_in_view, sign) = axis_in_view(view, axis);
+                let record = Some(record(sign * numbers.peaks[axis])?);
+                if axis_in_view == 0 {
+                    motion.x = record;
+                } else {
+                    motion.y = record;
+                }
             }
-            let [x, y] = records;
-            Box::new(Triaxial { x, y, up: Some(record(numbers.peaks[2])?) })
+            Box::new(motion)
         }
-        Motion::Loads => Box::new(AtRest),
-        Motion::Below => {
+        MotionPart::Loads => Box::new(AtRest),
+        MotionPart::Below => {
             let ground = trench_ground(choice, numbers, view)?;
             // Waves reach the base before the surface.
             let travel = trench_depth(numbers) / (numbers.modulus / SOIL_DENSITY).sqrt();
@@ -227,9 +250,9 @@ pub(crate) fn motion(
             let surface = VerticalIncidence { horizontal, vertical: None };
             Box::new(TrenchMotion::new(&ground, surface, &mut unobserved)?)
         }
-        Motion::BelowInclined => {
+        MotionPart::BelowInclined => {
             let ground = trench_ground(choice, numbers, view)?;
-            let wave = wave(Motion::Inclined, choice, numbers, view)?;
+            let wave = wave(MotionPart::Inclined, choice, numbers, view)?;
             Box::new(TrenchMotion::travelling(&ground, &wave, &mut unobserved)?)
         }
     })

@@ -7,7 +7,7 @@ use basemat_problems::scenes::GRAVITY;
 use super::view::View;
 
 /// Steps of a run.
-pub(crate) const STEPS: usize = 40;
+pub(crate) const RUN_STEPS: usize = 40;
 /// Density of the soil, kg/m³.
 pub(crate) const SOIL_DENSITY: f64 = 1900.0;
 
@@ -47,8 +47,7 @@ impl Numbers {
         let modulus = random.log_within(2e7, 2e8);
         let poisson = random.within(0.1, 0.45);
         let speed = (modulus / SOIL_DENSITY).sqrt();
-        let mut eccentricity = || random.within(0.02, 0.08);
-        let eccentricity = [eccentricity(), eccentricity()];
+        let eccentricity = [random.within(0.02, 0.08), random.within(0.02, 0.08)];
         let strength = GRAVITY * random.log_within(0.1, 0.8);
         Self {
             sides,
@@ -86,10 +85,10 @@ impl Numbers {
     }
 
     pub(crate) fn duration(&self) -> f64 {
-        STEPS as f64 * self.time_step
+        RUN_STEPS as f64 * self.time_step
     }
 
-    /// Acceleration of a peak of one at a time (s): waves that grow and fade.
+    /// Acceleration at a time (s), relative to its peak: waves that grow and fade.
     pub(crate) fn shape(&self, time: f64) -> f64 {
         let phase = (time / self.duration()).clamp(0.0, 1.0);
         let window = (std::f64::consts::PI * phase).sin().powi(2);

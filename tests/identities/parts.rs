@@ -13,7 +13,7 @@ pub(crate) enum Space {
 
 use Space::{Plan, Plane, Trench};
 
-/// Declares the parts of a kind: name, word, where it is at home, and the library's types that it is made of.
+/// Declares the parts of a kind: name, word, spaces in which it exists, and the library's types that it uses.
 macro_rules! parts {
     ($(#[$doc:meta])* $kind:ident {
         $($part:ident, $word:literal, [$($space:ident),+], [$($type:literal),*];)+
@@ -25,7 +25,7 @@ macro_rules! parts {
         }
 
         impl $kind {
-            pub(crate) const ALL: &[Self] = &[$(Self::$part),+];
+            pub(crate) const ALL_PARTS: &[Self] = &[$(Self::$part),+];
 
             pub(crate) fn word(self) -> &'static str {
                 match self { $(Self::$part => $word,)+ }
@@ -44,7 +44,7 @@ macro_rules! parts {
 
 parts! {
     /// Grounds.
-    Ground {
+    GroundPart {
         HalfPlane, "half-plane", [Plane, Plan], ["ElasticGround"];
         Layers, "layers", [Plane, Plan, Trench], ["ElasticGround", "WeightsGround"];
         Springs, "springs", [Plane, Plan], ["SpringGround"];
@@ -54,7 +54,7 @@ parts! {
 
 parts! {
     /// Structures.
-    Body {
+    BodyPart {
         Block, "block", [Plane, Trench], ["RigidBlock", "WithWalls"];
         Storeys, "storeys", [Plane, Trench], ["ShearBuilding"];
         Slender, "storeys with P–Δ", [Plane], ["ShearBuilding"];
@@ -79,7 +79,7 @@ parts! {
 
 parts! {
     /// Laws between base and ground.
-    Law {
+    LawPart {
         Bonded, "bonded", [Plane, Plan, Trench], ["Bonded"];
         Friction, "Coulomb", [Plane, Plan, Trench], ["Coulomb"];
         Tension, "Coulomb with tension", [Plane, Plan], ["Coulomb"];
@@ -93,7 +93,7 @@ parts! {
 
 parts! {
     /// Motions of the ground, and loads.
-    Motion {
+    MotionPart {
         Record, "record", [Plane], ["Record"];
         Vertical, "vertical waves", [Plane], ["VerticalIncidence"];
         Function, "function", [Plane], ["FreeFieldFn"];
@@ -110,7 +110,7 @@ parts! {
 
 parts! {
     /// Time schemes.
-    Scheme {
+    SchemePart {
         Midpoint, "midpoint", [Plane, Plan, Trench], ["Midpoint"];
         Theta, "theta", [Plane, Plan, Trench], ["Theta"];
         Dissipative, "dissipative", [Plane, Plan, Trench], ["DissipativeMidpoint"];
@@ -121,15 +121,15 @@ parts! {
 
 parts! {
     /// Coordinates of the structure.
-    Coordinate {
+    CoordinatePart {
         Physical, "physical", [Plane, Plan, Trench], [];
         Modes, "modal", [Plane, Plan, Trench], [];
         Reduced, "reduced", [Plane, Plan, Trench], [];
     }
 }
 
-impl Body {
-    /// Whether a structure must keep its degrees of freedom.
+impl BodyPart {
+    /// Whether a structure needs its physical degrees of freedom.
     pub(crate) fn is_nonlinear(self) -> bool {
         matches!(self, Self::Hysteretic | Self::Sprung)
     }
@@ -164,38 +164,39 @@ impl Body {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Choice {
     pub(crate) space: Space,
-    pub(crate) ground: Ground,
-    pub(crate) body: Body,
-    pub(crate) law: Law,
-    pub(crate) motion: Motion,
-    pub(crate) scheme: Scheme,
-    pub(crate) coordinate: Coordinate,
+    pub(crate) ground: GroundPart,
+    pub(crate) body: BodyPart,
+    pub(crate) law: LawPart,
+    pub(crate) motion: MotionPart,
+    pub(crate) scheme: SchemePart,
+    pub(crate) coordinate: CoordinatePart,
     pub(crate) seed: u64,
 }
 
 /// One of the parts that fit.
 macro_rules! any {
     ($random:ident, $space:ident, $kind:ident) => {{
-        let all: Vec<$kind> = $kind::ALL.iter().copied().filter(|part| part.fits($space)).collect();
-        $random.pick(&all)
+        let parts: Vec<$kind> =
+            $kind::ALL_PARTS.iter().copied().filter(|part| part.fits($space)).collect();
+        $random.pick(&parts)
     }};
 }
 
 impl Choice {
     fn draw(random: &mut Random, space: Space) -> Self {
-        let body = any!(random, space, Body);
+        let body = any!(random, space, BodyPart);
         let coordinate = if body.couples_modes() {
-            Coordinate::Physical
+            CoordinatePart::Physical
         } else {
-            any!(random, space, Coordinate)
+            any!(random, space, CoordinatePart)
         };
         Self {
             space,
-            ground: any!(random, space, Ground),
+            ground: any!(random, space, GroundPart),
             body,
-            law: any!(random, space, Law),
-            motion: any!(random, space, Motion),
-            scheme: any!(random, space, Scheme),
+            law: any!(random, space, LawPart),
+            motion: any!(random, space, MotionPart),
+            scheme: any!(random, space, SchemePart),
             coordinate,
             seed: random.bits(),
         }
@@ -227,8 +228,8 @@ impl Choice {
     }
 }
 
-/// Candidates of which the one with the most new pairs is taken.
-const CANDIDATES: usize = 60;
+/// Random candidates for each scene; the one with the most new pairs is chosen.
+const CANDIDATE_COUNT: usize = 60;
 
 /// `count` scenes in a space that cover as many pairs of parts as they can.
 pub(crate) fn covering(space: Space, seed: u64, count: usize) -> Vec<Choice> {
@@ -236,10 +237,11 @@ pub(crate) fn covering(space: Space, seed: u64, count: usize) -> Vec<Choice> {
     let mut covered: Vec<[&'static str; 2]> = Vec::new();
     let mut chosen = Vec::new();
     for _ in 0..count {
-        let candidates = (0..CANDIDATES).map(|_| Choice::draw(&mut random, space));
-        let new =
-            |choice: &Choice| choice.pairs().iter().filter(|pair| !covered.contains(pair)).count();
-        let Some(best) = candidates.max_by_key(new) else { break };
+        let candidates = (0..CANDIDATE_COUNT).map(|_| Choice::draw(&mut random, space));
+        let best = candidates.max_by_key(|choice| {
+            choice.pairs().iter().filter(|pair| !covered.contains(pair)).count()
+        });
+        let Some(best) = best else { break };
         covered.extend(best.pairs());
         chosen.push(best);
     }

@@ -1,25 +1,28 @@
-//! Rigid motions meet no force: in stiffness matrices, with P–Δ where the motion leaves the columns upright, reduced, and
-//! of meshes from Gmsh.
+//! GOAL: rigid motions cause no force.
+//! SCENE: random models in space, all structures of the table, reduced models and a mesh from Gmsh; with P–Δ the motions
+//! that leave columns upright.
+//! REFERENCE: zero force; the number of zero eigenvalues.
 
 use basemat::fem::{BeamSection, Direction, Material};
 use basemat::io::{GmshPart, GmshSpaceMesh};
 use basemat::structure::{CraigBampton, FemModel, Structure};
-use basemat_problems::dense::{eigenpairs, product, stiffness};
+use basemat_problems::dense::{eigenpairs, largest, product, stiffness};
 use basemat_problems::directions::IN_SPACE;
 use basemat_problems::random::Random;
 
 use super::blueprint::{Blueprint, Piece};
+use super::models::brick_points;
 use super::numbers::Numbers;
-use super::parts::{Body, Choice, Space, covering};
+use super::parts::{BodyPart, Choice, Space, covering};
 use super::structures;
-use super::tally::{Tally, scenes};
-use super::view::PLAIN;
+use super::tally::{IdentityTally, scenes};
+use super::view::PLAIN_VIEW;
 
-/// Rounding of a force, of the sum of its parts' magnitudes.
-const ROUNDING: f64 = 1e-12;
+/// Rounding of a force, relative to the sum of magnitudes of its terms.
+const FORCE_ROUNDING: f64 = 1e-12;
 
-/// Largest force by a motion, of the sum of magnitudes from which it is computed.
-fn force(structure: &dyn Structure, motion: &[f64]) -> f64 {
+/// Largest force by a motion, relative to the largest sum of magnitudes of its terms.
+fn relative_force(structure: &dyn Structure, motion: &[f64]) -> f64 {
     let mut matrix = basemat::structure::Triplets::new(structure.dofs());
     structure.stiffness(&mut matrix).unwrap();
     let forces = product(&matrix, motion);
@@ -27,19 +30,17 @@ fn force(structure: &dyn Structure, motion: &[f64]) -> f64 {
     for &(row, column, value) in matrix.entries() {
         magnitudes[row] += (value * motion[column]).abs();
     }
-    let scale = magnitudes.iter().fold(0.0, |scale: f64, value| scale.max(*value));
-    forces.iter().fold(0.0, |largest: f64, value| largest.max(value.abs())) / scale
+    largest(&forces) / largest(&magnitudes)
 }
 
-/// A raft with random columns, braces, walls and bricks, leaning and with masses anywhere.
+/// A raft with random columns, braces, walls and bricks, leaning and with random masses.
 fn building(random: &mut Random) -> Blueprint {
     let mut plan = Blueprint::new(true, 30e9, 2500.0);
     let sides = [random.within(6.0, 14.0), random.within(5.0, 10.0)];
     let height = random.within(4.0, 15.0);
     let below = plan.grid(sides, [2, 2], 0.0);
     let above = plan.grid(sides, [2, 2], height);
-    let cells = |rows: &[Vec<usize>]| Blueprint::cells(rows);
-    for corners in cells(&below) {
+    for corners in Blueprint::cells(&below) {
         plan.pieces.push(Piece::Shell(corners.to_vec(), 1.0));
     }
     for node in above.iter().flatten() {
@@ -81,9 +82,8 @@ fn building(random: &mut Random) -> Blueprint {
         plan.pieces.push(Piece::Shell(wall, 0.2));
     }
     if random.chance(0.3) {
-        let [a, b, c, d] = cells(&below)[3];
-        let [e, f, g, h] = cells(&above)[3];
-        plan.pieces.push(Piece::Brick([a, b, c, d, e, f, g, h]));
+        let points = brick_points(Blueprint::cells(&below)[3], Blueprint::cells(&above)[3]);
+        plan.pieces.push(Piece::Brick(points));
     }
     if random.chance(0.3) {
         let leader = above[1][1];
@@ -93,21 +93,22 @@ fn building(random: &mut Random) -> Blueprint {
     plan
 }
 
-/// Motions that leave a structure with P–Δ in equilibrium.
-fn upright(direction: Direction) -> bool {
-    !matches!(direction, Direction::RotationX | Direction::RotationY)
+/// Whether a motion causes no force: with P–Δ, whether it leaves columns upright.
+fn is_free(direction: Direction, has_p_delta: bool) -> bool {
+    !has_p_delta || !matches!(direction, Direction::RotationX | Direction::RotationY)
 }
 
+/// GOAL: rigid motions of random models in space cause no force.
 #[test]
 fn models_in_space_turn_freely() {
-    let mut tally = Tally::new("rigid motions: models in space");
+    let mut tally = IdentityTally::new("rigid motions: models in space");
     let mut random = Random(731);
     for number in 0..scenes(20, 400) {
         let mut plan = building(&mut random);
         plan.p_delta = number % 2 == 1;
         let name = if plan.p_delta { "with P–Δ" } else { "without P–Δ" };
         tally.scene(&["shells and beams", name]);
-        let model = match plan.model(&PLAIN) {
+        let model = match plan.model(&PLAIN_VIEW) {
             Ok(model) => model,
             Err(error) => {
                 tally.refuse(format!("{number}: {error}"));
@@ -115,16 +116,18 @@ fn models_in_space_turn_freely() {
             }
         };
         let middle = [random.within(-5.0, 5.0), random.within(-5.0, 5.0), 0.0];
-        for direction in IN_SPACE.into_iter().filter(|own| !plan.p_delta || upright(*own)) {
-            let value = force(&model, &model.rigid_motion(direction, middle));
-            tally.within(&format!("{number}: {direction:?} {name}"), value, ROUNDING);
+        for direction in IN_SPACE {
+            if is_free(direction, plan.p_delta) {
+                let force = relative_force(&model, &model.rigid_motion(direction, middle));
+                tally.within(&format!("{number}: {direction:?} {name}"), force, FORCE_ROUNDING);
+            }
         }
     }
     tally.close(0.8);
 }
 
-/// Number of motions without force, by the eigenvalues of the matrix scaled to a diagonal of one.
-fn free_motions(structure: &dyn Structure) -> usize {
+/// Number of motions without force, by the eigenvalues of the matrix scaled to a unit diagonal.
+fn free_motion_count(structure: &dyn Structure) -> usize {
     let mut matrix = stiffness(structure);
     let largest = (0..matrix.len()).fold(0.0, |largest: f64, k| largest.max(matrix[k][k]));
     if largest == 0.0 {
@@ -138,66 +141,68 @@ fn free_motions(structure: &dyn Structure) -> usize {
             *value /= scales[i] * scales[j];
         }
     }
-    let (values, _) = eigenpairs(&matrix);
-    values.iter().filter(|value| value.abs() < 1e-11).count()
+    eigenpairs(&matrix).0.iter().filter(|value| value.abs() < 1e-11).count()
 }
 
-/// All structures of the table have three rigid motions in the plane and six in space, and with P–Δ those that leave
-/// columns upright.
+/// GOAL: all structures have three rigid motions in the plane and six in space; with P–Δ those that leave columns upright.
 #[test]
 fn every_structure_has_all_rigid_motions() {
-    let mut tally = Tally::new("rigid motions: all structures");
+    let mut tally = IdentityTally::new("rigid motions: all structures");
     for space in [Space::Plane, Space::Plan] {
         for choice in bodies(space) {
             tally.scene(&[choice.body.word()]);
             let numbers = Numbers::draw(choice.seed);
-            let structure = structures::structure(&choice, &numbers, &PLAIN).unwrap().structure;
-            let slender =
-                matches!(choice.body, Body::Slender | Body::SlenderFloors | Body::SlenderFrame);
-            let needed = match (space, slender) {
+            let structure =
+                structures::structure(&choice, &numbers, &PLAIN_VIEW).unwrap().structure;
+            let has_p_delta = matches!(
+                choice.body,
+                BodyPart::Slender | BodyPart::SlenderFloors | BodyPart::SlenderFrame
+            );
+            let expected = match (space, has_p_delta) {
                 (Space::Plan, false) => 6,
                 (Space::Plan, true) => 4,
-                (_, false) if choice.body == Body::Pair => 6,
+                (_, false) if choice.body == BodyPart::Pair => 6,
                 (_, false) => 3,
                 (_, true) => 2,
             };
             if choice.body.is_nonlinear() {
                 continue;
             }
-            let found = free_motions(structure.as_ref());
-            if found != needed {
-                tally.fail(format!("{}: {found} rigid motions, not {needed}", choice.name()));
+            let count = free_motion_count(structure.as_ref());
+            if count != expected {
+                tally.fail(format!("{}: {count} rigid motions, not {expected}", choice.name()));
             }
         }
     }
     tally.close(1.0);
 }
 
-/// A choice of each structure.
+/// A few choices of each structure.
 fn bodies(space: Space) -> Vec<Choice> {
     let mut chosen: Vec<Choice> = Vec::new();
     for choice in covering(space, 77, 120) {
-        if chosen.iter().filter(|own| own.body == choice.body).count() < scenes(2, 8) {
+        if chosen.iter().filter(|other| other.body == choice.body).count() < scenes(2, 8) {
             chosen.push(choice);
         }
     }
     chosen
 }
 
+/// GOAL: reduced models keep six rigid motions.
 #[test]
 fn reduced_models_keep_them() {
-    let mut tally = Tally::new("rigid motions: reduced models");
+    let mut tally = IdentityTally::new("rigid motions: reduced models");
     let mut random = Random(733);
     for number in 0..scenes(6, 60) {
         let mut plan = building(&mut random);
         plan.link = None;
         tally.scene(&["reduced model", "shells and beams"]);
-        let model = plan.model(&PLAIN).unwrap();
+        let model = plan.model(&PLAIN_VIEW).unwrap();
         match CraigBampton::new(4).reduce(model) {
             Ok(reduced) => {
-                let found = free_motions(&reduced);
-                if found != 6 {
-                    tally.fail(format!("{number}: {found} rigid motions, not 6"));
+                let count = free_motion_count(&reduced);
+                if count != 6 {
+                    tally.fail(format!("{number}: {count} rigid motions, not 6"));
                 }
             }
             Err(error) => tally.refuse(format!("{number}: {error}")),
@@ -206,9 +211,10 @@ fn reduced_models_keep_them() {
     tally.close(0.8);
 }
 
+/// GOAL: rigid motions of a mesh from Gmsh cause no force.
 #[test]
 fn meshes_from_gmsh_turn_freely() {
-    let mut tally = Tally::new("rigid motions: meshes from Gmsh");
+    let mut tally = IdentityTally::new("rigid motions: meshes from Gmsh");
     let concrete = Material::new(30.0e9, 0.2, 2500.0).unwrap();
     let section = BeamSection::new(0.2, [0.002, 0.004], 0.003).unwrap();
     let parts = [
@@ -223,9 +229,12 @@ fn meshes_from_gmsh_turn_freely() {
         let base = file.cells(2, "base").unwrap();
         let model = FemModel::on_faces(file.mesh(&parts).unwrap(), &base).unwrap();
         let model = if p_delta { model.with_p_delta(9.81).unwrap() } else { model };
-        for direction in IN_SPACE.into_iter().filter(|own| !p_delta || upright(*own)) {
-            let value = force(&model, &model.rigid_motion(direction, [1.0, -2.0, 0.5]));
-            tally.within(&format!("{direction:?}, P–Δ {p_delta}"), value, ROUNDING);
+        for direction in IN_SPACE {
+            if is_free(direction, p_delta) {
+                let force =
+                    relative_force(&model, &model.rigid_motion(direction, [1.0, -2.0, 0.5]));
+                tally.within(&format!("{direction:?}, P–Δ {p_delta}"), force, FORCE_ROUNDING);
+            }
         }
     }
     tally.close(1.0);

@@ -5,37 +5,37 @@ use basemat::coupled::{
     SimulationBuilder, State, Theta,
 };
 use basemat::{Error, Result, Simulation};
+use basemat_problems::dense::largest;
 use basemat_problems::scenes::GRAVITY;
 
 use super::grounds;
-use super::numbers::{Numbers, STEPS};
-use super::parts::{Choice, Coordinate, Motion, Scheme, Space};
-use super::structures::{self, Made};
+use super::numbers::{Numbers, RUN_STEPS};
+use super::parts::{Choice, CoordinatePart, MotionPart, SchemePart, Space};
+use super::structures::{self, ProbedStructure};
 use super::view::View;
 
 /// Tolerance of reduced structures.
-const REDUCTION: f64 = 1e-7;
-/// Limit of their responses: errors of the reduction add up over a run, and contact amplifies them.
-pub(crate) const REDUCED_LIMIT: f64 = 1e3 * REDUCTION;
+const REDUCTION_TOLERANCE: f64 = 1e-7;
+/// Limit of their responses: errors of the reduction accumulate over a run, and contact amplifies them.
+pub(crate) const REDUCED_LIMIT: f64 = 1e3 * REDUCTION_TOLERANCE;
 
-/// Ways to write a scene with parts in place of the usual ones.
+/// A scene as usual, or with other parts, coordinates or time steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Writing {
+pub(crate) enum SceneVariant {
     Usual,
-    /// Shaking, soil and friction that differ by so many times 1e-10: how much the scene amplifies.
-    Nearly([f64; 3]),
+    /// Shaking, soil and friction increased by these multiples of 1e-10.
+    Perturbed([f64; 3]),
     /// Structure, law and ground behind traits that a user implements.
     ByUser,
-    In(Coordinate),
+    InCoordinates(CoordinatePart),
     /// Time steps divided by a number.
     Divided(usize),
-    /// Time steps so many times as long.
+    /// Time steps longer by a factor.
     Longer(usize),
 }
 
-impl Writing {
-    /// Factor of the time step.
-    fn of_step(self) -> f64 {
+impl SceneVariant {
+    fn time_step_factor(self) -> f64 {
         match self {
             Self::Divided(parts) => 1.0 / parts as f64,
             Self::Longer(factor) => factor as f64,
@@ -46,23 +46,27 @@ impl Writing {
     /// Steps over the motion.
     fn steps(self) -> usize {
         match self {
-            Self::Divided(parts) => STEPS * parts,
-            Self::Longer(factor) => STEPS.div_ceil(factor),
-            _ => STEPS,
+            Self::Divided(parts) => RUN_STEPS * parts,
+            Self::Longer(factor) => RUN_STEPS.div_ceil(factor),
+            _ => RUN_STEPS,
         }
     }
 }
 
 /// The builder of a choice in a view, without its coordinates' part.
-pub(crate) fn builder(choice: &Choice, view: &View, writing: Writing) -> Result<SimulationBuilder> {
+pub(crate) fn builder(
+    choice: &Choice,
+    view: &View,
+    variant: SceneVariant,
+) -> Result<SimulationBuilder> {
     let mut numbers = Numbers::draw(choice.seed);
-    if let Writing::Nearly([shaking, modulus, friction]) = writing {
+    if let SceneVariant::Perturbed([shaking, modulus, friction]) = variant {
         numbers.peaks = numbers.peaks.map(|peak| peak * (1.0 + 1e-10 * shaking));
         numbers.modulus *= 1.0 + 1e-10 * modulus;
         numbers.friction *= 1.0 + 1e-10 * friction;
     }
     let made = structures::structure(choice, &numbers, view)?;
-    builder_with(choice, &numbers, view, writing, made)
+    builder_with(choice, &numbers, view, variant, made)
 }
 
 /// The builder of a choice on a structure of these numbers.
@@ -70,21 +74,22 @@ pub(crate) fn builder_with(
     choice: &Choice,
     numbers: &Numbers,
     view: &View,
-    writing: Writing,
-    Made { structure, top }: Made,
+    variant: SceneVariant,
+    ProbedStructure { structure, top }: ProbedStructure,
 ) -> Result<SimulationBuilder> {
     let ground = grounds::ground(choice, numbers, structure.as_ref(), view)?;
     let law = grounds::law(choice.law, numbers, view)?;
     let frame = view.frame;
-    let mut builder = Simulation::builder(writing.of_step() * numbers.time_step * frame.time)
+    let time_step = variant.time_step_factor() * numbers.time_step * frame.time;
+    let mut builder = Simulation::builder(time_step)
         .gravity(GRAVITY * frame.acceleration())
         .motion(grounds::motion(choice, numbers, view)?)
-        .expected_steps(writing.steps());
-    builder = if writing == Writing::ByUser {
+        .expected_steps(variant.steps());
+    builder = if variant == SceneVariant::ByUser {
         builder
-            .ground(super::user::Ground(ground))
-            .structure(super::user::Structure(structure))
-            .interface(super::user::Law(law))
+            .ground(super::user::UserGround(ground))
+            .structure(super::user::UserStructure(structure))
+            .interface(super::user::UserLaw(law))
     } else {
         builder.ground(ground).structure(structure).interface(law)
     };
@@ -93,30 +98,30 @@ pub(crate) fn builder_with(
             builder = builder.probe(Probe::displacement(name, row.clone()));
         }
     }
-    if choice.motion == Motion::Loads {
+    if choice.motion == MotionPart::Loads {
         for load in loads(choice, numbers, view, &top) {
             builder = builder.load(load);
         }
     }
-    let coordinate = match writing {
-        Writing::In(coordinate) => coordinate,
+    let coordinate = match variant {
+        SceneVariant::InCoordinates(coordinate) => coordinate,
         _ => choice.coordinate,
     };
     builder = builder.coordinates(match coordinate {
-        Coordinate::Physical => Coordinates::Physical,
-        Coordinate::Modes => Coordinates::Modes,
-        Coordinate::Reduced => Coordinates::Reduced { tolerance: REDUCTION },
+        CoordinatePart::Physical => Coordinates::Physical,
+        CoordinatePart::Modes => Coordinates::Modes,
+        CoordinatePart::Reduced => Coordinates::Reduced { tolerance: REDUCTION_TOLERANCE },
     });
     Ok(match choice.scheme {
-        Scheme::Midpoint => builder.scheme(Midpoint),
-        Scheme::Theta => builder.scheme(Theta::new(0.7)?),
-        Scheme::Dissipative => builder.scheme(DissipativeMidpoint::new(0.7)?),
-        Scheme::Newmark => builder.scheme(Newmark::new(0.6, 0.35)?),
-        Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
+        SchemePart::Midpoint => builder.scheme(Midpoint),
+        SchemePart::Theta => builder.scheme(Theta::new(0.7)?),
+        SchemePart::Dissipative => builder.scheme(DissipativeMidpoint::new(0.7)?),
+        SchemePart::Newmark => builder.scheme(Newmark::new(0.6, 0.35)?),
+        SchemePart::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
     })
 }
 
-/// Forces on the top along x and y that begin in the static state and swing.
+/// Forces on the top along x and y that act in the static state and then vary.
 fn loads(
     choice: &Choice,
     numbers: &Numbers,
@@ -141,18 +146,24 @@ fn loads(
 }
 
 /// Groups of numbers of a step: forces, moments, rotations, displacements of the top, energies.
-const GROUPS: [&str; 5] = ["forces", "moments", "rotations", "top", "energies"];
+const RESPONSE_GROUPS: [&str; 5] = ["forces", "moments", "rotations", "top", "energies"];
+
+/// Largest difference of two responses, relative to the largest number of its group.
+pub(crate) struct GroupDifference {
+    pub(crate) value: f64,
+    pub(crate) group: &'static str,
+}
 
 /// Numbers of all steps in SI units along the axes of the scene, by group.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Response {
-    groups: [Vec<f64>; GROUPS.len()],
-    /// Length over the largest displacement of the top, for rotations and moments.
+pub(crate) struct SceneResponse {
+    groups: [Vec<f64>; RESPONSE_GROUPS.len()],
+    /// Length that relates moments to forces and rotations to displacements.
     length: f64,
     pub(crate) steps: usize,
 }
 
-impl Response {
+impl SceneResponse {
     fn add(&mut self, choice: &Choice, view: &View, state: &State) {
         let in_plan = choice.space == Space::Plan;
         let frame = view.frame;
@@ -160,10 +171,10 @@ impl Response {
         let force = 1.0 / (frame.pressure() * frame.length * depth);
         let moment = force / frame.length;
         for foundation in foundations(view, state) {
-            let push = view.vector_back(foundation.force_vector_in_space(in_plan));
-            self.groups[0].extend(push.map(|part| part * force));
-            let turn = view.axial_back(foundation.moment_in_space(in_plan));
-            self.groups[1].extend(turn.map(|part| part * moment));
+            let force_vector = view.vector_back(foundation.force_in_space(in_plan));
+            self.groups[0].extend(force_vector.map(|part| part * force));
+            let moment_vector = view.axial_back(foundation.moment_in_space(in_plan));
+            self.groups[1].extend(moment_vector.map(|part| part * moment));
             let rotation = view.axial_back(foundation.rotation_in_space(in_plan));
             self.groups[2].extend(rotation);
         }
@@ -177,23 +188,25 @@ impl Response {
     }
 
     fn largest(&self, group: usize) -> f64 {
-        self.groups[group].iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+        largest(&self.groups[group])
     }
 
     /// Largest difference of any group, relative to the group's largest number.
     ///
     /// Moments are relative to forces times the length too, and rotations to displacements over it.
-    pub(crate) fn apart(&self, other: &Self) -> (f64, &'static str) {
-        self.apart_in(other, &GROUPS)
+    pub(crate) fn difference(&self, other: &Self) -> GroupDifference {
+        self.difference_in(other, &RESPONSE_GROUPS)
     }
 
-    /// As [`Response::apart`], of some groups.
-    pub(crate) fn apart_in(&self, other: &Self, groups: &[&str]) -> (f64, &'static str) {
-        let mut worst = (0.0, "");
+    /// As [`SceneResponse::difference`], of some groups.
+    pub(crate) fn difference_in(&self, other: &Self, groups: &[&str]) -> GroupDifference {
         if self.steps != other.steps {
-            return (f64::INFINITY, "numbers of steps");
+            return GroupDifference { value: f64::INFINITY, group: "numbers of steps" };
         }
-        for (group, name) in GROUPS.iter().enumerate().filter(|(_, name)| groups.contains(name)) {
+        let mut largest = GroupDifference { value: 0.0, group: "" };
+        for (group, name) in
+            RESPONSE_GROUPS.iter().enumerate().filter(|(_, name)| groups.contains(name))
+        {
             let scale = match group {
                 1 => self.largest(1).max(self.length * self.largest(0)),
                 2 => self.largest(2).max(self.largest(3) / self.length),
@@ -204,20 +217,20 @@ impl Response {
                 let difference = (a - b).abs();
                 if difference.is_nan() { f64::NAN } else { largest.max(difference) }
             });
-            let part = if difference == 0.0 { 0.0 } else { difference / scale };
-            if part.is_nan() || part > worst.0 {
-                worst = (part, *name);
+            let value = if difference == 0.0 { 0.0 } else { difference / scale };
+            if value.is_nan() || value > largest.value {
+                largest = GroupDifference { value, group: name };
             }
         }
-        worst
+        largest
     }
 }
 
 /// Vectors of a foundation along x, y and up, also in the plane.
-struct Turned<'a>(&'a basemat::coupled::Foundation);
+struct FoundationVectors<'a>(&'a basemat::coupled::Foundation);
 
-impl Turned<'_> {
-    fn force_vector_in_space(&self, in_plan: bool) -> [f64; 3] {
+impl FoundationVectors<'_> {
+    fn force_in_space(&self, in_plan: bool) -> [f64; 3] {
         if in_plan { self.0.force_vector() } else { [self.0.base_shear, 0.0, -self.0.normal_force] }
     }
 
@@ -232,17 +245,17 @@ impl Turned<'_> {
 }
 
 /// Foundations in the order of the scene: a mirror exchanges left and right.
-fn foundations<'a>(view: &View, state: &'a State) -> Vec<Turned<'a>> {
-    let mut all: Vec<_> = state.foundations.iter().map(Turned).collect();
+fn foundations<'a>(view: &View, state: &'a State) -> Vec<FoundationVectors<'a>> {
+    let mut foundations: Vec<_> = state.foundations.iter().map(FoundationVectors).collect();
     if view.frame.mirrored {
-        all.reverse();
+        foundations.reverse();
     }
-    all
+    foundations
 }
 
 /// Runs a scene to its end.
-pub(crate) fn run(choice: &Choice, view: &View, writing: Writing) -> Result<Response> {
-    run_of(choice, view, builder(choice, view, writing)?)
+pub(crate) fn run(choice: &Choice, view: &View, variant: SceneVariant) -> Result<SceneResponse> {
+    run_of(choice, view, builder(choice, view, variant)?)
 }
 
 /// Runs a choice on a structure of these numbers.
@@ -250,25 +263,29 @@ pub(crate) fn run_with(
     choice: &Choice,
     numbers: &Numbers,
     view: &View,
-    made: Made,
-) -> Result<Response> {
-    run_of(choice, view, builder_with(choice, numbers, view, Writing::Usual, made)?)
+    made: ProbedStructure,
+) -> Result<SceneResponse> {
+    run_of(choice, view, builder_with(choice, numbers, view, SceneVariant::Usual, made)?)
 }
 
 /// Runs a builder of a choice to its end.
-pub(crate) fn run_of(choice: &Choice, view: &View, builder: SimulationBuilder) -> Result<Response> {
+pub(crate) fn run_of(
+    choice: &Choice,
+    view: &View,
+    builder: SimulationBuilder,
+) -> Result<SceneResponse> {
     let mut simulation = builder.build()?;
     let mut response =
-        Response { length: Numbers::draw(choice.seed).sides[0], ..Response::default() };
+        SceneResponse { length: Numbers::draw(choice.seed).sides[0], ..SceneResponse::default() };
     response.add(choice, view, simulation.state());
-    for _ in 0..STEPS {
+    for _ in 0..RUN_STEPS {
         response.add(choice, view, simulation.step()?);
     }
     Ok(response)
 }
 
-/// Kind of an error: two writings of a scene must be refused for the same reason.
-pub(crate) fn kind(error: &Error) -> String {
+/// Name of the variant of an error.
+pub(crate) fn error_kind(error: &Error) -> String {
     let text = format!("{error:?}");
     text.split([' ', '(', '{']).next().unwrap_or_default().to_owned()
 }

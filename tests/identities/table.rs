@@ -1,12 +1,14 @@
-//! Every part of the library has a row in `parts.rs`, or a reason here why not.
+//! GOAL: every part of the library has a row in `parts.rs`, or a reason here why it has none.
+//! SCENE: all types that implement a trait of parts.
+//! REFERENCE: the sources of the library.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::parts::{Body, Coordinate, Ground, Law, Motion, Scheme};
-use super::records::FORMATS;
+use super::parts::{BodyPart, CoordinatePart, GroundPart, LawPart, MotionPart, SchemePart};
+use super::records::FORMAT_NAMES;
 
-/// Parts without a row of their own.
+/// Parts without a row, and the reason.
 const WITHOUT_ROWS: [(&str, &str); 4] = [
     (
         "FullPlaneGround",
@@ -19,7 +21,7 @@ const WITHOUT_ROWS: [(&str, &str); 4] = [
 
 /// Types for which the library's sources in a folder implement a trait.
 fn implemented(name: &str, folder: &str) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
+    let mut types = BTreeSet::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src").join(folder);
     let mut folders = vec![root];
     while let Some(folder) = folders.pop() {
@@ -29,8 +31,8 @@ fn implemented(name: &str, folder: &str) -> BTreeSet<String> {
                 folders.push(path);
                 continue;
             }
-            // Doubles of unit tests are no parts.
-            if path.file_name().is_some_and(|own| own == "tests.rs") {
+            // Types of unit tests are no parts.
+            if path.file_name().is_some_and(|file| file == "tests.rs") {
                 continue;
             }
             let text = std::fs::read_to_string(path).unwrap();
@@ -41,20 +43,21 @@ fn implemented(name: &str, folder: &str) -> BTreeSet<String> {
                 let Some((_, rest)) = line.split_once(&start) else { continue };
                 let word: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
                 if !word.is_empty() {
-                    found.insert(word);
+                    types.insert(word);
                 }
             }
         }
     }
-    found
+    types
 }
 
+/// Asserts that all types of a folder with this trait are in the rows.
 fn assert_all(name: &str, folder: &str, rows: impl IntoIterator<Item = &'static str>) {
-    let mut known: BTreeSet<String> = rows.into_iter().map(str::to_owned).collect();
-    known.extend(WITHOUT_ROWS.iter().map(|(part, _)| (*part).to_owned()));
-    let found = implemented(name, folder);
-    assert!(!found.is_empty(), "no {name} in src/{folder}");
-    let missing: Vec<_> = found.difference(&known).collect();
+    let mut listed: BTreeSet<String> = rows.into_iter().map(str::to_owned).collect();
+    listed.extend(WITHOUT_ROWS.iter().map(|(part, _)| (*part).to_owned()));
+    let types = implemented(name, folder);
+    assert!(!types.is_empty(), "no {name} in src/{folder}");
+    let missing: Vec<_> = types.difference(&listed).collect();
     assert!(
         missing.is_empty(),
         "{missing:?} of {name} in src/{folder} has no row in tests/identities/parts.rs"
@@ -64,30 +67,32 @@ fn assert_all(name: &str, folder: &str, rows: impl IntoIterator<Item = &'static 
 /// Types of all rows of a kind of part.
 macro_rules! types {
     ($kind:ident) => {
-        $kind::ALL.iter().flat_map(|part| part.types().iter().copied())
+        $kind::ALL_PARTS.iter().flat_map(|part| part.types().iter().copied())
     };
 }
 
+/// GOAL: every part of the library has a row.
 #[test]
 fn all_parts_of_the_library_have_rows() {
     for folder in ["bem", "coupled"] {
-        assert_all("Ground", folder, types!(Ground));
+        assert_all("Ground", folder, types!(GroundPart));
     }
     for folder in ["../crates/structures/src/structure", "coupled"] {
-        assert_all("Structure", folder, types!(Body));
+        assert_all("Structure", folder, types!(BodyPart));
     }
-    assert_all("Element", "../crates/structures/src/fem", types!(Body));
-    assert_all("InterfaceLaw", "interface", types!(Law));
-    assert_all("FreeField", "motion", types!(Motion));
-    assert_all("FreeField", "site", types!(Motion));
-    assert_all("TimeScheme", "coupled/scheme", types!(Scheme));
-    assert_all("RecordFormat", "../crates/records/src", FORMATS);
+    assert_all("Element", "../crates/structures/src/fem", types!(BodyPart));
+    assert_all("InterfaceLaw", "interface", types!(LawPart));
+    assert_all("FreeField", "motion", types!(MotionPart));
+    assert_all("FreeField", "site", types!(MotionPart));
+    assert_all("TimeScheme", "coupled/scheme", types!(SchemePart));
+    assert_all("RecordFormat", "../crates/records/src", FORMAT_NAMES);
 }
 
-/// No row of the table names a part that the library has not.
+/// GOAL: every part of a row exists in the library.
 #[test]
 fn rows_name_parts_of_the_library() {
-    let all = [
+    let mut existing = BTreeSet::new();
+    for (name, folder) in [
         ("Ground", "bem"),
         ("Structure", "../crates/structures/src/structure"),
         ("Element", "../crates/structures/src/fem"),
@@ -95,13 +100,13 @@ fn rows_name_parts_of_the_library() {
         ("FreeField", "motion"),
         ("FreeField", "site"),
         ("TimeScheme", "coupled/scheme"),
-    ];
-    let mut known = BTreeSet::new();
-    for (name, folder) in all {
-        known.extend(implemented(name, folder));
+    ] {
+        existing.extend(implemented(name, folder));
     }
-    let rows = types!(Ground).chain(types!(Body)).chain(types!(Law));
-    for part in rows.chain(types!(Motion)).chain(types!(Scheme)).chain(types!(Coordinate)) {
-        assert!(known.contains(part), "{part} is no part of the library");
+    let rows = types!(GroundPart).chain(types!(BodyPart)).chain(types!(LawPart));
+    for part in
+        rows.chain(types!(MotionPart)).chain(types!(SchemePart)).chain(types!(CoordinatePart))
+    {
+        assert!(existing.contains(part), "{part} is no part of the library");
     }
 }

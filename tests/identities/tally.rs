@@ -1,23 +1,26 @@
-//! What the rows of the suite covered, and all their failures.
+//! Counts of the scenes and pairs of parts that the rows of the suite covered, and all their failures.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::Mutex;
 
+use basemat::Result;
 use basemat_problems::heavy;
 
 /// Pairs of parts that any row has compared so far.
 static COVERED: Mutex<BTreeSet<[&'static str; 2]>> = Mutex::new(BTreeSet::new());
 
 /// One row of the suite: an identity with its limits.
-pub(crate) struct Tally {
+pub(crate) struct IdentityTally {
     row: &'static str,
     scenes: usize,
     /// Scenes that a builder refuses, both ways, with the reason.
     refused: Vec<String>,
     pairs: BTreeSet<[&'static str; 2]>,
-    /// Largest value over its limit, and where.
-    worst: (f64, String),
+    /// Largest value over its limit.
+    largest_ratio: f64,
+    /// Value, limit and place of the largest ratio.
+    largest_text: String,
     failures: Vec<String>,
 }
 
@@ -26,14 +29,15 @@ pub(crate) fn scenes(short: usize, long: usize) -> usize {
     if heavy() { long } else { short }
 }
 
-impl Tally {
+impl IdentityTally {
     pub(crate) fn new(row: &'static str) -> Self {
         Self {
             row,
             scenes: 0,
             refused: Vec::new(),
             pairs: BTreeSet::new(),
-            worst: (0.0, String::new()),
+            largest_ratio: 0.0,
+            largest_text: String::new(),
             failures: Vec::new(),
         }
     }
@@ -64,33 +68,51 @@ impl Tally {
         self.failures.push(text);
     }
 
+    /// Compares two results; notes a refusal of both, and fails if one alone is refused.
+    pub(crate) fn compare<T>(
+        &mut self,
+        place: &str,
+        results: [Result<T>; 2],
+        compare: impl FnOnce(&mut Self, T, T),
+    ) {
+        match results {
+            [Ok(one), Ok(other)] => compare(self, one, other),
+            [Err(error), Err(_)] => self.refuse(format!("{place}: {error}")),
+            results => {
+                let errors = results.map(|result| result.err().map(|error| error.to_string()));
+                self.fail(format!("{place}: one alone is refused, {errors:?}"));
+            }
+        }
+    }
+
     /// Fails if `value` is beyond `limit`, or NaN.
     pub(crate) fn within(&mut self, place: &str, value: f64, limit: f64) {
-        let part = value / limit;
-        if part > self.worst.0 {
-            self.worst = (part, format!("{value:.1e} of {limit:.1e}, {place}"));
+        let ratio = value / limit;
+        if ratio > self.largest_ratio {
+            self.largest_ratio = ratio;
+            self.largest_text = format!("{value:.1e} of {limit:.1e}, {place}");
         }
         if value.is_nan() || value > limit {
             self.fail(format!("{place}: {value:.3e}, allowed {limit:.1e}"));
         }
     }
 
-    /// Prints what was covered, and panics with all failures.
+    /// Prints the covered scenes and pairs, and panics with all failures.
     ///
-    /// `accepted`: smallest part of the scenes that must not be refused.
+    /// `accepted`: smallest fraction of the scenes that must be accepted.
     pub(crate) fn close(self, accepted: f64) {
-        let all = {
+        let all_pairs = {
             let mut covered = COVERED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             covered.extend(self.pairs.iter());
             covered.len()
         };
         println!(
-            "{}: {} scenes, {} refused, {} pairs of parts ({all} in all rows so far), worst {}",
+            "{}: {} scenes, {} refused, {} pairs of parts ({all_pairs} in all rows so far), largest {}",
             self.row,
             self.scenes,
             self.refused.len(),
             self.pairs.len(),
-            self.worst.1,
+            self.largest_text,
         );
         for text in &self.refused {
             println!("    refused: {text}");
@@ -101,8 +123,9 @@ impl Tally {
         }
         let failures = self.failures.len();
         assert!(failures == 0, "{}: {failures} failures{report}", self.row);
-        let taken = (self.scenes - self.refused.len().min(self.scenes)) as f64;
-        assert!(taken >= accepted * self.scenes as f64, "{}: too many refused", self.row);
+        let accepted_scenes = (self.scenes - self.refused.len().min(self.scenes)) as f64;
+        let is_enough = accepted_scenes >= accepted * self.scenes as f64;
+        assert!(is_enough, "{}: too many refused", self.row);
         assert!(self.scenes > 0, "{}: no scene", self.row);
     }
 }

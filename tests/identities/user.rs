@@ -1,4 +1,4 @@
-//! Parts as a user writes them: they hand on what a trait needs, and hide the library's types.
+//! Parts as a user writes them: they delegate the methods of a trait, and hide the library's types.
 
 use basemat::Result;
 use basemat::bem::{self, GroundDescription};
@@ -8,9 +8,9 @@ use basemat::structure::{self, NonlinearForce, Triplets};
 use basemat_problems::{ground_from, law_from, needed_from};
 
 /// A structure with the matrices of another one.
-pub(crate) struct Structure(pub(crate) Box<dyn structure::Structure>);
+pub(crate) struct UserStructure(pub(crate) Box<dyn structure::Structure>);
 
-impl structure::Structure for Structure {
+impl structure::Structure for UserStructure {
     needed_from!(0);
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
@@ -27,9 +27,9 @@ impl structure::Structure for Structure {
 }
 
 /// A ground with the compliances of another one.
-pub(crate) struct Ground(pub(crate) Box<dyn bem::Ground>);
+pub(crate) struct UserGround(pub(crate) Box<dyn bem::Ground>);
 
-impl bem::Ground for Ground {
+impl bem::Ground for UserGround {
     ground_from!(0);
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
@@ -43,9 +43,9 @@ impl bem::Ground for Ground {
 }
 
 /// A law with the conditions of another one.
-pub(crate) struct Law(pub(crate) Box<dyn InterfaceLaw>);
+pub(crate) struct UserLaw(pub(crate) Box<dyn InterfaceLaw>);
 
-impl InterfaceLaw for Law {
+impl InterfaceLaw for UserLaw {
     law_from!(0);
 
     fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
@@ -60,8 +60,14 @@ impl InterfaceLaw for Law {
         self.0.initial_state_variables(start, variables);
     }
 
-    fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, own: &mut [f64]) {
-        self.0.commit(start, end, mode, own);
+    fn commit(
+        &self,
+        start: &PreviousContact,
+        end: &ContactState,
+        mode: Mode,
+        variables: &mut [f64],
+    ) {
+        self.0.commit(start, end, mode, variables);
     }
 
     fn bond_overload(&self, start: &PreviousContact, trial: &ContactState) -> Option<f64> {
@@ -82,9 +88,9 @@ impl InterfaceLaw for Law {
 }
 
 /// An element with the matrices of another one.
-pub(crate) struct Element(pub(crate) Box<dyn fem::Element>);
+pub(crate) struct UserElement(pub(crate) Box<dyn fem::Element>);
 
-impl fem::Element for Element {
+impl fem::Element for UserElement {
     fn nodes(&self) -> &[usize] {
         self.0.nodes()
     }
@@ -107,8 +113,8 @@ impl fem::Element for Element {
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn fem::Element>> {
-        let own = self.0.in_static_state(coordinates, displacement, gravity)?;
-        Some(Box::new(Self(own)))
+        let element = self.0.in_static_state(coordinates, displacement, gravity)?;
+        Some(Box::new(Self(element)))
     }
 
     fn compression(&self) -> Option<f64> {

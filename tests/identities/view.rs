@@ -1,5 +1,6 @@
 //! A scene seen from another place: translated, turned, mirrored, renumbered, in other units.
 
+use basemat_problems::random::Random;
 use basemat_problems::scenes::{Frame, SI};
 
 /// How a scene in SI units is written down.
@@ -19,7 +20,8 @@ pub(crate) struct View {
     pub(crate) read_from_gmsh: bool,
 }
 
-pub(crate) const PLAIN: View = View {
+/// The scene in SI units, as it stands.
+pub(crate) const PLAIN_VIEW: View = View {
     frame: SI,
     turns: 0,
     shift: [0.0; 2],
@@ -28,18 +30,26 @@ pub(crate) const PLAIN: View = View {
     read_from_gmsh: false,
 };
 
+/// Units of length, time and mass that differ from SI by up to a thousand.
+pub(crate) fn random_units(random: &mut Random) -> Frame {
+    let length = 10.0_f64.powf(random.within(-3.0, 3.0));
+    let time = 10.0_f64.powf(random.within(-3.0, 3.0));
+    let mass = 10.0_f64.powf(random.within(-3.0, 3.0));
+    Frame { length, time, mass, mirrored: false }
+}
+
 impl View {
-    /// A vector `[x, y, z]` of the scene, in its own unit, along the axes of the view.
+    /// A vector `[x, y, z]` of the scene, in any unit, along the axes of the view.
     pub(crate) fn vector(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let mirrored = [self.frame.sign() * x, y];
-        let [x, y] = (0..self.turns).fold(mirrored, |[x, y], _| [0.0 - y, x]);
-        [x, y, z]
+        let turned = (0..self.turns).fold(mirrored, |[x, y], _| [0.0 - y, x]);
+        [turned[0], turned[1], z]
     }
 
     /// The vector of the scene that [`View::vector`] writes as `[x, y, z]`.
     pub(crate) fn vector_back(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let [x, y] = (0..self.turns).fold([x, y], |[x, y], _| [y, 0.0 - x]);
-        [self.frame.sign() * x, y, z]
+        let turned_back = (0..self.turns).fold([x, y], |[x, y], _| [y, 0.0 - x]);
+        [self.frame.sign() * turned_back[0], turned_back[1], z]
     }
 
     /// A moment or a rotation of the view as in the scene: a mirror reverses it.
@@ -49,17 +59,18 @@ impl View {
 
     /// A point of the scene (m) in the view's unit.
     pub(crate) fn point(&self, point: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.vector(point);
-        [x + self.shift[0], y + self.shift[1], z].map(|part| part * self.frame.length)
+        let turned = self.vector(point);
+        [turned[0] + self.shift[0], turned[1] + self.shift[1], turned[2]]
+            .map(|part| part * self.frame.length)
     }
 
     /// A point `[x, y]` of the surface (m) in the view's unit.
-    pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let [x, y, _] = self.point([x, y, 0.0]);
-        [x, y]
+    pub(crate) fn surface_point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let point = self.point([x, y, 0.0]);
+        [point[0], point[1]]
     }
 
-    /// Lengths along x and y as the view has them along its axes, without a unit.
+    /// Values along x and y of the scene, along the axes of the view.
     pub(crate) fn along_axes<T>(&self, [x, y]: [T; 2]) -> [T; 2] {
         if self.turns.is_multiple_of(2) { [x, y] } else { [y, x] }
     }

@@ -1,6 +1,6 @@
-//! GOAL: every baseline treatment keeps what it promises.
-//! SCENE: El Centro, polynomial drifts, any record.
-//! REFERENCE: end values, the quantity that is least, the record under the drift.
+//! GOAL: every baseline treatment meets its conditions.
+//! SCENE: El Centro, polynomial drifts, arbitrary records.
+//! REFERENCE: end values, the quantity that is minimised, the record under the drift.
 
 use basemat::Error;
 use basemat::motion::{Baseline, Record, el_centro_1940};
@@ -8,89 +8,117 @@ use proptest::prelude::*;
 
 use basemat_problems::close;
 
-/// Every treatment of El Centro: what it promises at the end, and what it makes least.
-#[test]
-fn baselines_keep_their_promises() {
-    let record = el_centro_1940().resampled(0.01).unwrap();
-    let end = record.duration();
-    let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>() * 0.01;
-    let treat = |baseline| record.with_baseline(baseline).unwrap();
-    assert_eq!(treat(Baseline::None), record);
+/// Time between samples, s.
+const TIME_STEP: f64 = 0.01;
 
-    let mut velocity_square = f64::INFINITY;
+fn el_centro() -> Record {
+    el_centro_1940().resampled(TIME_STEP).unwrap()
+}
+
+/// El Centro after a treatment.
+fn treated(baseline: Baseline) -> Record {
+    el_centro().with_baseline(baseline).unwrap()
+}
+
+/// Integral of the square over time.
+fn square_integral(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>() * TIME_STEP
+}
+
+/// The record with a small power of the time, relative to its duration, added to the accelerations.
+fn with_power_of_time(record: &Record, sign: f64, power: i32) -> Record {
+    let end = record.duration();
+    let accelerations = record
+        .accelerations()
+        .iter()
+        .enumerate()
+        .map(|(k, a)| a + sign * 1e-4 * (k as f64 * TIME_STEP / end).powi(power));
+    Record::new(TIME_STEP, accelerations.collect()).unwrap()
+}
+
+/// GOAL: velocity polynomials leave no velocity at the end, and a higher degree fits better.
+#[test]
+fn velocity_polynomials_end_without_velocity() {
+    assert_eq!(treated(Baseline::None), el_centro());
+    let end = el_centro().duration();
+    let mut lower_degree = f64::INFINITY;
     for degree in 1..=8 {
-        let treated = treat(Baseline::VelocityPolynomial { degree });
+        let treated = treated(Baseline::VelocityPolynomial { degree });
         assert!(treated.at(end).velocity.abs() < 1e-13, "{degree}");
-        // a higher degree fits better
-        let now = square(treated.velocities());
-        assert!(now <= velocity_square * (1.0 + 1e-9), "{degree}: {now} {velocity_square}");
-        velocity_square = now;
+        let integral = square_integral(treated.velocities());
+        assert!(integral <= lower_degree * (1.0 + 1e-9), "{degree}: {integral} {lower_degree}");
+        lower_degree = integral;
     }
-    let mean = treat(Baseline::RemoveMean);
-    assert!(mean.at(end).velocity.abs() < 1e-13);
-    let first = treat(Baseline::VelocityPolynomial { degree: 1 });
-    for (a, b) in mean.accelerations().iter().zip(first.accelerations()) {
+    let without_mean = treated(Baseline::RemoveMean);
+    assert!(without_mean.at(end).velocity.abs() < 1e-13);
+    let first_degree = treated(Baseline::VelocityPolynomial { degree: 1 });
+    for (a, b) in without_mean.accelerations().iter().zip(first_degree.accelerations()) {
         close("degree 1 is the mean", *a, *b, 1e-15, 0.0);
     }
+}
 
+/// GOAL: records from rest to rest have no velocity and displacement at their end and after it.
+#[test]
+fn rest_to_rest_ends_at_rest() {
+    let record = el_centro();
+    let end = record.duration();
     for degree in 3..=8 {
-        let treated = treat(Baseline::RestToRest { degree });
+        let treated = treated(Baseline::RestToRest { degree });
         assert!(treated.at(end).velocity.abs() < 1e-13, "{degree}");
         assert!(treated.at(end).displacement.abs() < 1e-12, "{degree}");
         assert!(treated.at(end + 1000.0).displacement.abs() < 1e-10, "{degree}");
         assert_eq!(treated.accelerations()[0], record.accelerations()[0]);
     }
+}
 
-    let shifted = |record: &Record, sign: f64, power: i32| {
-        let add = |(k, a): (usize, &f64)| a + sign * 1e-4 * (k as f64 * 0.01 / end).powi(power);
-        Record::new(0.01, record.accelerations().iter().enumerate().map(add).collect()).unwrap()
-    };
-
-    // Newmark's parabola: any other parabola leaves more velocity
-    let parabola = treat(Baseline::NewmarkParabola);
-    let least = square(parabola.velocities());
-    assert!(least < square(record.velocities()));
+/// GOAL: Newmark's parabola and the displacement polynomial minimise velocity and displacement.
+#[test]
+fn baselines_minimise_velocity_or_displacement() {
+    let record = el_centro();
+    let parabola = treated(Baseline::NewmarkParabola);
+    let minimum = square_integral(parabola.velocities());
+    assert!(minimum < square_integral(record.velocities()));
     for power in 0..3 {
         for sign in [-1.0, 1.0] {
-            let other = shifted(&parabola, sign, power);
-            assert!(square(other.velocities()) > least, "{power} {sign}");
+            let other = with_power_of_time(&parabola, sign, power);
+            assert!(square_integral(other.velocities()) > minimum, "{power} {sign}");
         }
     }
-
-    // sextic in displacement: leaves less displacement than the record and than the parabola
-    let sextic = treat(Baseline::DisplacementPolynomial { degree: 6 });
-    let least = square(sextic.displacements());
-    assert!(least < square(record.displacements()) && least < square(parabola.displacements()));
+    // The sextic leaves less displacement than the record and than the parabola.
+    let sextic = treated(Baseline::DisplacementPolynomial { degree: 6 });
+    let minimum = square_integral(sextic.displacements());
+    assert!(minimum < square_integral(record.displacements()));
+    assert!(minimum < square_integral(parabola.displacements()));
     for power in 0..5 {
         for sign in [-1.0, 1.0] {
-            let other = shifted(&sextic, sign, power);
-            assert!(square(other.displacements()) > least, "{power} {sign}");
+            let other = with_power_of_time(&sextic, sign, power);
+            assert!(square_integral(other.displacements()) > minimum, "{power} {sign}");
         }
     }
 }
 
-/// A polynomial drift is removed entirely, and the record under it found again.
+/// GOAL: a polynomial drift is removed entirely.
 #[test]
 fn baselines_remove_a_polynomial() {
     let count = 2001;
-    let time = |k: i32| f64::from(k) / f64::from(count - 1);
-    let drift = Record::new(
-        0.01,
-        (0..count).map(|k| 0.3 - 0.8 * time(k) + 0.9 * time(k).powi(2)).collect(),
-    )
-    .unwrap();
+    let accelerations = (0..count).map(|k| {
+        let time = f64::from(k) / f64::from(count - 1);
+        0.3 - 0.8 * time + 0.9 * time.powi(2)
+    });
+    let drift = Record::new(TIME_STEP, accelerations.collect()).unwrap();
     for baseline in [
         Baseline::NewmarkParabola,
         Baseline::VelocityPolynomial { degree: 4 },
         Baseline::DisplacementPolynomial { degree: 6 },
     ] {
         let treated = drift.with_baseline(baseline).unwrap();
-        let left = treated.peaks().acceleration;
-        // the normal equations of twice integrated polynomials cost four digits
-        assert!(left < 1e-11, "{baseline:?}: {left:e}");
+        let remainder = treated.peaks().acceleration;
+        // The normal equations of twice integrated polynomials cost four digits.
+        assert!(remainder < 1e-11, "{baseline:?}: {remainder:e}");
     }
 }
 
+/// GOAL: degrees out of range and records too short for them are refused.
 #[test]
 fn bad_baselines_are_refused() {
     let record = el_centro_1940();
@@ -112,6 +140,7 @@ fn bad_baselines_are_refused() {
 }
 
 proptest! {
+    /// GOAL: end conditions hold for arbitrary records.
     #[test]
     fn baselines_hold_for_any_record(values in prop::collection::vec(-10.0..10.0_f64, 12..200)) {
         let record = Record::new(0.02, values).unwrap();

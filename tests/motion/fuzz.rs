@@ -1,9 +1,10 @@
-//! GOAL: everything that reads the bytes of a record takes wrong ones without a panic. SCENE: any bytes, valid files
-//! damaged in every way, sources that fail midway, and a corpus of files that are hard to read (`tests/data/fuzz`).
+//! GOAL: no reader of records panics, whatever the bytes.
+//! SCENE: arbitrary bytes, valid files damaged in every way, sources that fail midway, and a corpus of files that are
+//! hard to read (`tests/data/fuzz`).
 //! REFERENCE: a record on which every method works, or a typed error with its line.
 //!
-//! `PROPTEST_CASES=100000 cargo test --release --test fast fuzz` looks longer. Checkpoints are read
-//! by serde: `tests/coupled/checkpoint/text.rs` damages those.
+//! `PROPTEST_CASES=100000 cargo test --release --test fast fuzz` runs more cases. Checkpoints are read by serde:
+//! `tests/coupled/checkpoint/text.rs` damages those.
 
 use std::io::Read;
 
@@ -17,7 +18,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 /// A valid file of each format, with its reader.
-fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
+fn valid_files() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
     let columns = ColumnFormat::new(AccelerationUnit::Gal);
     let along = AlongLinesFormat::new(AccelerationUnit::StandardGravity, 0.01);
     vec![
@@ -68,7 +69,7 @@ fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
     ]
 }
 
-/// A file that is read gives a record on which every method works; an error names its line.
+/// Asserts that every method works on a record, or that an error names its line.
 fn check(result: Result<Record>) {
     match result {
         Ok(record) => {
@@ -87,16 +88,18 @@ fn check(result: Result<Record>) {
     }
 }
 
+/// GOAL: the valid files are read.
 #[test]
 fn valid_files_are_read() {
-    for (text, format) in valid() {
+    for (text, format) in valid_files() {
         let record = Record::from_reader("valid", text.as_bytes(), format.as_ref()).unwrap();
         assert!(record.len() >= 3, "{text}");
     }
 }
 
+/// One change of the bytes of a file.
 #[derive(Debug, Clone)]
-enum Damage {
+enum FileDamage {
     Overwrite(u8),
     Insert(Vec<u8>),
     Remove(usize),
@@ -105,7 +108,7 @@ enum Damage {
     Cut,
 }
 
-fn damage() -> impl Strategy<Value = Damage> {
+fn damage() -> impl Strategy<Value = FileDamage> {
     let pieces = [
         "-",
         "+",
@@ -135,58 +138,59 @@ fn damage() -> impl Strategy<Value = Damage> {
         "cm/s²_",
     ];
     prop_oneof![
-        any::<u8>().prop_map(Damage::Overwrite),
+        any::<u8>().prop_map(FileDamage::Overwrite),
         prop::sample::select(pieces.to_vec())
-            .prop_map(|piece| Damage::Insert(piece.as_bytes().to_vec())),
-        prop::collection::vec(any::<u8>(), 1..6).prop_map(Damage::Insert),
-        (1_usize..40).prop_map(Damage::Remove),
-        (any::<Index>(), 1_usize..120).prop_map(|(from, length)| Damage::Repeat(from, length)),
-        Just(Damage::Cut),
+            .prop_map(|piece| FileDamage::Insert(piece.as_bytes().to_vec())),
+        prop::collection::vec(any::<u8>(), 1..6).prop_map(FileDamage::Insert),
+        (1_usize..40).prop_map(FileDamage::Remove),
+        (any::<Index>(), 1_usize..120).prop_map(|(from, length)| FileDamage::Repeat(from, length)),
+        Just(FileDamage::Cut),
     ]
 }
 
-fn damaged(text: &str, damages: &[(Index, Damage)]) -> Vec<u8> {
+fn damaged(text: &str, damages: &[(Index, FileDamage)]) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     for (place, damage) in damages {
         if bytes.is_empty() {
             break;
         }
-        let at = place.index(bytes.len());
+        let index = place.index(bytes.len());
         match damage {
-            Damage::Overwrite(value) => bytes[at] = *value,
-            Damage::Insert(piece) => {
-                bytes.splice(at..at, piece.iter().copied());
+            FileDamage::Overwrite(value) => bytes[index] = *value,
+            FileDamage::Insert(piece) => {
+                bytes.splice(index..index, piece.iter().copied());
             }
-            Damage::Remove(length) => {
-                bytes.drain(at..(at + length).min(bytes.len()));
+            FileDamage::Remove(length) => {
+                bytes.drain(index..(index + length).min(bytes.len()));
             }
-            Damage::Repeat(from, length) => {
+            FileDamage::Repeat(from, length) => {
                 let from = from.index(bytes.len());
                 let part = bytes[from..(from + length).min(bytes.len())].to_vec();
-                bytes.splice(at..at, part);
+                bytes.splice(index..index, part);
             }
-            Damage::Cut => bytes.truncate(at),
+            FileDamage::Cut => bytes.truncate(index),
         }
     }
     bytes
 }
 
-/// A source that gives a few bytes at a time, and fails after some.
-struct Failing<'a> {
-    rest: &'a [u8],
-    at_a_time: usize,
-    left: usize,
+/// A source that delivers a few bytes per call, and fails after some.
+struct FailingSource<'a> {
+    bytes: &'a [u8],
+    bytes_per_call: usize,
+    /// Bytes until the failure.
+    remaining: usize,
 }
 
-impl Read for Failing<'_> {
-    fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
-        if self.left == 0 {
+impl Read for FailingSource<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if self.remaining == 0 {
             return Err(std::io::Error::from(std::io::ErrorKind::ConnectionReset));
         }
-        let count = self.at_a_time.min(self.left).min(self.rest.len()).min(out.len());
-        out[..count].copy_from_slice(&self.rest[..count]);
-        self.rest = &self.rest[count..];
-        self.left -= count;
+        let count = self.bytes_per_call.min(self.remaining).min(self.bytes.len()).min(buffer.len());
+        buffer[..count].copy_from_slice(&self.bytes[..count]);
+        self.bytes = &self.bytes[count..];
+        self.remaining -= count;
         Ok(count)
     }
 }
@@ -194,38 +198,43 @@ impl Read for Failing<'_> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
+    /// GOAL: damaged files give a record or an error.
     #[test]
     fn damaged_files_are_read_or_refused(
         damages in prop::collection::vec((any::<Index>(), damage()), 1..8),
     ) {
-        for (text, format) in valid() {
+        for (text, format) in valid_files() {
             let bytes = damaged(text, &damages);
             check(Record::from_reader("damaged", &bytes[..], format.as_ref()));
         }
     }
 
+    /// GOAL: arbitrary bytes give a record or an error.
     #[test]
     fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
-        for (_, format) in valid() {
+        for (_, format) in valid_files() {
             check(Record::from_reader("any", &bytes[..], format.as_ref()));
         }
     }
 
+    /// GOAL: sources that fail within a file give an error.
     #[test]
-    fn sources_that_fail_are_refused(at_a_time in 1_usize..9, share in 0.0..1.2_f64) {
-        for (text, format) in valid() {
-            let rest = text.as_bytes();
+    fn sources_that_fail_are_refused(bytes_per_call in 1_usize..9, fraction in 0.0..1.2_f64) {
+        for (text, format) in valid_files() {
+            let bytes = text.as_bytes();
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
-            let left = (share * rest.len() as f64) as usize;
-            let outcome =
-                Record::from_reader("failing", Failing { rest, at_a_time, left }, format.as_ref());
-            prop_assert!(left > rest.len() || !text.contains("PEER") || outcome.is_err());
+            let remaining = (fraction * bytes.len() as f64) as usize;
+            let source = FailingSource { bytes, bytes_per_call, remaining };
+            let outcome = Record::from_reader("failing", source, format.as_ref());
+            prop_assert!(
+                remaining > bytes.len() || !text.contains("PEER") || outcome.is_err()
+            );
             check(outcome);
         }
     }
 }
 
-/// Files that are hard to read, each with every reader.
+/// GOAL: files that are hard to read give a record or an error, with every reader.
 #[test]
 fn corpus_is_read_or_refused() {
     let folder = basemat_problems::data_path("fuzz");
@@ -233,7 +242,7 @@ fn corpus_is_read_or_refused() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         files += 1;
-        for (_, format) in valid() {
+        for (_, format) in valid_files() {
             check(Record::read(&path, format.as_ref()));
         }
     }

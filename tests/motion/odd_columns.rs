@@ -1,34 +1,29 @@
-//! Columns of numbers in unusual forms.
+//! GOAL: columns of numbers in unusual forms are read, or refused with their line.
+//! SCENE: decimal commas, words, Fortran's exponents, control characters, empty fields, header lines, times of day.
+//! REFERENCE: the samples of the text; the typed error.
 
-use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
-use basemat::{Error, FileError, FileFault};
+use basemat::motion::ColumnFormat;
 use basemat_problems::faults::{count, is_no_number, is_value, not_a_number, value};
 
-const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
+use super::{SI_UNIT, error_at, read, refusal};
 
+/// Columns of time and acceleration.
 fn pairs() -> ColumnFormat {
-    ColumnFormat::new(METRIC)
+    ColumnFormat::new(SI_UNIT)
 }
 
-fn alone() -> ColumnFormat {
-    ColumnFormat::equally_spaced(METRIC, 0.02)
-}
-
-/// Line and reason of the refusal.
-#[track_caller]
-fn refusal(text: &str, format: &ColumnFormat) -> (usize, FileFault) {
-    match Record::from_reader("text", text.as_bytes(), format) {
-        Err(Error::File(FileError { line, fault, .. })) => (line, fault),
-        other => panic!("{text:?}: {other:?}"),
-    }
+/// A column of accelerations single_column.
+fn single_column() -> ColumnFormat {
+    ColumnFormat::equally_spaced(SI_UNIT, 0.02)
 }
 
 #[track_caller]
-fn is_read(text: &str, format: &ColumnFormat, wanted: &[f64]) {
-    let record = Record::from_reader("text", text.as_bytes(), format).unwrap();
-    assert_eq!((record.time_step(), record.accelerations()), (0.02, wanted), "{text:?}");
+fn assert_samples(text: &str, format: &ColumnFormat, expected: &[f64]) {
+    let record = read(text, format).unwrap();
+    assert_eq!((record.time_step(), record.accelerations()), (0.02, expected), "{text:?}");
 }
 
+/// GOAL: decimal commas are refused, beside any separator.
 #[test]
 fn decimal_commas_are_refused() {
     for (text, field) in [
@@ -46,31 +41,31 @@ fn decimal_commas_are_refused() {
         ("0;1 000.5\n1;2\n", "1 000.5"),
     ] {
         let line = if text.starts_with('t') { 2 } else { 1 };
-        assert_eq!(refusal(text, &pairs()), (line, not_a_number(field)), "{text:?}");
+        assert_eq!(refusal(text, &pairs()), error_at(line, not_a_number(field)), "{text:?}");
     }
-    let first = ColumnFormat { acceleration_column: Some(1), ..alone() };
+    let first = ColumnFormat { acceleration_column: Some(1), ..single_column() };
     for (text, line, field) in [
         ("0,05\n0,15\n", 1, "0,05"),
         ("1,5\n-0,05\n", 2, "-0,05"),
         ("0,05 7\n0,15 8\n", 1, "0,05"),
         ("1,5\t7\n2,5\t8\n", 1, "1,5"),
     ] {
-        assert_eq!(refusal(text, &first), (line, not_a_number(field)), "{text:?}");
+        assert_eq!(refusal(text, &first), error_at(line, not_a_number(field)), "{text:?}");
     }
     // Commas that group thousands change the number of columns.
-    let (line, reason) = refusal("0,999.5\n1,1,000.5\n", &pairs());
-    assert_eq!((line, reason), (2, count("columns", 3, "2, as before")));
-    // Text that looks alike and is something else.
-    is_read("0,1\n0.02,15\n", &pairs(), &[1.0, 15.0]);
-    is_read("0.00, 1, at rest\n0.02, 2, hit by it\n", &pairs(), &[1.0, 2.0]);
-    is_read("00.00,01.50\n00.02,02.50\n", &pairs(), &[1.5, 2.5]);
-    is_read("0 ,1\n0.02 ,2\n", &pairs(), &[1.0, 2.0]);
+    let error = refusal("0,999.5\n1,1,000.5\n", &pairs());
+    assert_eq!(error, error_at(2, count("columns", 3, "2, as before")));
+    // Similar text without decimal commas.
+    assert_samples("0,1\n0.02,15\n", &pairs(), &[1.0, 15.0]);
+    assert_samples("0.00, 1, at rest\n0.02, 2, hit by it\n", &pairs(), &[1.0, 2.0]);
+    assert_samples("00.00,01.50\n00.02,02.50\n", &pairs(), &[1.5, 2.5]);
+    assert_samples("0 ,1\n0.02 ,2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// A header is made of words: a first sample that is not a number would shift the record.
+/// GOAL: a first sample that is not a number is refused, as it would shift the record; a header is made of words.
 #[test]
 fn a_bad_first_sample_is_no_header() {
-    for bad in [
+    for sample in [
         "*****",
         "1,5",
         "1.5g",
@@ -110,18 +105,18 @@ fn a_bad_first_sample_is_no_header() {
         "0.5\0",
         "0.5\u{200b}",
     ] {
-        for text in [format!("{bad}\n1\n2\n"), format!("# m/s2\n\n{bad}\n1\n2\n")] {
-            let line = text.lines().count() - 2;
-            let (found, reason) = refusal(&text, &alone());
-            assert_eq!(found, line, "{bad}: {reason}");
-            let both = format!("{}{bad} {bad}\n0 1\n0.02 2\n", &text[..text.find(bad).unwrap()]);
-            let (found, reason) = refusal(&both, &pairs());
-            assert_eq!(found, line, "{bad}: {reason}");
+        for before in ["", "# m/s2\n\n"] {
+            let line = before.lines().count() + 1;
+            let error = refusal(&format!("{before}{sample}\n1\n2\n"), &single_column());
+            assert_eq!(error.line, line, "{sample}: {error}");
+            let error = refusal(&format!("{before}{sample} {sample}\n0 1\n0.02 2\n"), &pairs());
+            assert_eq!(error.line, line, "{sample}: {error}");
         }
     }
-    // In the midst, too.
-    for bad in ["#N/A", "#REF!", "#NAME?", "#NULL!"] {
-        assert_eq!(refusal(&format!("1\n{bad}\n2\n"), &alone()), (2, not_a_number(bad)));
+    // Errors of spreadsheets between the samples.
+    for sample in ["#N/A", "#REF!", "#NAME?", "#NULL!"] {
+        let error = refusal(&format!("1\n{sample}\n2\n"), &single_column());
+        assert_eq!(error, error_at(2, not_a_number(sample)));
     }
     for header in [
         "acceleration",
@@ -137,75 +132,75 @@ fn a_bad_first_sample_is_no_header() {
         "(m/s2)",
         "#N/A is no number",
     ] {
-        is_read(&format!("{header}\n1\n2\n"), &alone(), &[1.0, 2.0]);
+        assert_samples(&format!("{header}\n1\n2\n"), &single_column(), &[1.0, 2.0]);
     }
 }
 
+/// GOAL: Fortran's exponents of double precision are read.
 #[test]
 fn double_precision_is_read() {
-    is_read("1.0D-2\n-2.5d+00\n3D0\n", &alone(), &[0.01, -2.5, 3.0]);
-    is_read("0.0D0 1\n2.0D-2 2\n", &pairs(), &[1.0, 2.0]);
+    assert_samples("1.0D-2\n-2.5d+00\n3D0\n", &single_column(), &[0.01, -2.5, 3.0]);
+    assert_samples("0.0D0 1\n2.0D-2 2\n", &pairs(), &[1.0, 2.0]);
 }
 
-/// A lost line end must not lose a sample.
+/// GOAL: control characters do not separate numbers: a lost line end would lose a sample.
 #[test]
 fn control_characters_do_not_part_numbers() {
     for text in ["0 0\r0.02 1\n0.04 2\n0.08 2\n", "0 0\u{b}0.02 1\n0.04 2\n", "0 0\u{c}1\n0.02 1\n"]
     {
-        let (line, reason) = refusal(text, &pairs());
-        assert!(line == 1 && is_no_number(&reason), "{text:?}");
+        let error = refusal(text, &pairs());
+        assert!(error.line == 1 && is_no_number(&error.fault), "{text:?}");
     }
 }
 
-/// Two tabs may enclose an empty field: then the columns behind it are others.
+/// GOAL: an empty field between two tabs, which would shift the columns, is refused.
 #[test]
 fn an_empty_field_between_tabs_is_not_passed_over() {
     let text = "0.00\t1.5\t7\n0.02\t\t7\n0.04\t3.5\t7\n";
     let unequal = count("columns", 2, "3, as before");
-    assert_eq!(refusal(text, &pairs()), (2, unequal));
+    assert_eq!(refusal(text, &pairs()), error_at(2, unequal));
     // Tabs that align.
-    is_read("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
+    assert_samples("0.00\t\t1\n0.02\t\t2\n", &pairs(), &[1.0, 2.0]);
 }
 
+/// Columns of time and acceleration pairs_after some lines of header.
+fn pairs_after(header_lines: usize) -> ColumnFormat {
+    ColumnFormat { header_lines, ..pairs() }
+}
+
+/// GOAL: stated numbers of header lines are skipped, and checked for titles.
 #[test]
 fn lines_of_header_are_passed_over() {
-    let after = |header_lines| ColumnFormat { header_lines, ..pairs() };
     let text = "Station 7\n1 2 3\n\nt a\n0 1\n0.02 2\n";
     for lines in [2, 3, 4] {
-        is_read(text, &after(lines), &[1.0, 2.0]);
+        assert_samples(text, &pairs_after(lines), &[1.0, 2.0]);
     }
     for lines in [0, 1] {
-        assert!(Record::from_reader("text", text.as_bytes(), &after(lines)).is_err(), "{lines}");
+        assert!(read(text, &pairs_after(lines)).is_err(), "{lines}");
     }
     // A number of the header in the column of the accelerations is not a sample.
-    let second = ColumnFormat { acceleration_column: Some(2), ..alone() };
-    let text_alone = "Station 7\nPGA 0.3\n9 1\n9 2\n";
-    assert_eq!(
-        refusal(text_alone, &second),
-        (
-            1,
-            value(
-                "field",
-                "'Station'",
-                "a finite number: with more than one line of header, give their number (`header_lines`)"
-            )
-        )
-    );
-    is_read(text_alone, &ColumnFormat { header_lines: 2, ..second }, &[1.0, 2.0]);
-    let (_, reason) = refusal(text, &after(9));
-    assert_eq!(reason, count("samples", 0, "at least 2"));
-    let (_, reason) = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &after(2));
-    assert!(is_value(&reason, "title"), "{reason}");
+    let second = ColumnFormat { acceleration_column: Some(2), ..single_column() };
+    let without_times = "Station 7\nPGA 0.3\n9 1\n9 2\n";
+    let needed =
+        "a finite number: with more than one line of header, give their number (`header_lines`)";
+    let error = refusal(without_times, &second);
+    assert_eq!(error, error_at(1, value("field", "'Station'", needed)));
+    assert_samples(without_times, &ColumnFormat { header_lines: 2, ..second }, &[1.0, 2.0]);
+    let error = refusal(text, &pairs_after(9));
+    assert_eq!(error.fault, count("samples", 0, "at least 2"));
+    let error = refusal("one\nt (ms),a\n0,1\n0.02,2\n", &pairs_after(2));
+    assert!(is_value(&error.fault, "title"), "{error}");
 }
 
+/// GOAL: times of day, with and without a date and over midnight, are read.
 #[test]
 fn times_of_day_are_read() {
-    is_read("12:00:15.00,1\n12:00:15.02,2\n12:00:15.04,3\n", &pairs(), &[1.0, 2.0, 3.0]);
-    is_read("23:59:59.98 1\n00:00:00.00 2\n00:00:00.02 3\n", &pairs(), &[1.0, 2.0, 3.0]);
-    is_read("2000-01-01T12:00:15.00,1\n2000-01-01T12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
-    is_read("2000/01/01 12:00:15.00,1\n2000/01/01 12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
-    for bad in ["12:00:15.00,1\n12:0x:15.02,2\n", "12:00:15.00,1\n12:00,2\n"] {
-        let (line, reason) = refusal(bad, &pairs());
-        assert!(line == 2 && is_no_number(&reason), "{reason}");
+    assert_samples("12:00:15.00,1\n12:00:15.02,2\n12:00:15.04,3\n", &pairs(), &[1.0, 2.0, 3.0]);
+    assert_samples("23:59:59.98 1\n00:00:00.00 2\n00:00:00.02 3\n", &pairs(), &[1.0, 2.0, 3.0]);
+    assert_samples("2000-01-01T12:00:15.00,1\n2000-01-01T12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
+    assert_samples("2000/01/01 12:00:15.00,1\n2000/01/01 12:00:15.02,2\n", &pairs(), &[1.0, 2.0]);
+    for text in ["12:00:15.00,1\n12:0x:15.02,2\n", "12:00:15.00,1\n12:00,2\n"] {
+        let error = refusal(text, &pairs());
+        assert!(error.line == 2 && is_no_number(&error.fault), "{error}");
     }
 }

@@ -1,16 +1,16 @@
-//! GOAL: the files of the agencies are read however they were copied, or refused with a clear word.
+//! GOAL: the files of the agencies are read however they were copied, or refused with a clear error.
 //! SCENE: other line ends, marks, blank lines, cases of letters, exponents, commas, bytes that are not UTF-8.
-//! REFERENCE: the record in the file as it was.
+//! REFERENCE: the record in the original file.
 
 use basemat::FileFault;
 use basemat::motion::{
     AfadFormat, CosmosFormat, EsmFormat, GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat,
-    Record, RecordFormat, SmcFormat,
+    RecordFormat, SmcFormat,
 };
 use basemat_problems::faults::{count, is_no_number, value};
 
 use super::agency_files::bytes;
-use super::refusal;
+use super::{error_at, read, refusal};
 
 fn agencies() -> [(&'static str, Box<dyn RecordFormat>); 11] {
     [
@@ -28,24 +28,32 @@ fn agencies() -> [(&'static str, Box<dyn RecordFormat>); 11] {
     ]
 }
 
+/// Text of a file, with line ends of Unix.
+fn text_of(name: &str) -> String {
+    String::from_utf8(bytes(name)).unwrap().replace("\r\n", "\n")
+}
+
 /// Whether a line has numbers with decimals and nothing else.
-fn is_of_numbers(line: &str) -> bool {
+fn has_numbers_only(line: &str) -> bool {
     line.contains('.')
         && line.chars().all(|sign| sign.is_ascii_digit() || " +-.,:eEdD".contains(sign))
 }
 
+/// The text with a character replaced in its lines of numbers; headers may have no place for the other one.
+fn replaced_in_numbers(text: &str, from: char, to: &str) -> String {
+    let lines = text
+        .lines()
+        .map(|line| if has_numbers_only(line) { line.replace(from, to) } else { line.to_owned() });
+    lines.map(|line| line + "\n").collect()
+}
+
+/// GOAL: changes that copying makes to a file do not change its record.
 #[test]
 fn copies_of_files_are_read() {
-    let by_line = |text: &str, change: &dyn Fn(&str) -> String| {
-        text.lines().map(|line| change(line) + "\n").collect::<String>()
-    };
     for (name, format) in agencies() {
-        let text = String::from_utf8(bytes(name)).unwrap().replace("\r\n", "\n");
-        let wanted = Record::from_reader(name, text.as_bytes(), format.as_ref()).unwrap();
-        // Numbers of the header may have no place for an exponent, a blank line or a comma.
-        let exponent =
-            |line: &str| if is_of_numbers(line) { line.replace('E', "D") } else { line.into() };
-        for (what, copy) in [
+        let text = text_of(name);
+        let expected = read(&text, format.as_ref()).unwrap();
+        for (change, copy) in [
             ("line ends", text.replace('\n', "\r\n")),
             ("mark", format!("\u{feff}{text}")),
             ("no line end", text.trim_end().to_owned()),
@@ -55,26 +63,27 @@ fn copies_of_files_are_read() {
             ("lower case", text.to_lowercase()),
             ("upper case", text.to_uppercase()),
             ("tabs", text.replace("    ", "\t")),
-            ("white space behind lines", by_line(&text, &|line| format!("{line}  \t"))),
-            ("exponents of Fortran", by_line(&text, &exponent)),
+            ("white space behind lines", text.replace('\n', "  \t\n")),
+            ("exponents of Fortran", replaced_in_numbers(&text, 'E', "D")),
         ] {
-            let read = Record::from_reader(name, copy.as_bytes(), format.as_ref());
-            let read = read.unwrap_or_else(|error| panic!("{what}: {error}"));
-            assert_eq!(read, wanted, "{name}: {what}");
+            let record = read(&copy, format.as_ref());
+            let record = record.unwrap_or_else(|error| panic!("{change}: {error}"));
+            assert_eq!(record, expected, "{name}: {change}");
         }
         // Blank lines among the numbers, up to the last one.
         let lines: Vec<&str> = text.lines().collect();
-        let first = lines.iter().position(|line| is_of_numbers(line)).unwrap_or(lines.len() - 1);
-        for at in [first, first + 1, lines.len() - 1] {
+        let first = lines.iter().position(|line| has_numbers_only(line));
+        let first = first.unwrap_or(lines.len() - 1);
+        for line in [first, first + 1, lines.len() - 1] {
             let mut lines = lines.clone();
-            lines.insert(at, "");
-            let read = Record::from_reader(name, lines.join("\n").as_bytes(), format.as_ref());
-            assert_eq!(read.unwrap(), wanted, "{name}: blank line {at}");
+            lines.insert(line, "");
+            let record = read(&lines.join("\n"), format.as_ref()).unwrap();
+            assert_eq!(record, expected, "{name}: blank line {line}");
         }
     }
 }
 
-/// Names of places in Latin-1.
+/// GOAL: names of places in Latin-1 do no harm.
 #[test]
 fn bytes_that_are_not_utf_8_do_no_harm_in_comments() {
     for (name, place) in [
@@ -90,60 +99,56 @@ fn bytes_that_are_not_utf_8_do_no_harm_in_comments() {
         ("smc.smc", "Invented"),
         ("geonet.v2a", "Nowhere District"),
     ] {
-        let whole = bytes(name);
-        let text = String::from_utf8(whole.clone()).unwrap();
-        let at = text.find(place).unwrap_or_else(|| panic!("{name}: {place}"));
-        let mut latin = whole.clone();
-        latin[at] = 0xc7;
-        latin[at + 1] = 0xfd;
+        let original = bytes(name);
+        let text = String::from_utf8(original.clone()).unwrap();
+        let index = text.find(place).unwrap_or_else(|| panic!("{name}: {place}"));
+        let mut latin = original.clone();
+        latin[index] = 0xc7;
+        latin[index + 1] = 0xfd;
         let format = agencies().into_iter().find(|(other, _)| *other == name).unwrap().1;
-        let read = |bytes: &[u8]| Record::from_reader(name, bytes, format.as_ref());
-        assert_eq!(read(&latin).unwrap(), read(&whole).unwrap(), "{name}: {place}");
+        let computed = read(&latin, format.as_ref()).unwrap();
+        let expected = read(&original, format.as_ref()).unwrap();
+        assert_eq!(computed, expected, "{name}: {place}");
     }
 }
 
+/// GOAL: decimal commas in any format are refused, and the error shows the number.
 #[test]
 fn decimal_commas_are_named() {
     for (name, format) in agencies() {
-        let text = String::from_utf8(bytes(name)).unwrap();
-        let commas =
-            |line: &str| if is_of_numbers(line) { line.replace('.', ",") } else { line.into() };
-        let text: String = text.lines().map(|line| commas(line) + "\n").collect();
         // The counts of K-NET have no decimals.
         if name != "k_net.ns" {
-            let (line, reason) = refusal(&text, format.as_ref());
-            let clear = match &reason {
+            let error = refusal(&replaced_in_numbers(&text_of(name), '.', ","), format.as_ref());
+            let names_number = match &error.fault {
                 FileFault::Value { quantity, .. } if quantity == "number of columns" => {
                     name == "k_net.csv"
                 }
-                FileFault::Value { found, .. } => is_no_number(&reason) && found.contains(','),
+                FileFault::Value { found, .. } => is_no_number(&error.fault) && found.contains(','),
                 _ => false,
             };
-            assert!(clear && line > 0, "{name}, line {line}: {reason}");
+            assert!(names_number && error.line > 0, "{name}, {error}");
         }
     }
 }
 
-/// Cells that a spreadsheet adds.
+/// GOAL: empty cells that a spreadsheet adds are no columns; a missing sample is not one of them.
 #[test]
 fn empty_cells_at_the_end_of_lines_are_no_columns() {
     let format = KNetCsvFormat::default();
     let text = String::from_utf8(bytes("k_net.csv")).unwrap();
-    let wanted = format.parse_all("", &mut text.as_bytes()).unwrap();
+    let expected = format.parse_all("", &mut text.as_bytes()).unwrap();
     for cells in [",", ",,"] {
         let lines: Vec<String> =
             text.lines().map(|line| line.trim_end().to_owned() + cells).collect();
-        let padded = lines.join("\n");
-        let padded = format!("{padded}\n{cells}\n");
-        assert_eq!(format.parse_all("", &mut padded.as_bytes()).unwrap(), wanted);
+        let padded = format!("{}\n{cells}\n", lines.join("\n"));
+        assert_eq!(format.parse_all("", &mut padded.as_bytes()).unwrap(), expected);
     }
-    // A missing sample is not an empty cell.
-    let lost = text.replacen(",18.357", ",", 1);
-    let (line, reason) = refusal(&lost, &format);
-    assert_eq!((line, reason), (16, count("columns", 3, "4, as before")));
+    let missing = text.replacen(",18.357", ",", 1);
+    let error = refusal(&missing, &format);
+    assert_eq!(error, error_at(16, count("columns", 3, "4, as before")));
 }
 
-/// Files of velocity or displacement alone say so, in either layout of CESMD.
+/// GOAL: files of velocity or displacement alone are refused with their title, in either layout of CESMD.
 #[test]
 fn files_without_acceleration_are_named() {
     let numbers = "    1.000     2.000     3.000\n";
@@ -157,17 +162,19 @@ fn files_without_acceleration_are_named() {
             "Corrected data\n{title}\n{numbers}3 points of displ data equally spaced at .01 sec\n"
         );
         for channel in [1, 2] {
-            let (line, reason) =
-                refusal(&text, &CosmosFormat { channel, ..CosmosFormat::default() });
+            let error = refusal(&text, &CosmosFormat { channel, ..CosmosFormat::default() });
             let found = title.chars().take(60).collect();
             let needed = "an acceleration in a known unit".to_owned();
-            assert_eq!((line, reason), (2, FileFault::Format { found, needed }));
+            assert_eq!(error, error_at(2, FileFault::Format { found, needed }));
         }
-        let all = CosmosFormat::default().parse_all("", &mut text.as_bytes()).unwrap_err();
-        assert!(all.to_string().contains("instead of an acceleration in a known unit"), "{all}");
+        let error = CosmosFormat::default().parse_all("", &mut text.as_bytes()).unwrap_err();
+        assert!(
+            error.to_string().contains("instead of an acceleration in a known unit"),
+            "{error}"
+        );
     }
-    // A channel that is not there, beside one that is.
+    // A channel that does not exist, in a file with two.
     let text = String::from_utf8(bytes("cosmos.v2c")).unwrap();
-    let (_, reason) = refusal(&text, &CosmosFormat { channel: 3, ..CosmosFormat::default() });
-    assert_eq!(reason, value("requested channel", "3", "from 1 to 2"));
+    let error = refusal(&text, &CosmosFormat { channel: 3, ..CosmosFormat::default() });
+    assert_eq!(error.fault, value("requested channel", "3", "from 1 to 2"));
 }

@@ -1,40 +1,17 @@
-//! Headers of record files: every number and unit is understood wholly, or refused with its line.
+//! GOAL: every number and unit in the header of a record file is understood wholly, or refused with its line.
+//! SCENE: time steps, units and formats of PEER, CSMIP, COSMOS and K-NET files in usual and unclear spellings.
+//! REFERENCE: the quantity that was printed; the typed error.
 
-use basemat::motion::{
-    AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat,
-};
-use basemat::{Error, FileError, FileFault};
+use basemat::FileFault;
+use basemat::motion::{AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat};
 use basemat_problems::faults::{
     CLEAR, is_missing, is_no_acceleration, is_no_number, is_off_columns, is_unclear, value,
 };
 
-const GRAVITY: f64 = 9.80665;
+use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, read, refusal};
 
-fn read(text: &str, format: &dyn RecordFormat) -> Result<Record, Error> {
-    Record::from_reader("file", text.as_bytes(), format)
-}
-
-/// Line and reason of the refusal.
-#[track_caller]
-fn refusal(text: &str, format: &dyn RecordFormat) -> (usize, FileFault) {
-    match read(text, format) {
-        Err(Error::File(FileError { line, fault, .. })) => (line, fault),
-        other => panic!("{text:?}: {other:?}"),
-    }
-}
-
-#[track_caller]
-fn same(record: &Record, step: f64, wanted: &[f64]) {
-    let apart = (record.time_step() / step - 1.0).abs();
-    assert!(apart < 1e-15, "{} s, not {step} s", record.time_step());
-    assert_eq!(record.len(), wanted.len());
-    for (found, wanted) in record.accelerations().iter().zip(wanted) {
-        assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{found} {wanted}");
-    }
-}
-
-/// Steps that can be read, in s.
-const STEPS: [(&str, f64); 16] = [
+/// Spellings of time steps, and their values in s.
+const CLEAR_TIME_STEPS: [(&str, f64); 16] = [
     (".005 SEC", 0.005),
     ("5.0D-03", 0.005),
     ("5.0d-03 sec", 0.005),
@@ -53,8 +30,8 @@ const STEPS: [(&str, f64); 16] = [
     ("1E1MS", 0.01),
 ];
 
-/// Steps that cannot.
-const UNCLEAR: [&str; 17] = [
+/// Spellings of time steps that are refused.
+const UNCLEAR_TIME_STEPS: [&str; 17] = [
     "1,5",
     "1,5 SEC",
     "0,005 SEC",
@@ -74,20 +51,23 @@ const UNCLEAR: [&str; 17] = [
     "********",
 ];
 
+/// A PEER file of four samples.
 fn peer(header: &str) -> String {
     format!("TITLE\nACCELERATION TIME SERIES IN UNITS OF G\n{header}\n.1 -.2 .3 .4\n")
 }
 
+/// A CSMIP file of four samples; the title ends with the time step, the unit and the format.
 fn csmip(title: &str) -> String {
     format!(
         "Corrected accelerogram\n4 points of accel data equally spaced at {title}\n1. -2. 3. 4.\n"
     )
 }
 
+/// GOAL: time steps of PEER files are read with their unit, or refused.
 #[test]
 fn time_steps_of_peer_files_are_whole_quantities() {
-    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
-    for (text, step) in STEPS {
+    let expected = [0.1, -0.2, 0.3, 0.4].map(|a| a * STANDARD_GRAVITY);
+    for (text, step) in CLEAR_TIME_STEPS {
         for header in [
             format!("NPTS= 4, DT= {text}"),
             format!("NPTS=4,DT={text},"),
@@ -96,40 +76,46 @@ fn time_steps_of_peer_files_are_whole_quantities() {
             format!("  4  {text}  NPTS, DT"),
         ] {
             println!("{header}");
-            same(&read(&peer(&header), &PeerFormat).unwrap(), step, &wanted);
+            assert_record(&read(&peer(&header), &PeerFormat).unwrap(), step, &expected);
         }
     }
-    for text in UNCLEAR {
+    for text in UNCLEAR_TIME_STEPS {
         for header in [format!("NPTS= 4, DT= {text}"), format!("4  {text}  NPTS, DT")] {
-            let (line, reason) = refusal(&peer(&header), &PeerFormat);
-            assert_eq!(line, 3, "{header}: {reason}");
+            let error = refusal(&peer(&header), &PeerFormat);
+            assert_eq!(error.line, 3, "{header}: {error}");
             assert!(
-                is_unclear(&reason)
-                    && matches!(&reason, FileFault::Value { found, .. }
+                is_unclear(&error.fault)
+                    && matches!(&error.fault, FileFault::Value { found, .. }
                     if text.to_uppercase().contains(found.trim_matches('\''))),
-                "{header}: {reason}"
+                "{header}: {error}"
             );
         }
     }
-    let unclear = |quantity, text: &str| value(quantity, &format!("'{text}'"), CLEAR);
-    let (line, reason) = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
-    assert_eq!((line, &reason), (3, &unclear("time step", "1,5 SEC")));
+}
+
+/// GOAL: the error of an unclear time step or number of points shows the whole of it.
+#[test]
+fn unclear_quantities_of_peer_files_are_shown() {
+    let error = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
+    assert_eq!(error, error_at(3, value("time step", "'1,5 SEC'", CLEAR)));
     let text = "time step is '1,5 SEC', but must be clear: all of it a known number, unit or word";
-    assert_eq!(reason.to_string(), text);
+    assert_eq!(error.fault.to_string(), text);
     for (header, text) in [
         ("NPTS= 4,000, DT= .01", "4,000"),
         ("NPTS= 4 X, DT= .01", "4 X"),
         ("NPTS= 4;5, DT= .01", "4;5"),
         ("NPTS= 0X4, DT= .01", "0X4"),
     ] {
-        let (line, reason) = refusal(&peer(header), &PeerFormat);
-        assert_eq!((line, reason), (3, unclear("number of points", text)), "{header}");
+        let error = refusal(&peer(header), &PeerFormat);
+        let fault = value("number of points", &format!("'{text}'"), CLEAR);
+        assert_eq!(error, error_at(3, fault), "{header}");
     }
 }
 
+/// GOAL: the time step of a PEER file is the one named DT, beside others.
 #[test]
 fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
-    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
+    let expected = [0.1, -0.2, 0.3, 0.4].map(|a| a * STANDARD_GRAVITY);
     for header in [
         "ORIGINAL DT= .02, NPTS= 4, DT= .005",
         "NPTS= 4, DT= .005, ORIGINAL DT= .02",
@@ -142,7 +128,7 @@ fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
         "4, 5 NPTS, DT (MSEC)",
     ] {
         println!("{header}");
-        same(&read(&peer(header), &PeerFormat).unwrap(), 0.005, &wanted);
+        assert_record(&read(&peer(header), &PeerFormat).unwrap(), 0.005, &expected);
     }
     for header in [
         "NPTS= 4, ORIGINAL DT= .02",
@@ -153,12 +139,13 @@ fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
         "4 .02 NPTS, DT, SCALE",
         "4 .02 DT, NPTS",
     ] {
-        let (line, reason) = refusal(&peer(header), &PeerFormat);
-        let typed = is_missing(&reason) || is_unclear(&reason);
-        assert!(line >= 3 && typed, "{header}: {reason}");
+        let error = refusal(&peer(header), &PeerFormat);
+        let typed = is_missing(&error.fault) || is_unclear(&error.fault);
+        assert!(error.line >= 3 && typed, "{header}: {error}");
     }
 }
 
+/// GOAL: a unit of g with any factor is refused.
 #[test]
 fn a_unit_of_g_with_a_factor_is_refused() {
     for unit in [
@@ -191,18 +178,18 @@ fn a_unit_of_g_with_a_factor_is_refused() {
         "UNITS OF G, GAIN: 1000",
     ] {
         let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
-        let (line, reason) = refusal(&text, &PeerFormat);
-        let unit_refused = is_no_acceleration(&reason) || is_missing(&reason);
-        assert!((line == 2 || line == 3) && unit_refused, "{unit}: {reason}");
+        let error = refusal(&text, &PeerFormat);
+        let is_unit_refused = is_no_acceleration(&error.fault) || is_missing(&error.fault);
+        assert!((error.line == 2 || error.line == 3) && is_unit_refused, "{unit}: {error}");
     }
-    // Whatever line says so.
+    // In any line of the header.
     for rest in ["UNITS= CM/S/S, NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC, UNITS: MG"] {
-        let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
-        assert!(line == 2 && is_no_acceleration(&reason), "{reason}");
+        let error = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        assert!(error.line == 2 && is_no_acceleration(&error.fault), "{error}");
     }
     for rest in ["NPTS= 2, DT= .01, SCALE FACTOR= 1000", "NPTS= 2, DT= .01 SEC, SCALE: 10"] {
-        let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
-        assert!(line == 2 && is_unclear(&reason), "{reason}");
+        let error = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        assert!(error.line == 2 && is_unclear(&error.fault), "{error}");
     }
     for unit in [
         "UNITS OF G",
@@ -217,37 +204,43 @@ fn a_unit_of_g_with_a_factor_is_refused() {
         "1/3 SCALE MODEL, ACCELERATION (G)",
     ] {
         let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
-        same(&read(&text, &PeerFormat).unwrap(), 0.01, &[GRAVITY, 2.0 * GRAVITY]);
+        assert_record(
+            &read(&text, &PeerFormat).unwrap(),
+            0.01,
+            &[STANDARD_GRAVITY, 2.0 * STANDARD_GRAVITY],
+        );
     }
 }
 
+/// GOAL: time steps of CSMIP files are read with their unit, or refused.
 #[test]
 fn time_steps_of_csmip_files_are_whole_quantities() {
     let format = CosmosFormat { unit: Some(AccelerationUnit::Gal), ..CosmosFormat::default() };
-    let wanted = [0.01, -0.02, 0.03, 0.04];
-    for (text, step) in STEPS {
+    let expected = [0.01, -0.02, 0.03, 0.04];
+    for (text, step) in CLEAR_TIME_STEPS {
         for rest in [" in cm/sec2. (8f10.3)", ", in cm/sec2. (8f10.3)", "", "  (8f10.3)"] {
             if !(text.contains('(') && rest.is_empty()) {
                 println!("{text}{rest}");
-                same(&read(&csmip(&format!("{text}{rest}")), &format).unwrap(), step, &wanted);
+                assert_record(
+                    &read(&csmip(&format!("{text}{rest}")), &format).unwrap(),
+                    step,
+                    &expected,
+                );
             }
         }
     }
-    for text in UNCLEAR {
+    for text in UNCLEAR_TIME_STEPS {
         for rest in [", in cm/sec2. (8f10.3)", " in cm/sec2. (8f10.3)", " (8f10.3)", ""] {
-            let (line, reason) = refusal(&csmip(&format!("{text}{rest}")), &format);
-            let typed = is_unclear(&reason);
-            assert!(line == 2 && typed, "{text}{rest}: {reason}");
+            let error = refusal(&csmip(&format!("{text}{rest}")), &format);
+            assert!(error.line == 2 && is_unclear(&error.fault), "{text}{rest}: {error}");
         }
     }
 }
 
+/// GOAL: units and Fortran formats of CSMIP and COSMOS files are understood wholly, or refused.
 #[test]
 fn units_and_formats_of_csmip_and_cosmos_are_whole() {
-    let format = CosmosFormat {
-        unit: Some(AccelerationUnit::MetrePerSecondSquared),
-        ..CosmosFormat::default()
-    };
+    let format = CosmosFormat { unit: Some(SI_UNIT), ..CosmosFormat::default() };
     for title in [
         ".01 sec, in g X 1000. (8f10.3)",
         ".01 sec, in g*1000 (8f10.3)",
@@ -260,45 +253,46 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         ".01 sec, in g, (4) (8f10.3)",
         ".01 sec, in milli g (8f10.3)",
         ".01 sec, units=g, scale 1000, format=(8f10.3)",
-        // A unit that no `in` announces contradicts the one given for files without.
+        // A unit without `in` before it contradicts the one for files without a unit.
         ".01 sec, cm/sec2 (8f10.3)",
         ".01 sec. cm/sec/sec (8f10.3)",
-        // Formats that say where numbers stand, in a way that is not understood.
+        // Formats that the reader does not know.
         ".01 sec, in g (8f10.3,2x)",
         ".01 sec, in g (2(4f10.3))",
         ".01 sec (8f10,3)",
     ] {
-        let (line, reason) = refusal(&csmip(title), &format);
-        let typed = is_no_acceleration(&reason) || is_unclear(&reason);
-        assert!(line == 2 && typed, "{title}: {reason}");
+        let error = refusal(&csmip(title), &format);
+        let typed = is_no_acceleration(&error.fault) || is_unclear(&error.fault);
+        assert!(error.line == 2 && typed, "{title}: {error}");
     }
     for (title, factor) in [
         (".01 sec, in cm/sec2. (8f10.3)", 0.01),
         (".01 sec, units=cm/s^2,Format=(8F10.3)", 0.01),
         (".01 sec, units=cm/s^2 (4),Format=(1F15.6E)", 0.01),
-        (".01 sec, in g. (*)", GRAVITY),
-        (".01 sec, units=g , format=8f10.3", GRAVITY),
+        (".01 sec, in g. (*)", STANDARD_GRAVITY),
+        (".01 sec, units=g , format=8f10.3", STANDARD_GRAVITY),
         (".01 SEC.  (UNITS: CM/SEC/SEC)", 0.01),
         (".01 SEC  (UNITS: CM/SEC/SEC)  (8F10.3)", 0.01),
-        (".01 SEC.  (UNITS = G)", GRAVITY),
+        (".01 SEC.  (UNITS = G)", STANDARD_GRAVITY),
         (".01 SEC.  (UNITS ARE CM/SEC**2)", 0.01),
-        (".01 sec, in units of g .  Format: (8f10.3)", GRAVITY),
+        (".01 sec, in units of g .  Format: (8f10.3)", STANDARD_GRAVITY),
         (".01 sec. (8f10.3)", 1.0),
     ] {
-        let wanted = [1.0, -2.0, 3.0, 4.0].map(|a| a * factor);
-        same(&read(&csmip(title), &format).unwrap(), 0.01, &wanted);
+        let expected = [1.0, -2.0, 3.0, 4.0].map(|a| a * factor);
+        assert_record(&read(&csmip(title), &format).unwrap(), 0.01, &expected);
     }
 }
 
+/// A CSMIP file of four samples in cm/s², with a Fortran format.
 fn in_columns(format: &str, body: &str) -> String {
     format!("4 points of accel data equally spaced at .01 sec, in cm/sec2. ({format})\n{body}\n")
 }
 
-/// A field without a point has as many decimals as the format says.
+/// GOAL: a field without a point has the number of decimals of the format.
 #[test]
 fn fields_without_a_point_have_fortrans() {
     let format = CosmosFormat::default();
-    let wanted = [0.123_45, -0.023_45, 0.03, 0.0];
+    let expected = [0.123_45, -0.023_45, 0.03, 0.0];
     for (layout, body) in [
         ("8f10.3", "     12345     -2345      3000         0"),
         ("2f10.3", "     12345     -2345\n      3000         0"),
@@ -311,7 +305,7 @@ fn fields_without_a_point_have_fortrans() {
         ("1p4e10.3", " 1.2345E01-2.345E+00 3.000E+00 0.000E+00"),
     ] {
         println!("{layout}: {body:?}");
-        same(&read(&in_columns(layout, body), &format).unwrap(), 0.01, &wanted);
+        assert_record(&read(&in_columns(layout, body), &format).unwrap(), 0.01, &expected);
     }
     // The recorder's interval among the real header values, s.
     let mut values = vec!["      -999000"; 36];
@@ -323,59 +317,63 @@ fn fields_without_a_point_have_fortrans() {
          12345   -2345    3000       0\n",
         header.join("\n")
     );
-    same(&read(&cosmos, &format).unwrap(), 0.005, &wanted);
+    assert_record(&read(&cosmos, &format).unwrap(), 0.005, &expected);
 }
 
-/// Whole numbers, some of which keep to the columns while others do not: by a factor apart.
+/// GOAL: whole numbers in and out of their columns, which would differ by a factor, are refused.
 #[test]
 fn fields_without_a_point_out_of_their_columns_are_refused() {
     let format = CosmosFormat::default();
     for body in ["     12345     -2345\n3000 1", "3000 1\n     12345     -2345", "12 13\n14\n15"] {
-        let (line, reason) = refusal(&in_columns("2f10.3", body), &format);
-        let typed = is_off_columns(&reason);
-        assert!(line == 3 && typed, "{body}: {reason}");
+        let error = refusal(&in_columns("2f10.3", body), &format);
+        assert!(error.line == 3 && is_off_columns(&error.fault), "{body}: {error}");
     }
-    // The scale factor holds for fields of the format; these are not such fields.
-    let (line, reason) = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
-    assert!(line == 2 && is_off_columns(&reason), "{reason}");
-    // A column that ends in the midst of a number.
-    same(
+    // A scale factor applies to fields of the format alone; these numbers are out of their fields.
+    let error = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
+    assert!(error.line == 2 && is_off_columns(&error.fault), "{error}");
+    // A column that ends within a number.
+    assert_record(
         &read(&in_columns("4f4.2", "1.5 20.25\n3. 4."), &format).unwrap(),
         0.01,
         &[0.015, 0.2025, 0.03, 0.04],
     );
 }
 
+/// GOAL: Fortran's exponents of double precision are read in header and samples.
 #[test]
 fn double_precision_is_read_everywhere() {
-    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
+    let expected = [0.1, -0.2, 0.3, 0.4].map(|a| a * STANDARD_GRAVITY);
     let text = "UNITS OF G\nNPTS= 4, DT= 1.D-2\n 1.0D-01-2.0d-01\n .3D0 4D-1\n";
-    same(&read(text, &PeerFormat).unwrap(), 0.01, &wanted);
-    for bad in
+    assert_record(&read(text, &PeerFormat).unwrap(), 0.01, &expected);
+    for sample in
         ["1,0", "1D", "D1", "1D2D3", "1E2D3", "0x1", "1_0", "1e", "\u{2212}1", "١", "1 000,5"]
     {
-        let text = format!("UNITS OF G\nNPTS= 2, DT= .01\n{bad}\n2\n");
-        let (line, reason) = refusal(&text, &PeerFormat);
-        assert!(line == 3 && is_no_number(&reason), "{bad}: {reason}");
+        let text = format!("UNITS OF G\nNPTS= 2, DT= .01\n{sample}\n2\n");
+        let error = refusal(&text, &PeerFormat);
+        assert!(error.line == 3 && is_no_number(&error.fault), "{sample}: {error}");
     }
 }
 
+/// A K-NET file of four counts.
+fn k_net(frequency: &str, duration: &str, scale: &str) -> String {
+    format!(
+        "Sampling Freq(Hz) {frequency}\nDuration Time(s)  {duration}\n\
+         Scale Factor      {scale}\nMemo.\n 1 2 3 4\n"
+    )
+}
+
+/// GOAL: frequency, duration and scale factor of K-NET files are understood wholly, or refused.
 #[test]
 fn quantities_of_k_net_are_whole() {
-    let text = |frequency: &str, duration: &str, scale: &str| {
-        format!(
-            "Sampling Freq(Hz) {frequency}\nDuration Time(s)  {duration}\n\
-             Scale Factor      {scale}\nMemo.\n 1 2 3 4\n"
-        )
-    };
-    let wanted = [0.01, 0.02, 0.03, 0.04];
+    let expected = [0.01, 0.02, 0.03, 0.04];
     for (frequency, duration, scale) in [
         ("2Hz", "2", "2000(gal)/2000"),
         ("2 HZ", "2.0", " 2.0D3 (gal)/ 2000 "),
         ("2.0", "2 sec", "2000(gal)/2.0E+03"),
         ("2D0Hz", "2s", "1(gal)/1"),
     ] {
-        same(&read(&text(frequency, duration, scale), &KNetFormat).unwrap(), 0.5, &wanted);
+        let record = read(&k_net(frequency, duration, scale), &KNetFormat).unwrap();
+        assert_record(&record, 0.5, &expected);
     }
     for (line, frequency, duration, scale) in [
         (1, "2,0Hz", "2", "1(gal)/1"),
@@ -390,8 +388,10 @@ fn quantities_of_k_net_are_whole() {
         (2, "2Hz\nSampling Freq(Hz) 4Hz", "2", "1(gal)/1"),
         (3, "2Hz", "2", "1(gal)/1/2"),
     ] {
-        let (found, reason) = refusal(&text(frequency, duration, scale), &KNetFormat);
-        let typed = is_unclear(&reason);
-        assert!(found == line && typed, "{frequency} {duration} {scale}: {reason}");
+        let error = refusal(&k_net(frequency, duration, scale), &KNetFormat);
+        assert!(
+            error.line == line && is_unclear(&error.fault),
+            "{frequency} {duration} {scale}: {error}"
+        );
     }
 }

@@ -1,48 +1,40 @@
-//! GOAL: a column is never read in another unit than its title names.
+//! GOAL: a column is never read in another unit than that of its title.
 //! SCENE: titles of one or several lines, in brackets and without, behind marks of comments.
 //! REFERENCE: the unit in the title.
 
-use basemat::motion::{AccelerationUnit, ColumnFormat, Record, RecordFormat};
+use basemat::motion::{AccelerationUnit, ColumnFormat, RecordFormat};
 
 use basemat_problems::faults::is_value;
 
-use super::refusal;
+use super::{GRAVITY_UNIT, SI_UNIT, read, refusal};
 
-const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
-const G: AccelerationUnit = AccelerationUnit::StandardGravity;
-
-fn pairs() -> ColumnFormat {
-    ColumnFormat::new(METRIC)
+/// Columns of time and acceleration in m/s².
+fn si_columns() -> ColumnFormat {
+    ColumnFormat::new(SI_UNIT)
 }
 
-/// Two samples under a header, 0.02 s apart.
+/// Asserts that two samples under a header are read.
 #[track_caller]
-fn is_read(header: &str, rows: &str, format: &ColumnFormat) {
-    let text = format!("{header}\n{rows}");
-    let record = Record::from_reader("text", text.as_bytes(), format);
+fn assert_two_samples(header: &str, rows: &str, format: &ColumnFormat) {
+    let record = read(&format!("{header}\n{rows}"), format);
     assert_eq!(record.unwrap_or_else(|error| panic!("{header:?}: {error}")).len(), 2);
 }
 
+/// Asserts the error of a title with another unit.
 #[track_caller]
-fn is_refused(header: &str, rows: &str, format: &ColumnFormat) {
-    let text = format!("{header}\n{rows}");
-    match Record::from_reader("text", text.as_bytes(), format) {
-        Ok(_) => panic!("{header:?} is read"),
-        Err(error) => {
-            assert!(
-                error.to_string().contains("must be without another unit than"),
-                "{header:?}: {error}"
-            );
-        }
-    }
+fn assert_other_unit(header: &str, rows: &str, format: &ColumnFormat) {
+    let error = read(&format!("{header}\n{rows}"), format).map(drop);
+    let error = error.expect_err(header);
+    assert!(error.to_string().contains("must be without another unit than"), "{header:?}: {error}");
 }
 
-const ROWS: &str = "0,1\n0.02,2\n";
+/// Two samples, 0.02 s apart.
+const TWO_ROWS: &str = "0,1\n0.02,2\n";
 
-/// Titles above the last line of the header count, too.
+/// GOAL: titles above the last line of the header are checked, too.
 #[test]
 fn every_line_of_the_header_counts() {
-    let g = ColumnFormat::new(G);
+    let g = ColumnFormat::new(GRAVITY_UNIT);
     for (header, lines) in [
         ("# t (ms), a (cm/s2)\n# ------", 0),
         ("# t (s), a (cm/s2)\n# ------", 0),
@@ -59,14 +51,14 @@ fn every_line_of_the_header_counts() {
         ("# Time (s)\n# Acceleration (cm/s2)", 0),
         ("# Acceleration in cm/s2\n# of El Centro, component North-South", 0),
     ] {
-        is_refused(header, ROWS, &ColumnFormat { header_lines: lines, ..g });
+        assert_other_unit(header, TWO_ROWS, &ColumnFormat { header_lines: lines, ..g });
     }
     for (header, lines) in [
         ("# t (s), a (g)\n# ------", 0),
         ("time,acc\n(s),(g)", 2),
         ("time,acc\n[sec],[g]", 2),
         ("time acc\ns g", 2),
-        // The line next to the numbers.
+        // The line next to the numbers counts first.
         ("# recorded: t (ms), a (cm/s2)\nt (s),a (g)", 0),
         ("# Time (s)\n# Acceleration (g)", 0),
         // Values are no titles.
@@ -77,21 +69,21 @@ fn every_line_of_the_header_counts() {
         ("# (ms)", 0),
         ("# Time of the peak 2.04 (min)", 0),
     ] {
-        is_read(header, ROWS, &ColumnFormat { header_lines: lines, ..g });
+        assert_two_samples(header, TWO_ROWS, &ColumnFormat { header_lines: lines, ..g });
     }
-    is_refused("# time, NS, EW\n# units: cm/s2", "0,1,2\n0.02,3,4\n", &g);
-    is_refused("時間（s）,加速度（gal）", ROWS, &g);
-    // Names of components come from the line that has them.
+    assert_other_unit("# time, NS, EW\n# units: cm/s2", "0,1,2\n0.02,3,4\n", &g);
+    assert_other_unit("時間（s）,加速度（gal）", TWO_ROWS, &g);
+    // Names of components are taken from the line that has them.
     let text = "time,NS,EW\n(s),(g),(g)\n0,1,2\n0.02,3,4\n";
     let format = ColumnFormat { header_lines: 2, ..g };
-    let all = format.parse_all("text", &mut text.as_bytes()).unwrap();
-    assert_eq!([&all[0].0, &all[1].0], ["NS", "EW"]);
+    let records = format.parse_all("text", &mut text.as_bytes()).unwrap();
+    assert_eq!([&records[0].0, &records[1].0], ["NS", "EW"]);
 }
 
-/// Units without brackets, and units in spellings that no one expects.
+/// GOAL: units without brackets and in unusual spellings are checked.
 #[test]
 fn every_spelling_of_a_unit_counts() {
-    let g = ColumnFormat::new(G);
+    let g = ColumnFormat::new(GRAVITY_UNIT);
     for header in [
         "t,cm/s2",
         "ms,g",
@@ -129,7 +121,7 @@ fn every_spelling_of_a_unit_counts() {
         "% t (s), a (cm/s2)",
         "// t (s), a (cm/s2)",
     ] {
-        is_refused(header, ROWS, &g);
+        assert_other_unit(header, TWO_ROWS, &g);
     }
     for header in [
         "t,g",
@@ -144,7 +136,7 @@ fn every_spelling_of_a_unit_counts() {
         "t,in",
         "Time, s, Acc, g",
         "Elapsed time [s] Ground acceleration [g]",
-        "T,G",
+        "T,GRAVITY_UNIT",
         "t,S",
         "t,a (S)",
         "t,a (V)",
@@ -156,38 +148,38 @@ fn every_spelling_of_a_unit_counts() {
         "t,a (g, filtered)",
         "t,n",
     ] {
-        is_read(header, ROWS, &g);
+        assert_two_samples(header, TWO_ROWS, &g);
     }
     // Not UTF-8, as spreadsheets write it.
-    for (unit, read) in [(AccelerationUnit::Gal, true), (G, false)] {
-        let text = b"t (s),a (cm/s\xb2)\n0,1\n0.02,2\n";
-        let record = Record::from_reader("text", &text[..], &ColumnFormat::new(unit));
-        assert_eq!(record.is_ok(), read, "{record:?}");
+    for (unit, is_accepted) in [(AccelerationUnit::Gal, true), (GRAVITY_UNIT, false)] {
+        let record = read(b"t (s),a (cm/s\xb2)\n0,1\n0.02,2\n", &ColumnFormat::new(unit));
+        assert_eq!(record.is_ok(), is_accepted, "{record:?}");
     }
 }
 
-/// Cells at the end of a line that are empty in the titles or in the numbers.
+/// GOAL: cells at the end of a line that are empty in titles or numbers do not hide a unit.
 #[test]
 fn empty_cells_do_not_hide_a_unit() {
-    let g = ColumnFormat::new(G);
+    let g = ColumnFormat::new(GRAVITY_UNIT);
     for (header, rows) in [
-        ("t (s),a (cm/s2),", ROWS),
+        ("t (s),a (cm/s2),", TWO_ROWS),
         ("t (s),a (cm/s2)", "0,1,\n0.02,2,\n"),
         ("t (s),a (cm/s2),", "0,1,\n0.02,2,\n"),
         ("t (s),a (cm/s2),remark", "0,1,\n0.02,2,end\n"),
     ] {
-        is_refused(header, rows, &g);
-        is_read(&header.replace("cm/s2", "g"), rows, &g);
+        assert_other_unit(header, rows, &g);
+        assert_two_samples(&header.replace("cm/s2", "g"), rows, &g);
     }
     // The column of row numbers that has no title.
     let third = ColumnFormat { time_column: 2, acceleration_column: Some(3), ..g };
-    is_refused(",t (s),a (cm/s2)", "0,0,1\n1,0.02,2\n", &third);
-    is_read(",t (s),a (g)", "0,0,1\n1,0.02,2\n", &third);
+    assert_other_unit(",t (s),a (cm/s2)", "0,0,1\n1,0.02,2\n", &third);
+    assert_two_samples(",t (s),a (g)", "0,0,1\n1,0.02,2\n", &third);
 }
 
+/// GOAL: the title of a single column is the whole line.
 #[test]
 fn titles_of_a_single_column_are_whole_lines() {
-    let alone = ColumnFormat::equally_spaced(G, 0.02);
+    let single_column = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.02);
     for header in [
         "Ground acceleration (cm/s2)",
         "Acc. in cm/s2",
@@ -195,7 +187,7 @@ fn titles_of_a_single_column_are_whole_lines() {
         "cm/s2",
         "CH1 [gal]",
     ] {
-        is_refused(header, "1\n2\n", &alone);
+        assert_other_unit(header, "1\n2\n", &single_column);
     }
     for header in [
         "Ground acceleration (g)",
@@ -204,11 +196,11 @@ fn titles_of_a_single_column_are_whole_lines() {
         "# PGA 0.3 m/s2",
         "# PGA = 312 (cm/s2)",
     ] {
-        is_read(header, "1\n2\n", &alone);
+        assert_two_samples(header, "1\n2\n", &single_column);
     }
 }
 
-/// A title that names another unit than the file is read in.
+/// GOAL: a title with another unit than the format's is refused; titles of other columns and lines are not checked.
 #[test]
 fn titles_are_held_against_the_format() {
     for text in [
@@ -221,19 +213,19 @@ fn titles_are_held_against_the_format() {
         "time_s,acceleration_g\n0,1\n0.02,2\n",
         "a (m/s2),t (s)\n0,1\n0.02,2\n",
     ] {
-        let (line, reason) = refusal(text, &pairs());
-        assert!(line == 2 && is_value(&reason, "title"), "{text:?}: {reason}");
+        let error = refusal(text, &si_columns());
+        assert!(error.line == 2 && is_value(&error.fault, "title"), "{text:?}: {error}");
     }
     for text in [
         "time (s),a (m/s2)\n0,1\n0.02,2\n",
         "time_s,acceleration_m_per_s2\n0,1\n0.02,2\n",
         "t (sec) a (m/sec/sec)\n0 1\n0.02 2\n",
         "t,a (filtered)\n0,1\n0.02,2\n",
-        // Of other columns, and of other lines.
+        // Units of other columns, and of other lines.
         "t,a,v (cm/s)\n0,1,5\n0.02,2,5\n",
         "# (ms)\n0,1\n0.02,2\n",
     ] {
-        let record = Record::from_reader("text", text.as_bytes(), &pairs()).unwrap();
+        let record = read(text, &si_columns()).unwrap();
         assert_eq!(
             (record.time_step(), record.accelerations()),
             (0.02, &[1.0, 2.0][..]),
@@ -242,13 +234,13 @@ fn titles_are_held_against_the_format() {
     }
 }
 
-/// Titles that are as long as a line may be cost no more than their length.
+/// GOAL: reading a title takes time proportional to its length, up to the longest line.
 #[test]
 fn long_titles_are_read_at_once() {
-    let alone = ColumnFormat::equally_spaced(G, 0.02);
+    let single_column = ColumnFormat::equally_spaced(GRAVITY_UNIT, 0.02);
     for word in ["a ", "a_", "(m/", "[", "m s ", "g x ", "1 g/", "n,"] {
         let title = word.repeat(60_000 / word.len());
         let header = vec![format!("# {title}"); 2].join("\n");
-        is_read(&header, "1\n2\n", &alone);
+        assert_two_samples(&header, "1\n2\n", &single_column);
     }
 }

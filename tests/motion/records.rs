@@ -1,5 +1,5 @@
 //! GOAL: integrals, peaks and intensities of a record, between and outside its samples.
-//! SCENE: El Centro, ramps, any samples.
+//! SCENE: El Centro, ramps, arbitrary samples.
 //! REFERENCE: values tabulated with the record, and exact integrals.
 
 use approx::assert_relative_eq;
@@ -7,8 +7,10 @@ use basemat::Error;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use proptest::prelude::*;
 
+use basemat_problems::dense::largest;
 use basemat_problems::{close, table};
 
+/// GOAL: samples, time steps and factors out of range are refused.
 #[test]
 fn bad_samples_and_steps_are_refused() {
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -33,21 +35,25 @@ fn bad_samples_and_steps_are_refused() {
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().scaled_to_peak(1.0).is_err());
 }
 
-/// A constant acceleration gathers its intensity evenly, a ramp as the cube of time; El Centro's
-/// values come from an independent sum.
+/// Asserts the times between which 5 to 95 % of the intensity are reached.
+#[track_caller]
+fn assert_significant_times(record: &Record, from: f64, to: f64, tolerance: f64) {
+    let times = record.significant_times(0.05, 0.95).unwrap();
+    assert!((times[0] - from).abs() < tolerance && (times[1] - to).abs() < tolerance, "{times:?}");
+}
+
+/// GOAL: significant times of a constant, a ramp and El Centro.
+/// REFERENCE: intensities that grow evenly and as the cube of time; an independent sum.
 #[test]
 fn significant_times_are_where_the_intensity_is_reached() {
-    let even = Record::new(0.5, vec![-3e-200; 41]).unwrap();
-    let [from, to] = even.significant_times(0.05, 0.95).unwrap();
-    assert!((from - 1.0).abs() < 1e-12 && (to - 19.0).abs() < 1e-12);
+    let constant = Record::new(0.5, vec![-3e-200; 41]).unwrap();
+    assert_significant_times(&constant, 1.0, 19.0, 1e-12);
     let ramp = Record::new(1e-4, (0..=10_000).map(f64::from).collect()).unwrap();
-    let [from, to] = ramp.significant_times(0.05, 0.95).unwrap();
-    assert!((from - 0.05_f64.cbrt()).abs() < 1e-6 && (to - 0.95_f64.cbrt()).abs() < 1e-6);
-    let [from, to] = el_centro_1940().significant_times(0.05, 0.95).unwrap();
-    assert!((from - 1.668_760_52).abs() < 1e-8 && (to - 25.512_122_39).abs() < 1e-8);
+    assert_significant_times(&ramp, 0.05_f64.cbrt(), 0.95_f64.cbrt(), 1e-6);
+    assert_significant_times(&el_centro_1940(), 1.668_760_52, 25.512_122_39, 1e-8);
     assert_eq!(el_centro_1940().significant_times(0.0, 1.0).unwrap()[0], 0.0);
     for [from, to] in [[-0.1, 0.5], [0.5, 0.4], [0.0, 1.1], [f64::NAN, 0.5], [0.1, f64::NAN]] {
-        assert!(even.significant_times(from, to).is_err(), "{from} {to}");
+        assert!(constant.significant_times(from, to).is_err(), "{from} {to}");
     }
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().significant_times(0.05, 0.95).is_err());
 }
@@ -70,33 +76,34 @@ fn el_centro_1940_peaks() {
         1e-12,
         0.0,
     );
-    let at_samples = record.velocities().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    close("PGV at the samples", at_samples, velocity, 5e-7, 0.0);
+    let peak_of_samples = largest(record.velocities());
+    close("PGV at the samples", peak_of_samples, velocity, 5e-7, 0.0);
     close("v at the end", record.at(record.duration()).velocity, v_end, 5e-7, 0.0);
     close("u at the end", record.at(record.duration()).displacement, d_end, 5e-7, 0.0);
     close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
-    // between the samples the peaks are at least as large, as a fine resampling finds too
+    // Between the samples the peaks are at least as large, and those of a fine resampling.
     let fine = record.resampled(0.02 / 64.0).unwrap();
-    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    assert!(record.peaks().velocity >= at_samples);
+    assert!(record.peaks().velocity >= peak_of_samples);
     close("PGV", largest(fine.velocities()), record.peaks().velocity, 1e-6, 0.0);
     close("PGD", largest(fine.displacements()), record.peaks().displacement, 1e-8, 0.0);
     assert!(largest(fine.velocities()) <= record.peaks().velocity + 1e-14);
 }
 
+/// GOAL: peaks of velocity and displacement between samples, in closed form.
 #[test]
 fn peaks_between_samples() {
-    // a = 1 − t on [0, 2]: v = t − t²/2 peaks at t = 1 with 1/2; u = t²/2 − t³/6 rises to 2/3
+    // a = 1 − t on [0, 2]: v = t − t²/2 peaks at t = 1 with 1/2; u = t²/2 − t³/6 rises to 2/3.
     let record = Record::new(2.0, vec![1.0, -1.0]).unwrap();
     assert_eq!(record.peaks().velocity, 0.5);
     assert_relative_eq!(record.peaks().displacement, 2.0 / 3.0, max_relative = 1e-15);
-    // a = 1 − t on [0, 4]: v = 0 again at t = 2, u = 2/3 there and −8/3 at the end
+    // a = 1 − t on [0, 4]: v = 0 again at t = 2, u = 2/3 there and −8/3 at the end.
     let record = Record::new(4.0, vec![1.0, -3.0]).unwrap();
     assert_relative_eq!(record.peaks().displacement, 8.0 / 3.0, max_relative = 1e-15);
     let record = Record::new(3.0, vec![1.0, -2.0]).unwrap();
     assert_relative_eq!(record.peaks().displacement, 2.0 / 3.0, max_relative = 1e-15);
 }
 
+/// GOAL: a record is at rest before its start and moves with constant velocity after its end.
 #[test]
 fn motion_outside_the_record() {
     let record = Record::new(1.0, vec![2.0, 2.0]).unwrap();
@@ -109,6 +116,7 @@ fn motion_outside_the_record() {
     assert_eq!(record.at(3.0).displacement, 5.0);
 }
 
+/// GOAL: resampling keeps the piecewise linear acceleration and its integrals.
 #[test]
 fn resampling_keeps_the_function() {
     let record = el_centro_1940();
@@ -120,7 +128,7 @@ fn resampling_keeps_the_function() {
         close("u", fine.at(time).displacement, record.at(time).displacement, 1e-12, 0.0);
     }
     assert_eq!(fine.resampled(0.02).unwrap().len(), record.len());
-    // a step that does not divide the duration ends after the record, at zero
+    // A time step that does not divide the duration ends after the record, at zero.
     let odd = Record::new(1.0, vec![3.0, 3.0]).unwrap().resampled(0.4).unwrap();
     assert_eq!(odd.accelerations(), [3.0, 3.0, 3.0, 0.0]);
 }
@@ -129,49 +137,53 @@ fn samples() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-10.0..10.0_f64, 2..60)
 }
 
+/// Acceleration, velocity and displacement of a record with samples every 0.1 s.
+fn motion_at(samples: impl Iterator<Item = f64>, time: f64) -> [f64; 3] {
+    let record = Record::new(0.1, samples.collect()).unwrap();
+    let motion = record.at(time);
+    [motion.acceleration, motion.velocity, motion.displacement]
+}
+
 proptest! {
-    /// The slope of the displacement is the velocity, and the slope of the velocity the
-    /// acceleration.
+    /// GOAL: the slope of the displacement is the velocity, and the slope of the velocity the acceleration.
     #[test]
     fn integrals_are_consistent(
         step in 0.01..1.0_f64,
         values in samples(),
-        at in 0.0..1.2_f64,
+        relative_time in 0.0..1.2_f64,
     ) {
         let record = Record::new(step, values).unwrap();
-        let time = at * record.duration();
+        let time = relative_time * record.duration();
         let h = 1e-3 * step;
-        // central differences of a cubic are off by u''' h²/6, those across a corner by (Δa/Δt) h
-        let slope = |f: &dyn Fn(f64) -> f64| (f(time + h) - f(time - h)) / (2.0 * h);
+        let before = record.at(time - h);
+        let after = record.at(time + h);
+        // Central differences of a cubic have the error u''' h²/6, those across a corner (Δa/Δt) h.
         let scale = 20.0 * record.duration().max(1.0);
-        let v = slope(&|t| record.at(t).displacement);
         if time > h {
+            let v = (after.displacement - before.displacement) / (2.0 * h);
             prop_assert!((v - record.at(time).velocity).abs() < 20.0 * h + 1e-9 * scale);
-            let corner = (time / step - (time / step).round()).abs() * step;
-            if corner > h {
-                let a = slope(&|t| record.at(t).velocity);
+            let distance_to_corner = (time / step - (time / step).round()).abs() * step;
+            if distance_to_corner > h {
+                let a = (after.velocity - before.velocity) / (2.0 * h);
                 prop_assert!((a - record.at(time).acceleration).abs() < 1e-8 * scale / step);
             }
         }
     }
 
+    /// GOAL: the integrals of a sum are the sums of the integrals.
     #[test]
     fn integration_is_linear(
         pairs in prop::collection::vec((-10.0..10.0_f64, -10.0..10.0_f64), 2..60),
         factor in -3.0..3.0_f64,
-        at in -0.1..1.5_f64,
+        relative_time in -0.1..1.5_f64,
     ) {
-        let new = |values: Vec<f64>| Record::new(0.1, values).unwrap();
-        let first = new(pairs.iter().map(|p| p.0).collect());
-        let second = new(pairs.iter().map(|p| p.1).collect());
-        let sum = new(pairs.iter().map(|p| p.0 + factor * p.1).collect());
-        let time = at * sum.duration();
-        let motion = |r: &Record| {
-            [r.at(time).acceleration, r.at(time).velocity, r.at(time).displacement]
-        };
-        let (a, b, c) = (motion(&first), motion(&second), motion(&sum));
+        let sums: Vec<f64> = pairs.iter().map(|pair| pair.0 + factor * pair.1).collect();
+        let time = relative_time * Record::new(0.1, sums.clone()).unwrap().duration();
+        let first = motion_at(pairs.iter().map(|pair| pair.0), time);
+        let second = motion_at(pairs.iter().map(|pair| pair.1), time);
+        let sum = motion_at(sums.into_iter(), time);
         for k in 0..3 {
-            prop_assert!((a[k] + factor * b[k] - c[k]).abs() < 1e-10);
+            prop_assert!((first[k] + factor * second[k] - sum[k]).abs() < 1e-10);
         }
     }
 }

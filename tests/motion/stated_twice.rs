@@ -1,49 +1,50 @@
-//! GOAL: what a file states twice must agree, and what it states once must be in the unit of its samples.
-//! SCENE: the files of the agencies, changed in one place, so that only one other place speaks against it.
+//! GOAL: quantities that a file states twice must agree, and all must be in the unit of its samples.
+//! SCENE: the files of the agencies, changed in one place, so that one other place contradicts it.
 //! REFERENCE: the other place.
 
 use basemat::motion::{
-    AfadFormat, CosmosFormat, EsmFormat, GeoNetFormat, KNetCsvFormat, KNetFormat, Record,
-    RecordFormat, SmcFormat,
+    AfadFormat, CosmosFormat, EsmFormat, GeoNetFormat, KNetCsvFormat, KNetFormat, RecordFormat,
+    SmcFormat,
 };
 
 use super::agency_files::bytes;
-use super::refusal;
+use super::{read, refusal};
 
-/// Changes of a file, and the text of the error.
-type Change = (&'static [(&'static str, &'static str)], &'static str);
+/// Changes of a file, and the beginning and end of the error's text.
+type FileChange = (&'static [(&'static str, &'static str)], &'static str);
 
-const PEAK: &str = "peak acceleration (m/s²) is …, as the file states elsewhere";
-const DURATION: &str =
+const OTHER_PEAK: &str = "peak acceleration (m/s²) is …, as the file states elsewhere";
+const OTHER_DURATION: &str =
     "number of samples times the time step (s) is …, as the file states elsewhere";
-const TITLE_UNIT: &str = "title is …, in which the column is read";
+const OTHER_UNIT: &str = "title is …, in which the column is read";
 const NOT_ACCELERATION: &str = "'… instead of an acceleration in a known unit";
 
-/// Each change is refused for its own reason.
+/// Asserts that each change is refused with its error.
 #[track_caller]
-fn are_refused(name: &str, format: &dyn RecordFormat, changes: &[Change]) {
+fn assert_refused(name: &str, format: &dyn RecordFormat, changes: &[FileChange]) {
     let text = String::from_utf8(bytes(name)).unwrap();
-    assert!(Record::from_reader(name, text.as_bytes(), format).is_ok());
-    for (pairs, wanted) in changes {
+    assert!(read(&text, format).is_ok());
+    for (replacements, expected) in changes {
         let mut changed = text.clone();
-        for (from, to) in *pairs {
+        for (from, to) in *replacements {
             assert!(changed.contains(from), "{name}: {from}");
             changed = changed.replacen(from, to, 1);
         }
-        let (line, reason) = refusal(&changed, format);
-        let (begin, end) = wanted.split_once('…').unwrap_or((wanted, wanted));
-        let text = reason.to_string();
+        let error = refusal(&changed, format);
+        let fault = error.fault.to_string();
+        let (start, end) = expected.split_once('…').unwrap_or((expected, expected));
         assert!(
-            text.starts_with(begin) && text.ends_with(end),
-            "{name}, line {line}, {pairs:?}: {text}, not {wanted}"
+            fault.starts_with(start) && fault.ends_with(end),
+            "{name}, {replacements:?}: {error}, not {expected}"
         );
     }
 }
 
+/// GOAL: the time step, number of points and peak of a CSMIP file agree.
 #[test]
 fn csmip_files_agree_with_themselves() {
     let step = "time step of the title (s) is …, as the file states elsewhere";
-    are_refused(
+    assert_refused(
         "csmip.v2",
         &CosmosFormat::default(),
         &[
@@ -53,22 +54,23 @@ fn csmip_files_agree_with_themselves() {
                 &[("100 points of instrument", " 99 points of instrument")],
                 "number of points of the title is …, as the file states elsewhere",
             ),
-            (&[("in cm/sec2", "in g     ")], PEAK),
-            (&[("108.580    cm/sec/sec", "108.580    mm/sec/sec")], PEAK),
+            (&[("in cm/sec2", "in g     ")], OTHER_PEAK),
+            (&[("108.580    cm/sec/sec", "108.580    mm/sec/sec")], OTHER_PEAK),
             (&[("108.580    cm/sec/sec", "108.580    mg        ")], NOT_ACCELERATION),
         ],
     );
 }
 
+/// GOAL: interval, duration, unit and peak of a COSMOS file agree.
 #[test]
 fn cosmos_files_agree_with_themselves() {
-    are_refused(
+    assert_refused(
         "cosmos.v2c",
         &CosmosFormat::default(),
         &[
-            (&[("10.000000       1.000000", "20.000000       1.000000")], DURATION),
-            (&[("10.000000       1.000000", "10.000000       3.000000")], DURATION),
-            (&[("approx    1 secs", "approx    5 secs")], DURATION),
+            (&[("10.000000       1.000000", "20.000000       1.000000")], OTHER_DURATION),
+            (&[("10.000000       1.000000", "10.000000       3.000000")], OTHER_DURATION),
+            (&[("approx    1 secs", "approx    5 secs")], OTHER_DURATION),
             (
                 &[("       1       4     120", "       1       2     120")],
                 "unit is …, but must be clear: all of it a known number, unit or word",
@@ -78,15 +80,15 @@ fn cosmos_files_agree_with_themselves() {
                 "unit is …, but must be clear: all of it a known number, unit or word",
             ),
             (&[("cm/sec2(04)", "cm/sec2(02)")], NOT_ACCELERATION),
-            (&[("108.580490       0.10", "  1.085805       0.10")], PEAK),
+            (&[("108.580490       0.10", "  1.085805       0.10")], OTHER_PEAK),
         ],
     );
 }
 
+/// GOAL: frequency, duration, unit and peak of K-NET files agree; duration and frequency give the number of samples.
 #[test]
 fn k_net_files_agree_with_themselves() {
-    // Duration and frequency together are the number of samples.
-    are_refused(
+    assert_refused(
         "k_net.ns",
         &KNetFormat,
         &[
@@ -95,46 +97,48 @@ fn k_net_files_agree_with_themselves() {
                 &[("Duration Time(s)  1", "Duration Time(s)  2")],
                 "number of samples is 100, but must be 200",
             ),
-            (&[("3920(gal)", "39.2(gal)")], PEAK),
-            (&[("Max. Acc. (gal)", "Max. Acc. (g)  ")], TITLE_UNIT),
-            (&[("Max. Acc. (gal)", "Max. Acc. (m/s2)")], TITLE_UNIT),
+            (&[("3920(gal)", "39.2(gal)")], OTHER_PEAK),
+            (&[("Max. Acc. (gal)", "Max. Acc. (g)  ")], OTHER_UNIT),
+            (&[("Max. Acc. (gal)", "Max. Acc. (m/s2)")], OTHER_UNIT),
         ],
     );
-    are_refused(
+    assert_refused(
         "k_net.csv",
         &KNetCsvFormat::default(),
         &[
             (&[("Freq(Hz),100", "Freq(Hz),200")], "time is … with equal steps"),
             (&[("Freq(Hz),100", "Freq(Hz),50")], "time is … with equal steps"),
             (&[("00:00:00.10,", "00:00:00.20,")], "time is … with equal steps"),
-            (&[("Duration Time(s),1", "Duration Time(s),2")], DURATION),
-            (&[("Time,NS", "Time,NS(g)")], TITLE_UNIT),
-            (&[("(gal),108.580", "(gal),1.086")], PEAK),
-            (&[("Max. Acc. (gal)", "Max. Acc. (g)")], TITLE_UNIT),
+            (&[("Duration Time(s),1", "Duration Time(s),2")], OTHER_DURATION),
+            (&[("Time,NS", "Time,NS(g)")], OTHER_UNIT),
+            (&[("(gal),108.580", "(gal),1.086")], OTHER_PEAK),
+            (&[("Max. Acc. (gal)", "Max. Acc. (g)")], OTHER_UNIT),
         ],
     );
 }
 
+/// GOAL: interval, duration, number of samples, unit and peak of an ESM file agree.
 #[test]
 fn esm_files_agree_with_themselves() {
-    are_refused(
+    assert_refused(
         "esm_hne.asc",
         &EsmFormat,
         &[
-            (&[("SAMPLING_INTERVAL_S: 0.010", "SAMPLING_INTERVAL_S: 0.005")], DURATION),
-            (&[("DURATION_S: 1.000", "DURATION_S: 2.000")], DURATION),
+            (&[("SAMPLING_INTERVAL_S: 0.010", "SAMPLING_INTERVAL_S: 0.005")], OTHER_DURATION),
+            (&[("DURATION_S: 1.000", "DURATION_S: 2.000")], OTHER_DURATION),
             (&[("NDATA: 100", "NDATA: 99")], "number of samples is 100, but must be 99"),
-            (&[("UNITS: cm/s^2", "UNITS: m/s^2")], PEAK),
-            (&[("PGA_CM/S^2", "PGA_M/S^2")], PEAK),
+            (&[("UNITS: cm/s^2", "UNITS: m/s^2")], OTHER_PEAK),
+            (&[("PGA_CM/S^2", "PGA_M/S^2")], OTHER_PEAK),
             (&[("UNITS: cm/s^2", "UNITS: cm/s")], NOT_ACCELERATION),
             (&[("DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY")], NOT_ACCELERATION),
         ],
     );
 }
 
+/// GOAL: number of samples, peaks, columns and units of an AFAD file agree; the unit may stand in either title.
 #[test]
 fn afad_files_agree_with_themselves() {
-    are_refused(
+    assert_refused(
         "afad_three.txt",
         &AfadFormat::default(),
         &[
@@ -142,7 +146,7 @@ fn afad_files_agree_with_themselves() {
                 &[("NUMBER OF DATA          : 100", "NUMBER OF DATA          : 99")],
                 "number of samples is 100, but must be 99",
             ),
-            (&[("(E-W) 83.", "(E-W) 8.3")], PEAK),
+            (&[("(E-W) 83.", "(E-W) 8.3")], OTHER_PEAK),
             (
                 &[("(E-W) 83.", "(E-W) 83,")],
                 "peak acceleration is …, but must be clear: all of it a known number, unit or word",
@@ -151,37 +155,37 @@ fn afad_files_agree_with_themselves() {
                 &[("E-W          U-D\r\n ", "E-W\r\n ")],
                 "number of columns is 3, but must be 2, as before",
             ),
-            (&[("VALUES (gal)", "VALUES (mg)")], TITLE_UNIT),
-            (&[("VALUES (gal)", "VALUES (g)")], TITLE_UNIT),
-            (&[("VALUES (gal)", "VALUES (m/s2)")], TITLE_UNIT),
-            (&[("       N-S ", "    N-S(g) ")], TITLE_UNIT),
-            (&[("       N-S ", "    N-S (g) ")], TITLE_UNIT),
-            (&[("       U-D\r", "  U-D (cm/s)\r")], TITLE_UNIT),
+            (&[("VALUES (gal)", "VALUES (mg)")], OTHER_UNIT),
+            (&[("VALUES (gal)", "VALUES (g)")], OTHER_UNIT),
+            (&[("VALUES (gal)", "VALUES (m/s2)")], OTHER_UNIT),
+            (&[("       N-S ", "    N-S(g) ")], OTHER_UNIT),
+            (&[("       N-S ", "    N-S (g) ")], OTHER_UNIT),
+            (&[("       U-D\r", "  U-D (cm/s)\r")], OTHER_UNIT),
         ],
     );
     // The unit of the samples, in either place.
     let text = String::from_utf8(bytes("afad_three.txt")).unwrap();
-    let wanted = Record::from_reader("", text.as_bytes(), &AfadFormat::default()).unwrap();
+    let expected = read(&text, &AfadFormat::default()).unwrap();
     for (from, to) in [
         ("VALUES (gal)", "VALUES (cm/s2)"),
         ("       N-S ", "  N-S (gal) "),
         ("VALUES (gal)", "VALUES      "),
     ] {
         let text = text.replacen(from, to, 1);
-        let read = Record::from_reader("", text.as_bytes(), &AfadFormat::default());
-        assert_eq!(read.unwrap(), wanted, "{to}");
+        assert_eq!(read(&text, &AfadFormat::default()).unwrap(), expected, "{to}");
     }
     let text = text.replacen("       N-S ", "  N-S (gal) ", 1).replace("(N-S) 108.", "(N-S) 10.8");
-    let (_, reason) = refusal(&text, &AfadFormat::default());
+    let error = refusal(&text, &AfadFormat::default());
     assert_eq!(
-        reason.to_string(),
+        error.fault.to_string(),
         "peak acceleration (m/s²) is 1.0858049, but must be 0.10858049, as the file states elsewhere"
     );
 }
 
+/// GOAL: peaks, their time and the kind of data of an SMC file agree.
 #[test]
 fn smc_files_agree_with_themselves() {
-    are_refused(
+    assert_refused(
         "smc.smc",
         &SmcFormat,
         &[
@@ -189,8 +193,8 @@ fn smc_files_agree_with_themselves() {
                 &[("0.1000000E+03", "0.5000000E+02")],
                 "time of the peak acceleration (s) is …, as the file states elsewhere",
             ),
-            (&[("0.1085805E+03", "0.1085805E+02")], PEAK),
-            (&[("-0.8889819E+02", "-0.8889819E+00")], PEAK),
+            (&[("0.1085805E+03", "0.1085805E+02")], OTHER_PEAK),
+            (&[("-0.8889819E+02", "-0.8889819E+00")], OTHER_PEAK),
             (&[("2 CORRECTED ACCELEROGRAM", "3 VELOCITY              ")], NOT_ACCELERATION),
             (
                 &[("0.1000000E+03", "0.1700000E+39")],
@@ -200,9 +204,10 @@ fn smc_files_agree_with_themselves() {
     );
 }
 
+/// GOAL: time step, number of points, duration, peak and unit of a GeoNet file agree.
 #[test]
 fn geonet_files_agree_with_themselves() {
-    are_refused(
+    assert_refused(
         "geonet.v2a",
         &GeoNetFormat::default(),
         &[
@@ -214,8 +219,8 @@ fn geonet_files_agree_with_themselves() {
                 &[("points    100", "points     99")],
                 "number of points is …, as the file states elsewhere",
             ),
-            (&[("Duration   0.99", "Duration   1.99")], DURATION),
-            (&[("peak  21716.1", "peak   2171.6")], PEAK),
+            (&[("Duration   0.99", "Duration   1.99")], OTHER_DURATION),
+            (&[("peak  21716.1", "peak   2171.6")], OTHER_PEAK),
             (
                 &[(
                     "21716.1 mm/s/s at   0.10 sec     rms      2.2 mm/s/s",

@@ -19,21 +19,23 @@ fn kernels(criterion: &mut Criterion) {
     let kernel = InfluenceKernel::new(soil, 0.25).expect("valid step");
     let strip = Strip::uniform(0.0..20.0, 20).expect("a valid strip").elements();
     let patch = PatchKernel::new(soil, strip.clone(), 0.25).expect("a valid patch");
-    let class = |apart: usize| patch.classes().pairs()[apart].class;
     let mut group = criterion.benchmark_group("convolution weights");
-    let mut slices = [[0.0; 120]; 3];
+    let mut zz = [0.0; 120];
+    let mut xx = [0.0; 120];
+    let mut zx = [0.0; 120];
     group.throughput(Throughput::Elements(120));
     for distance in [0, 1, 5, 19] {
-        let class = class(distance);
-        let [zz, xx, zx] = &mut slices;
+        let class = patch.classes().pairs()[distance].class;
         group.bench_function(format!("early, {distance} elements apart"), |b| {
-            b.iter(|| patch.coefficients(class, black_box(1), &mut [zz, xx, zx]));
+            b.iter(|| patch.coefficients(class, black_box(1), &mut [&mut zz, &mut xx, &mut zx]));
         });
     }
+    let farthest = patch.classes().pairs()[19].class;
     for first in [300, 3000, 1_000_000] {
-        let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("late, lag {first}"), |b| {
-            b.iter(|| patch.coefficients(class(19), black_box(first), &mut [zz, xx, zx]));
+            b.iter(|| {
+                patch.coefficients(farthest, black_box(first), &mut [&mut zz, &mut xx, &mut zx])
+            });
         });
     }
     group.throughput(Throughput::Elements(1));
@@ -50,20 +52,20 @@ fn kernels(criterion: &mut Criterion) {
     });
 }
 
-/// All coefficients that a history of 1000 steps needs of a uniform patch.
+/// All coefficients that a history of 1000 steps uses of a uniform patch.
 fn patches(criterion: &mut Criterion) {
-    const LAGS: usize = 1_000;
+    const LAG_COUNT: usize = 1_000;
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
     let mut group = criterion.benchmark_group("coefficients of a patch, 1000 lags");
     group.sample_size(20);
-    let mut slices = [(); 3].map(|()| vec![0.0; LAGS]);
+    let mut slices = [(); 3].map(|()| vec![0.0; LAG_COUNT]);
     for count in [10_u32, 40, 200] {
         let elements = Strip::uniform(0.0..f64::from(count), count as usize)
             .expect("a valid strip")
             .elements();
         let kernel = PatchKernel::new(soil, elements, 0.25).expect("a valid patch");
         let [zz, xx, zx] = &mut slices;
-        group.throughput(Throughput::Elements(u64::from(count) * LAGS as u64));
+        group.throughput(Throughput::Elements(u64::from(count) * LAG_COUNT as u64));
         group.bench_function(format!("{count} elements"), |b| {
             b.iter(|| {
                 (0..kernel.classes().count()).try_for_each(|class| {
@@ -75,11 +77,17 @@ fn patches(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn soil(speed: f64) -> Soil {
+    Soil::from_shear_wave_speed(speed, 0.33, 1900.0).expect("valid soil")
+}
+
+fn damping(ratio: f64) -> GeneralizedMaxwell {
+    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).expect("a fit")
+}
+
 /// Setup of a layered ground: two damped layers on rock, 12 graded elements.
 fn layered(criterion: &mut Criterion) {
-    const STEPS: usize = 500;
-    let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).expect("valid soil");
-    let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).expect("a fit");
+    const STEP_COUNT: usize = 500;
     let profile = SoilProfile::on_half_plane(soil(500.0))
         .with_bedrock_damping(damping(0.01))
         .with_layer(soil(150.0), 6.0)
@@ -89,11 +97,11 @@ fn layered(criterion: &mut Criterion) {
     let strip = Strip::graded(-3.0..3.0, 12).expect("a valid strip");
     let ground = ElasticGround::new(profile, strip).expect("a ground").with_stages(Stages::Two);
     let mut group = criterion.benchmark_group("setup of layered ground, 500 steps");
-    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.throughput(Throughput::Elements(STEP_COUNT as u64)).sample_size(10);
     group.bench_function("two layers, 12 elements", |b| {
         b.iter_batched(
             || ground.weights(0.005).expect("weights"),
-            |kernel| kernel.prepare(black_box(STEPS), &mut unobserved),
+            |kernel| kernel.prepare(black_box(STEP_COUNT), &mut unobserved),
             BatchSize::LargeInput,
         );
     });
@@ -102,10 +110,10 @@ fn layered(criterion: &mut Criterion) {
 
 /// Steps of the relaxed history: by pairs, and by wavenumbers.
 fn relaxed_history(criterion: &mut Criterion) {
-    const STEPS: usize = 2_048;
+    const STEP_COUNT: usize = 2_048;
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
     let mut group = criterion.benchmark_group("relaxed history, 2048 steps");
-    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.throughput(Throughput::Elements(STEP_COUNT as u64)).sample_size(10);
     for (count, waves) in [(10_u32, false), (10, true), (40, false), (40, true), (200, true)] {
         let elements = Strip::uniform(0.0..f64::from(count), count as usize)
             .expect("a valid strip")
@@ -120,11 +128,11 @@ fn relaxed_history(criterion: &mut Criterion) {
                 || {
                     let mut history =
                         RelaxedFftHistory::new(Arc::clone(&kernel)).with_surface_transform(waves);
-                    history.prepare(STEPS, &mut unobserved).expect("kernels");
+                    history.prepare(STEP_COUNT, &mut unobserved).expect("kernels");
                     history
                 },
                 |mut history| {
-                    for _ in 0..STEPS {
+                    for _ in 0..STEP_COUNT {
                         history.evaluate(&mut displacement).expect("a valid history");
                         history.push(black_box(&traction));
                     }

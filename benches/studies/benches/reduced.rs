@@ -12,13 +12,12 @@ use basemat::{Result, Simulation};
 use basemat_problems::tower::{Tower, damped, scene};
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-/// Steps before those that are timed: the base slides and uplifts by then.
-const BEFORE: usize = 200;
-/// Steps that are timed.
-const STEPS: usize = 50;
+/// Steps before the timed steps; the base slides and uplifts by then.
+const UNTIMED_STEPS: usize = 200;
+const TIMED_STEPS: usize = 50;
 
 /// The full model, and the sway of its top.
-fn full() -> Result<(MatrixModel, DofCombination)> {
+fn full_model() -> Result<(MatrixModel, DofCombination)> {
     let Tower { mass, stiffness, base, top } = Tower::new()?;
     Ok((damped(mass, stiffness, base)?, top))
 }
@@ -31,18 +30,18 @@ struct Passage {
 
 impl Passage {
     fn new(mut simulation: Simulation) -> Result<Self> {
-        simulation.run(BEFORE, |_| {})?;
+        simulation.run(UNTIMED_STEPS, |_| {})?;
         let start = simulation.checkpoint()?;
         Ok(Self { simulation, start })
     }
 
-    /// Time of the steps; going back to their start is left out.
+    /// Time of the steps without the return to their start.
     fn march(&mut self, repetitions: u64) -> Result<Duration> {
         let mut total = Duration::ZERO;
         for _ in 0..repetitions {
             self.simulation.resume(&self.start)?;
             let begin = Instant::now();
-            for _ in 0..STEPS {
+            for _ in 0..TIMED_STEPS {
                 black_box(self.simulation.step()?);
             }
             total += begin.elapsed();
@@ -52,28 +51,30 @@ impl Passage {
 }
 
 fn steps(criterion: &mut Criterion) {
-    let (model, top) = full().expect("a valid tower");
+    let (model, top) = full_model().expect("a valid tower");
     let mut group = criterion.benchmark_group("steps of 0.01 s, tower of 51102 degrees of freedom");
-    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.throughput(Throughput::Elements(TIMED_STEPS as u64)).sample_size(10);
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
-    let mut time = |name: BenchmarkId, simulation: Result<Simulation>| {
+    let mut cases = Vec::new();
+    for modes in [10, 20, 40, 80] {
+        let reduced = CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
+        let reduced_top = reduced.recovery().row(&top).expect("the top is a degree of freedom");
+        let simulation = scene(reduced, reduced_top, Coordinates::Auto);
+        cases.push((BenchmarkId::new("modes", modes), simulation));
+    }
+    cases.push((BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Physical)));
+    for (name, simulation) in cases {
         let mut passage = simulation.and_then(Passage::new).expect("a valid scene");
         group.bench_function(name, |bencher| {
             bencher.iter_custom(|times| passage.march(times).expect("every step is solved"));
         });
-    };
-    for modes in [10, 20, 40, 80] {
-        let reduced = CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
-        let row = reduced.recovery().row(&top).expect("the top is a degree of freedom");
-        time(BenchmarkId::new("modes", modes), scene(reduced, row, Coordinates::Auto));
     }
-    time(BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Physical));
     group.finish();
 }
 
 /// Time of a reduction, once for every model.
 fn reduction(criterion: &mut Criterion) {
-    let (model, _) = full().expect("a valid tower");
+    let model = full_model().expect("a valid tower").0;
     let mut group = criterion.benchmark_group("reduction, tower of 51102 degrees of freedom");
     group.sample_size(10).warm_up_time(Duration::from_secs(1));
     group.bench_function(BenchmarkId::new("modes", 20), |bencher| {

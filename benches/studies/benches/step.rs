@@ -20,7 +20,7 @@ fn kinds(criterion: &mut Criterion) {
     for row in &basemat_problems::headline::ROWS {
         group.bench_function(row.name, |bencher| {
             bencher.iter_batched(
-                // Told of fewer steps, it would make them in degrees of freedom instead of modes.
+                // With fewer expected steps, the simulation would use degrees of freedom instead of modes.
                 || row.build(10_000).expect("a valid scene"),
                 |mut simulation| {
                     black_box(row.march(&mut simulation, steps).expect("every step is solved"))
@@ -54,33 +54,31 @@ fn direct_history(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Whole marches, kernels and memory made ready before.
+/// Whole marches without their preparation.
 fn whole_march(criterion: &mut Criterion) {
-    const STEPS: usize = 10_000;
+    const STEP_COUNT: usize = 10_000;
     let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
     let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
-    let make = |relaxed: bool| -> Box<dyn ConvolutionHistory> {
-        let kernel = Arc::clone(&kernel);
-        if relaxed {
-            Box::new(RelaxedFftHistory::new(kernel))
-        } else {
-            Box::new(DirectHistory::new(kernel))
-        }
-    };
     let mut group = criterion.benchmark_group("history, 10 000 steps, 10 elements");
-    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.throughput(Throughput::Elements(STEP_COUNT as u64)).sample_size(10);
     for (name, relaxed) in [("direct", false), ("relaxed FFT", true)] {
         group.bench_function(name, |bencher| {
             bencher.iter_batched(
                 || {
-                    let mut history = make(relaxed);
-                    history.prepare(STEPS, &mut unobserved).expect("kernels");
+                    let kernel = Arc::clone(&kernel);
+                    let mut history: Box<dyn ConvolutionHistory> = if relaxed {
+                        Box::new(RelaxedFftHistory::new(kernel))
+                    } else {
+                        Box::new(DirectHistory::new(kernel))
+                    };
+                    history.prepare(STEP_COUNT, &mut unobserved).expect("kernels");
                     history
                 },
                 |mut history| {
-                    let (mut displacement, mut traction) = ([0.0; 20], [0.0; 20]);
-                    for step in 0..STEPS {
+                    let mut displacement = [0.0; 20];
+                    let mut traction = [0.0; 20];
+                    for step in 0..STEP_COUNT {
                         history.evaluate(&mut displacement).expect("a valid history");
                         for (i, value) in traction.iter_mut().enumerate() {
                             *value = ((step * 7 + i) % 101) as f64;

@@ -15,7 +15,7 @@ use crate::AnyError;
 
 /// Contact chatter of a rocking and sliding block on soil.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct ContactChatterOptions {
     /// Friction coefficients
     #[arg(long, value_delimiter = ',', default_value = "0.6,0.3")]
     friction: Vec<f64>,
@@ -39,7 +39,7 @@ pub(crate) struct Options {
     young: Option<f64>,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &ContactChatterOptions) -> Result<(), AnyError> {
     let rate = UnilateralCondition::Velocity { closed_below: 1e-9 };
     let schemes = [
         ("midpoint, gap", Scheme::Midpoint, UnilateralCondition::Position),
@@ -73,27 +73,27 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
                     height: options.height,
                     young: options.young,
                 };
-                let o = scene.run()?;
+                let outcome = scene.run()?;
                 println!(
                     "| {name} | {:.3} | {:.3} | {:.2} | {:.3} | {:.4} | {:.4} | {:.4} | {:.3} | {:.3} | \
                      {:.3} | {:.3} | {:.4} | \
                      {:.4} | {:.1e} | {:.0e} | {} |",
                     1e3 * scene.time_step,
-                    100.0 * o.rms_above,
-                    100.0 * o.peak_above,
-                    100.0 * o.alternating,
-                    o.acceleration_above,
-                    o.acceleration_alternating,
-                    o.shear,
-                    1e3 * o.peak_slip,
-                    1e3 * o.residual_slip,
-                    o.uplift,
-                    1e3 * o.rotation,
-                    o.contact,
-                    o.algorithmic,
-                    1e3 * o.penetration,
-                    o.energy_error,
-                    o.changes
+                    100.0 * outcome.rms_above,
+                    100.0 * outcome.peak_above,
+                    100.0 * outcome.alternating,
+                    outcome.acceleration_above,
+                    outcome.acceleration_alternating,
+                    outcome.shear,
+                    1e3 * outcome.peak_slip,
+                    1e3 * outcome.residual_slip,
+                    outcome.uplift,
+                    1e3 * outcome.rotation,
+                    outcome.contact,
+                    outcome.algorithmic,
+                    1e3 * outcome.penetration,
+                    outcome.energy_error,
+                    outcome.changes
                 );
             }
         }

@@ -3,17 +3,22 @@
 use std::path::Path;
 use std::process::Command;
 
-/// Whatever ends a study.
+/// Error that ends a study.
 pub(crate) type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Puts `text` between the markers of this name in a file of `benches/studies/tables`.
 pub(crate) fn splice(file: &str, name: &str, text: &str) -> Result<(), AnyError> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tables").join(file);
-    let [begin, end] = ["begin", "end"].map(|place| format!("<!-- {name}: {place} -->"));
+    let begin = format!("<!-- {name}: begin -->");
+    let end = format!("<!-- {name}: end -->");
     let old = std::fs::read_to_string(&path)?;
-    let missing = || format!("{}: no markers '{begin}', '{end}'", path.display());
-    let (before, rest) = old.split_once(&begin).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    let parts = old.split_once(&begin).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(&end)?;
+        Some([before, after])
+    });
+    let Some([before, after]) = parts else {
+        return Err(format!("{}: no markers '{begin}', '{end}'", path.display()).into());
+    };
     let new = format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim());
     Ok(std::fs::write(path, new)?)
 }
@@ -38,9 +43,9 @@ pub(crate) fn file_stem(name: &str) -> String {
 }
 
 /// Entry of `/proc/cpuinfo` for the first processor, or "unknown".
-pub(crate) fn processor(what: &str) -> String {
+pub(crate) fn processor(entry: &str) -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix(what)?.split_once(": "));
+    let line = text.lines().find_map(|line| line.strip_prefix(entry)?.split_once(": "));
     line.map_or("unknown", |(_, value)| value.trim()).to_owned()
 }
 
@@ -50,10 +55,11 @@ pub(crate) fn threads() -> usize {
 }
 
 /// Output of a command, or "unknown".
-pub(crate) fn told_by(command: &str, arguments: &[&str]) -> String {
+pub(crate) fn command_output(command: &str, arguments: &[&str]) -> String {
     let output = Command::new(command).args(arguments).output().ok();
-    let told = output.filter(|output| output.status.success());
-    told.map_or("unknown".into(), |output| String::from_utf8_lossy(&output.stdout).trim().into())
+    let successful = output.filter(|output| output.status.success());
+    successful
+        .map_or("unknown".into(), |output| String::from_utf8_lossy(&output.stdout).trim().into())
 }
 
 /// Largest resident memory of this process so far, MB; `None` where the system does not tell.

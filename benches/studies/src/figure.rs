@@ -10,51 +10,51 @@ use plotters::style::SizeDesc;
 
 use crate::AnyError;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type FigureArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Points of a curve: more than pixels help nobody.
-const POINTS: usize = 700;
+/// Points of a curve; more points than pixels would not be visible.
+const MAX_CURVE_POINTS: usize = 700;
 
 /// Pixels of the drawing to one of the picture: coordinates in SVG files are whole numbers here.
-const SCALE: i32 = 4;
-/// Width of a thin line in it.
-const WIDTH: u32 = 4;
+const PIXEL_SCALE: i32 = 4;
+/// Width of a thin line, pixels of the drawing.
+const THIN_LINE_WIDTH: u32 = 4;
 
-pub(crate) const BLUE: RGBColor = RGBColor(31, 119, 180);
-pub(crate) const RED: RGBColor = RGBColor(214, 39, 40);
-pub(crate) const GREEN: RGBColor = RGBColor(44, 160, 44);
-pub(crate) const ORANGE: RGBColor = RGBColor(255, 140, 0);
-pub(crate) const VIOLET: RGBColor = RGBColor(148, 103, 189);
-pub(crate) const GRAY: RGBColor = RGBColor(70, 70, 70);
+pub(crate) const CURVE_BLUE: RGBColor = RGBColor(31, 119, 180);
+pub(crate) const CURVE_RED: RGBColor = RGBColor(214, 39, 40);
+pub(crate) const CURVE_GREEN: RGBColor = RGBColor(44, 160, 44);
+pub(crate) const CURVE_ORANGE: RGBColor = RGBColor(255, 140, 0);
+pub(crate) const CURVE_VIOLET: RGBColor = RGBColor(148, 103, 189);
+pub(crate) const CURVE_GRAY: RGBColor = RGBColor(70, 70, 70);
 
 /// Panels under a title.
 pub(crate) struct Figure {
     pub(crate) title: String,
     pub(crate) columns: usize,
-    pub(crate) panels: Vec<Panel>,
+    pub(crate) panels: Vec<FigurePanel>,
 }
 
-/// Style in which a series is drawn.
+/// SeriesStyle in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Style {
+enum SeriesStyle {
     /// Wide and pale: references, which lie beneath.
     Wide,
-    /// Thin: what the crate found.
+    /// Thin: results of the crate.
     Thin,
     Dashed,
     Circles,
     Crosses,
 }
 
-struct Series {
+struct FigureSeries {
     name: String,
     color: RGBColor,
-    style: Style,
+    style: SeriesStyle,
     points: Vec<(f64, f64)>,
 }
 
 /// Axes with series.
-pub(crate) struct Panel {
+pub(crate) struct FigurePanel {
     x: String,
     y: String,
     logarithmic: [bool; 2],
@@ -62,10 +62,10 @@ pub(crate) struct Panel {
     categories: Vec<String>,
     /// Part of the height that is kept free for the legend: below, above.
     room: [f64; 2],
-    series: Vec<Series>,
+    series: Vec<FigureSeries>,
 }
 
-impl Panel {
+impl FigurePanel {
     pub(crate) fn new(x: &str, y: &str) -> Self {
         Self {
             x: x.into(),
@@ -110,39 +110,39 @@ impl Panel {
 
     /// A reference curve.
     pub(crate) fn reference(self, name: &str, color: RGBColor, points: Vec<(f64, f64)>) -> Self {
-        self.series(name, color, Style::Wide, points)
+        self.series(name, color, SeriesStyle::Wide, points)
     }
 
     /// A curve that was computed.
     pub(crate) fn line(self, name: &str, color: RGBColor, points: Vec<(f64, f64)>) -> Self {
-        self.series(name, color, Style::Thin, points)
+        self.series(name, color, SeriesStyle::Thin, points)
     }
 
-    /// A curve that is not the point.
+    /// A curve for orientation.
     pub(crate) fn dashed(self, name: &str, color: RGBColor, points: Vec<(f64, f64)>) -> Self {
-        self.series(name, color, Style::Dashed, points)
+        self.series(name, color, SeriesStyle::Dashed, points)
     }
 
     /// Single values.
     pub(crate) fn circles(self, name: &str, color: RGBColor, points: Vec<(f64, f64)>) -> Self {
-        self.series(name, color, Style::Circles, points)
+        self.series(name, color, SeriesStyle::Circles, points)
     }
 
     /// Single values of a reference.
     pub(crate) fn crosses(self, name: &str, color: RGBColor, points: Vec<(f64, f64)>) -> Self {
-        self.series(name, color, Style::Crosses, points)
+        self.series(name, color, SeriesStyle::Crosses, points)
     }
 
     fn series(
         mut self,
         name: &str,
         color: RGBColor,
-        style: Style,
+        style: SeriesStyle,
         points: Vec<(f64, f64)>,
     ) -> Self {
-        let every = points.len().div_ceil(POINTS).max(1);
-        let points: Vec<_> = points.into_iter().step_by(every).collect();
-        self.series.push(Series { name: name.into(), color, style, points });
+        let stride = points.len().div_ceil(MAX_CURVE_POINTS).max(1);
+        let points: Vec<_> = points.into_iter().step_by(stride).collect();
+        self.series.push(FigureSeries { name: name.into(), color, style, points });
         self
     }
 
@@ -151,11 +151,11 @@ impl Panel {
         &self,
         [below, above]: [f64; 2],
         logarithmic: bool,
-        pick: impl Fn(&(f64, f64)) -> f64,
+        coordinate: impl Fn(&(f64, f64)) -> f64,
     ) -> Range<f64> {
-        let values = || self.series.iter().flat_map(|series| &series.points).map(&pick);
-        let low = values().fold(f64::INFINITY, f64::min);
-        let high = values().fold(f64::NEG_INFINITY, f64::max);
+        let points = self.series.iter().flat_map(|series| &series.points);
+        let low = points.clone().map(&coordinate).fold(f64::INFINITY, f64::min);
+        let high = points.map(&coordinate).fold(f64::NEG_INFINITY, f64::max);
         if logarithmic {
             let span = (high / low).ln();
             return low * (-below * span).exp()..high * (above * span).exp();
@@ -164,43 +164,50 @@ impl Panel {
         low - below * span..high + above * span
     }
 
-    fn draw(&self, area: &Area) -> Result<(), AnyError> {
-        // Signs reach beyond their place.
-        let signs = |s: &Series| matches!(s.style, Style::Circles | Style::Crosses);
-        let sides = match (self.series.iter().any(signs), self.categories.is_empty()) {
-            // Names as well.
+    fn draw(&self, area: &FigureArea) -> Result<(), AnyError> {
+        // Markers and names of categories extend beyond their points.
+        let has_markers = self
+            .series
+            .iter()
+            .any(|series| matches!(series.style, SeriesStyle::Circles | SeriesStyle::Crosses));
+        let sides = match (has_markers, self.categories.is_empty()) {
             (_, false) => 0.12,
             (true, true) => 0.06,
             (false, true) => 0.0,
         };
-        let [log_x, log_y] = self.logarithmic;
-        let x = self.range([sides; 2], log_x, |p| p.0);
-        let y = self.range(self.room, log_y, |p| p.1);
+        let x = self.range([sides; 2], self.logarithmic[0], |point| point.0);
+        let y = self.range(self.room, self.logarithmic[1], |point| point.1);
         let mut builder = ChartBuilder::on(area);
-        builder.margin(SCALE * 12).x_label_area_size(SCALE * 48).y_label_area_size(SCALE * 78);
-        let names = |value: &f64| {
-            let place = self.categories.iter().enumerate();
-            let mut near = place.filter(|(k, _)| (*k as f64 - value).abs() < 0.01);
-            near.next().map_or_else(String::new, |(_, name)| name.clone())
-        };
-        let (plain_x, plain_y) = (plain(&x), plain(&y));
+        builder
+            .margin(PIXEL_SCALE * 12)
+            .x_label_area_size(PIXEL_SCALE * 48)
+            .y_label_area_size(PIXEL_SCALE * 78);
+        let category = |value: &f64| self.category_at(*value);
+        let plain_x = plain(&x);
+        let plain_y = plain(&y);
         let format_x: &dyn Fn(&f64) -> String =
-            if self.categories.is_empty() { &plain_x } else { &names };
-        let power = |value: &f64| format!("{value:.0e}");
-        match (log_x, log_y) {
-            (true, _) => {
+            if self.categories.is_empty() { &plain_x } else { &category };
+        match self.logarithmic {
+            [true, _] => {
                 let chart = builder.build_cartesian_2d(x.log_scale(), y.log_scale())?;
-                self.fill(chart, &|value| format!("{value}"), &power)
+                self.fill(chart, &|value| format!("{value}"), &power_of_ten)
             }
-            (_, true) => {
+            [_, true] => {
                 let chart = builder.build_cartesian_2d(x, y.log_scale())?;
-                self.fill(chart, format_x, &power)
+                self.fill(chart, format_x, &power_of_ten)
             }
             _ => self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y),
         }
     }
 
-    /// Mesh, series and legend.
+    /// Name of the category at this coordinate, or nothing between categories.
+    fn category_at(&self, value: f64) -> String {
+        let mut categories = self.categories.iter().enumerate();
+        let category = categories.find(|(k, _)| (*k as f64 - value).abs() < 0.01);
+        category.map_or_else(String::new, |(_, name)| name.clone())
+    }
+
+    /// Draws mesh, series and legend.
     fn fill<'a, 'b: 'a, X, Y>(
         &self,
         mut chart: ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,
@@ -217,13 +224,13 @@ impl Panel {
             .y_desc(&self.y)
             .x_label_formatter(&|x| format_x(x))
             .y_label_formatter(&|y| format_y(y))
-            .label_style(("sans-serif", SCALE * 14))
-            .axis_desc_style(("sans-serif", SCALE * 16))
+            .label_style(("sans-serif", PIXEL_SCALE * 14))
+            .axis_desc_style(("sans-serif", PIXEL_SCALE * 16))
             .x_labels(if self.categories.is_empty() { 11 } else { self.categories.len() })
             .light_line_style(TRANSPARENT)
-            .bold_line_style(BLACK.mix(0.15).stroke_width(WIDTH))
-            .axis_style(BLACK.stroke_width(WIDTH))
-            .set_all_tick_mark_size(SCALE * 5)
+            .bold_line_style(BLACK.mix(0.15).stroke_width(THIN_LINE_WIDTH))
+            .axis_style(BLACK.stroke_width(THIN_LINE_WIDTH))
+            .set_all_tick_mark_size(PIXEL_SCALE * 5)
             .draw()?;
         for series in &self.series {
             series.draw(&mut chart)?;
@@ -233,17 +240,17 @@ impl Panel {
                 .configure_series_labels()
                 .position(self.legend.clone())
                 .background_style(WHITE.mix(0.85))
-                .border_style(BLACK.mix(0.3).stroke_width(WIDTH))
-                .margin(SCALE * 8)
-                .legend_area_size(SCALE * 30)
-                .label_font(("sans-serif", SCALE * 14))
+                .border_style(BLACK.mix(0.3).stroke_width(THIN_LINE_WIDTH))
+                .margin(PIXEL_SCALE * 8)
+                .legend_area_size(PIXEL_SCALE * 30)
+                .label_font(("sans-serif", PIXEL_SCALE * 14))
                 .draw()?;
         }
         Ok(())
     }
 }
 
-impl Series {
+impl FigureSeries {
     fn draw<'a, 'b: 'a, X, Y>(
         &self,
         chart: &mut ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,
@@ -252,75 +259,93 @@ impl Series {
         X: Ranged<ValueType = f64>,
         Y: Ranged<ValueType = f64>,
     {
-        let (color, points) = (self.color, self.points.iter().copied());
+        let color = self.color;
+        let points = self.points.iter().copied();
         let stroke = match self.style {
-            Style::Wide => color.mix(0.35).stroke_width(6 * WIDTH),
-            Style::Crosses => color.stroke_width(2 * WIDTH),
-            Style::Thin | Style::Dashed | Style::Circles => color.stroke_width(WIDTH + WIDTH / 2),
-        };
-        let (radius, arm) = (SCALE * 4, SCALE * 5);
-        let drawn = match self.style {
-            Style::Wide | Style::Thin => chart.draw_series(LineSeries::new(points, stroke))?,
-            Style::Dashed => {
-                let size = |pixels: i32| (SCALE * pixels).in_pixels(&(1, 1));
-                chart.draw_series(DashedLineSeries::new(points, size(5), size(4), stroke))?
+            SeriesStyle::Wide => color.mix(0.35).stroke_width(6 * THIN_LINE_WIDTH),
+            SeriesStyle::Crosses => color.stroke_width(2 * THIN_LINE_WIDTH),
+            SeriesStyle::Thin | SeriesStyle::Dashed | SeriesStyle::Circles => {
+                color.stroke_width(THIN_LINE_WIDTH + THIN_LINE_WIDTH / 2)
             }
-            Style::Circles => {
+        };
+        let radius = PIXEL_SCALE * 4;
+        let arm = PIXEL_SCALE * 5;
+        let drawn = match self.style {
+            SeriesStyle::Wide | SeriesStyle::Thin => {
+                chart.draw_series(LineSeries::new(points, stroke))?
+            }
+            SeriesStyle::Dashed => {
+                let dash = (PIXEL_SCALE * 5).in_pixels(&(1, 1));
+                let space = (PIXEL_SCALE * 4).in_pixels(&(1, 1));
+                chart.draw_series(DashedLineSeries::new(points, dash, space, stroke))?
+            }
+            SeriesStyle::Circles => {
                 chart.draw_series(points.map(|at| Circle::new(at, radius, stroke)))?
             }
-            Style::Crosses => chart.draw_series(points.map(|at| Cross::new(at, arm, stroke)))?,
+            SeriesStyle::Crosses => {
+                chart.draw_series(points.map(|at| Cross::new(at, arm, stroke)))?
+            }
         };
         if self.name.is_empty() {
             return Ok(());
         }
-        let to = |x: i32, pixels: i32| x + SCALE * pixels;
         let drawn = drawn.label(&self.name);
-        // Each sign is a type of its own.
+        // Each kind of marker has another type.
         match self.style {
-            Style::Wide | Style::Thin => {
-                drawn.legend(move |(x, y)| PathElement::new(vec![(x, y), (to(x, 22), y)], stroke))
-            }
-            Style::Dashed => drawn.legend(move |at| {
-                let dash = |from| {
-                    PathElement::new(vec![(SCALE * from, 0), (SCALE * (from + 5), 0)], stroke)
-                };
-                EmptyElement::at(at) + dash(0) + dash(9) + dash(18)
+            SeriesStyle::Wide | SeriesStyle::Thin => drawn.legend(move |(x, y)| {
+                PathElement::new(vec![(x, y), (x + PIXEL_SCALE * 22, y)], stroke)
             }),
-            Style::Circles => {
-                drawn.legend(move |(x, y)| Circle::new((to(x, 11), y), radius, stroke))
+            SeriesStyle::Dashed => drawn.legend(move |at| {
+                EmptyElement::at(at) + dash(0, stroke) + dash(9, stroke) + dash(18, stroke)
+            }),
+            SeriesStyle::Circles => {
+                drawn.legend(move |(x, y)| Circle::new((x + PIXEL_SCALE * 11, y), radius, stroke))
             }
-            Style::Crosses => drawn.legend(move |(x, y)| Cross::new((to(x, 11), y), arm, stroke)),
+            SeriesStyle::Crosses => {
+                drawn.legend(move |(x, y)| Cross::new((x + PIXEL_SCALE * 11, y), arm, stroke))
+            }
         };
         Ok(())
     }
 }
 
+/// Dash of a legend from this pixel on.
+fn dash(from: i32, stroke: ShapeStyle) -> PathElement<(i32, i32)> {
+    PathElement::new(vec![(PIXEL_SCALE * from, 0), (PIXEL_SCALE * (from + 5), 0)], stroke)
+}
+
+fn power_of_ten(value: &f64) -> String {
+    format!("{value:.0e}")
+}
+
 impl Figure {
-    pub(crate) fn new(title: &str, columns: usize, panels: Vec<Panel>) -> Self {
+    pub(crate) fn new(title: &str, columns: usize, panels: Vec<FigurePanel>) -> Self {
         Self { title: title.into(), columns, panels }
     }
 
     /// Writes the SVG.
     pub(crate) fn draw(&self, path: &Path) -> Result<(), AnyError> {
         let rows = self.panels.len().div_ceil(self.columns);
-        let (width, height) = (1200, if rows == 1 { 460 } else { 60 + 290 * rows });
-        let scale = usize::try_from(SCALE)?;
+        let width = 1200;
+        let height = if rows == 1 { 460 } else { 60 + 290 * rows };
+        let scale = usize::try_from(PIXEL_SCALE)?;
         let size = (u32::try_from(scale * width)?, u32::try_from(scale * height)?);
         let mut text = String::new();
         {
             let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
             root.fill(&WHITE)?;
-            let body =
-                root.margin(SCALE * 10, 0, 0, 0).titled(&self.title, ("sans-serif", SCALE * 22))?;
+            let body = root
+                .margin(PIXEL_SCALE * 10, 0, 0, 0)
+                .titled(&self.title, ("sans-serif", PIXEL_SCALE * 22))?;
             for (area, panel) in body.split_evenly((rows, self.columns)).iter().zip(&self.panels) {
                 panel.draw(area)?;
             }
             root.present()?;
         }
         // The view box keeps the drawing's pixels.
-        let large = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-        let small = format!("width=\"{width}\" height=\"{height}\"");
-        Ok(std::fs::write(path, text.replacen(&large, &small, 1))?)
+        let drawing_size = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+        let picture_size = format!("width=\"{width}\" height=\"{height}\"");
+        Ok(std::fs::write(path, text.replacen(&drawing_size, &picture_size, 1))?)
     }
 }
 

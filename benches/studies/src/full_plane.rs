@@ -1,6 +1,6 @@
-//! Number of free-surface elements that the full-plane ground needs: impedances of the bonded rigid strip against their
-//! table, and a coupled run against the half-plane.
+//! Number of free-surface elements that the full-plane ground needs.
 //!
+//! Impedances of the bonded rigid strip are compared with their table, a coupled run with the half-plane.
 //! The distance to the same mesh with many free elements separates the error of the truncated surface from the error of
 //! the mesh. Each row states whether its march is bounded.
 //!
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use plotters::prelude::SeriesLabelPosition;
 
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, GREEN, Panel, RED, VIOLET};
+use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, CURVE_VIOLET, Figure, FigurePanel};
 use basemat::Soil;
 use basemat::bem::full_plane::CqMethod;
 use basemat_problems::series::print_errors;
@@ -23,7 +23,7 @@ use basemat_problems::truncation::{Mesh, block_errors, bonded_impedances, distan
 
 /// Errors of the full-plane ground over the number of free-surface elements.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct FullPlaneOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/full_plane")]
     out: PathBuf,
@@ -32,18 +32,18 @@ pub(crate) struct Options {
     short: bool,
 }
 
-const NAMES: [&str; 4] = ["khh", "kvv", "krr", "khr"];
+const IMPEDANCE_NAMES: [&str; 4] = ["khh", "kvv", "krr", "khr"];
 
-const POISSON: f64 = 1.0 / 3.0;
+const POISSON_RATIO: f64 = 1.0 / 3.0;
 
 /// Smallest growth per step that is searched for.
 const SMALLEST_GROWTH: f64 = 1e-4;
 
 /// β = c₁Δt/l of the strip.
-const BETA: f64 = 1.15;
+const STRIP_BETA: f64 = 1.15;
 
 /// Errors of one mesh.
-struct Row {
+struct TruncationRow {
     mesh: Mesh,
     /// Growth per step with the base uplifted and bonded.
     growth: [f64; 2],
@@ -54,7 +54,7 @@ struct Row {
     truncation: Option<[f64; 4]>,
 }
 
-impl Row {
+impl TruncationRow {
     /// Length of the free surface on either side over the half width of the strip.
     fn length(&self) -> f64 {
         2.0 * self.mesh.free as f64 / self.mesh.elements as f64
@@ -65,35 +65,41 @@ fn rows(
     quadrature: Option<CqMethod>,
     elements: usize,
     frees: &[usize],
-) -> Result<Vec<Row>, AnyError> {
-    let (frequencies, wanted) = tabled("0333");
-    let mesh = |free| Mesh { elements, free, beta: BETA, quadrature };
-    let most = frees.last().map_or(0, |free| 4 * free);
-    // The time kernel grows on so long a surface.
-    let settled = quadrature.map(|_| bonded_impedances(POISSON, mesh(most), &frequencies));
-    let soil = Soil::new(1.0, POISSON, 1.0)?;
+) -> Result<Vec<TruncationRow>, AnyError> {
+    let (frequencies, references) = tabled("0333");
+    let mesh = Mesh { elements, free: 0, beta: STRIP_BETA, quadrature };
+    let longest = Mesh { free: frees.last().map_or(0, |free| 4 * free), ..mesh };
+    // A march with the time kernel is unstable on so long a surface.
+    let without_truncation =
+        quadrature.map(|_| bonded_impedances(POISSON_RATIO, longest, &frequencies));
+    let soil = Soil::new(1.0, POISSON_RATIO, 1.0)?;
     frees
         .iter()
         .map(|&free| {
-            let mesh = mesh(free);
-            let found = bonded_impedances(POISSON, mesh, &frequencies);
+            let mesh = Mesh { free, ..mesh };
+            let computed = bonded_impedances(POISSON_RATIO, mesh, &frequencies);
             let states = mesh.ground(soil).assess(mesh.time_step(soil), SMALLEST_GROWTH)?;
-            Ok(Row {
+            Ok(TruncationRow {
                 mesh,
                 growth: states.map(|state| state.growth_per_step),
-                total: distances(&found, &wanted),
-                truncation: settled.as_ref().map(|settled| distances(&found, settled)),
+                total: distances(&computed, &references),
+                truncation: without_truncation
+                    .as_ref()
+                    .map(|references| distances(&computed, references)),
             })
         })
         .collect()
 }
 
-fn print(rows: &[Row]) {
+fn joined(errors: &[f64; 4]) -> String {
+    errors.map(|error| format!("{error:.1e}")).join("  ")
+}
+
+fn print(rows: &[TruncationRow]) {
     println!(
         "{:>5} {:>5} {:>7} {:>9}  {:<36} truncation alone: the same",
         "elem.", "free", "length", "growth", "from the table: khh kvv krr khr"
     );
-    let four = |e: &[f64; 4]| e.map(|e| format!("{e:.1e}")).join("  ");
     for row in rows {
         let growth = row.growth[0].max(row.growth[1]);
         let growth = if growth > 0.0 { format!("{growth:.1e}") } else { "none".to_owned() };
@@ -103,17 +109,17 @@ fn print(rows: &[Row]) {
             row.mesh.free,
             row.length(),
             growth,
-            four(&row.total),
-            row.truncation.as_ref().map_or(String::new(), four)
+            joined(&row.total),
+            row.truncation.as_ref().map_or(String::new(), joined)
         );
     }
 }
 
-fn write(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
+fn write(path: &std::path::Path, rows: &[TruncationRow]) -> Result<(), AnyError> {
     let mut file = csv::Writer::from_path(path)?;
     let header = ["kernel", "elements", "free", "length", "growth_uplifted", "growth_bonded"];
     let kinds = ["total", "truncation"].into_iter();
-    let columns = kinds.flat_map(|kind| NAMES.map(|name| format!("{kind}_{name}")));
+    let columns = kinds.flat_map(|kind| IMPEDANCE_NAMES.map(|name| format!("{kind}_{name}")));
     file.write_record(header.map(str::to_owned).into_iter().chain(columns))?;
     for row in rows {
         let kernel = row.mesh.quadrature.map_or("time".to_owned(), |q| format!("{q:?}"));
@@ -127,19 +133,16 @@ fn write(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
     Ok(())
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &FullPlaneOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
-    let (meshes, frees) = if options.short {
-        (vec![4, 8], vec![0, 2, 5])
-    } else {
-        (vec![8, 16], vec![0, 1, 2, 5, 10, 20, 40])
-    };
-    println!("bonded strip over 0.1 <= a0 <= 4, beta = {BETA}; lengths over the half width");
+    let meshes = if options.short { [4, 8] } else { [8, 16] };
+    let frees: &[usize] = if options.short { &[0, 2, 5] } else { &[0, 1, 2, 5, 10, 20, 40] };
+    println!("bonded strip over 0.1 <= a0 <= 4, beta = {STRIP_BETA}; lengths over the half width");
     let mut all = vec![];
     for (name, quadrature) in [("BDF2", Some(CqMethod::Bdf2)), ("time kernel", None)] {
         println!("{name}");
-        for &elements in &meshes {
-            let rows = rows(quadrature, elements, &frees)?;
+        for elements in meshes {
+            let rows = rows(quadrature, elements, frees)?;
             print(&rows);
             all.extend(rows);
         }
@@ -157,29 +160,45 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// Errors of the impedances over the free elements, a panel per mesh of convolution quadrature: lines from the table,
-/// circles of the truncation alone.
-fn draw(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
-    let stable = || rows.iter().filter(|row| row.mesh.quadrature.is_some());
-    let mut meshes: Vec<usize> = stable().map(|row| row.mesh.elements).collect();
+fn quadrature_rows(rows: &[TruncationRow]) -> impl Iterator<Item = &TruncationRow> {
+    rows.iter().filter(|row| row.mesh.quadrature.is_some())
+}
+
+/// Errors over the free elements for a mesh of convolution quadrature; zero is drawn at half an element.
+fn error_points(
+    rows: &[TruncationRow],
+    elements: usize,
+    error: impl Fn(&TruncationRow) -> Option<f64>,
+) -> Vec<(f64, f64)> {
+    let mesh_rows = quadrature_rows(rows).filter(|row| row.mesh.elements == elements);
+    mesh_rows.filter_map(|row| Some(((row.mesh.free as f64).max(0.5), error(row)?))).collect()
+}
+
+/// Draws errors of the impedances over the free elements, a panel per mesh of convolution quadrature.
+///
+/// Lines are errors from the table, circles errors of the truncation alone.
+fn draw(path: &std::path::Path, rows: &[TruncationRow]) -> Result<(), AnyError> {
+    let mut meshes: Vec<usize> = quadrature_rows(rows).map(|row| row.mesh.elements).collect();
     meshes.dedup();
-    let panel = |elements: &usize| {
+    let mut panels = Vec::new();
+    for elements in meshes {
         let x = format!("free elements on either side of {elements} (0 at 0.5)");
-        let mut panel = Panel::new(&x, "relative error, root mean square").double_logarithmic();
+        let mut panel =
+            FigurePanel::new(&x, "relative error, root mean square").double_logarithmic();
         panel = panel.legend(SeriesLabelPosition::LowerLeft).room(0.4, 0.05);
-        for (k, (name, color)) in NAMES.iter().zip([BLUE, GREEN, VIOLET, RED]).enumerate() {
-            // Zero has a place on the logarithmic axis: half an element.
-            let points = |value: &dyn Fn(&Row) -> Option<f64>| {
-                let own = stable().filter(|row| row.mesh.elements == *elements);
-                own.filter_map(|row| Some(((row.mesh.free as f64).max(0.5), value(row)?))).collect()
-            };
-            let total = points(&|row| Some(row.total[k]));
-            let cut = points(&|row| row.truncation.map(|errors| errors[k]));
+        for (k, (name, color)) in IMPEDANCE_NAMES
+            .iter()
+            .zip([CURVE_BLUE, CURVE_GREEN, CURVE_VIOLET, CURVE_RED])
+            .enumerate()
+        {
+            let total = error_points(rows, elements, |row| Some(row.total[k]));
+            let truncation =
+                error_points(rows, elements, |row| row.truncation.map(|errors| errors[k]));
             panel = panel.line(&format!("{name}, from the table"), color, total);
-            panel = panel.circles(&format!("{name}, truncation alone"), color, cut);
+            panel = panel.circles(&format!("{name}, truncation alone"), color, truncation);
         }
-        panel
-    };
+        panels.push(panel);
+    }
     let title = "Full plane, BDF2: errors of the bonded strip over the free-surface elements";
-    Figure::new(title, 2, meshes.iter().map(panel).collect()).draw(path)
+    Figure::new(title, 2, panels).draw(path)
 }

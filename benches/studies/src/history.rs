@@ -19,7 +19,7 @@ use crate::AnyError;
 
 /// Time, accuracy and memory of the convolution histories over the number of steps.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Cost {
+pub(crate) struct CostOptions {
     /// Elements of the strip.
     #[arg(default_value_t = 10)]
     elements: usize,
@@ -30,7 +30,7 @@ pub(crate) struct Cost {
 
 /// Accuracy, passivity, time and memory of the history by exponentials over its tolerance.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Exponentials {
+pub(crate) struct ExponentialsOptions {
     /// Elements of the strip.
     #[arg(default_value_t = 10)]
     elements: usize,
@@ -48,8 +48,8 @@ const LONGEST_DIRECT: usize = 10_000;
 /// 1.5 ft elements, steps of half an element over the pressure wave speed.
 fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {
     let soil = Soil::from_wave_speeds(198.12, 396.24, 1803.8)?;
-    let half = 0.2286 * count as f64;
-    let elements = Strip::uniform(-half..half, count)?.elements();
+    let half_width = 0.2286 * count as f64;
+    let elements = Strip::uniform(-half_width..half_width, count)?.elements();
     Ok(Arc::new(PatchKernel::new(soil, elements, 0.2286 / 396.24)?))
 }
 
@@ -60,69 +60,91 @@ pub(crate) fn traction(step: usize, traction: &mut [f64]) {
     }
 }
 
-/// Seconds of a whole march and of its slowest step; `see` gets the displacements of every step.
+/// Wall times of a march, s.
+struct MarchTime {
+    total: f64,
+    slowest_step: f64,
+}
+
+/// Marches a history; `observe` receives the displacements of every step.
 fn march(
     history: &mut dyn ConvolutionHistory,
     size: usize,
     steps: usize,
-    mut see: impl FnMut(&[f64]),
-) -> Result<[f64; 2]> {
-    let (mut displacement, mut input) = (vec![0.0; size], vec![0.0; size]);
-    let (begin, mut slowest) = (Instant::now(), 0.0_f64);
+    mut observe: impl FnMut(&[f64]),
+) -> Result<MarchTime> {
+    let mut displacement = vec![0.0; size];
+    let mut input = vec![0.0; size];
+    let begin = Instant::now();
+    let mut slowest_step = 0.0_f64;
     for step in 0..steps {
         let begin = Instant::now();
         history.evaluate(&mut displacement)?;
         traction(step, &mut input);
         history.push(&input);
-        slowest = slowest.max(begin.elapsed().as_secs_f64());
-        see(&displacement);
+        slowest_step = slowest_step.max(begin.elapsed().as_secs_f64());
+        observe(&displacement);
     }
-    Ok([begin.elapsed().as_secs_f64(), slowest])
+    Ok(MarchTime { total: begin.elapsed().as_secs_f64(), slowest_step })
 }
 
-/// Largest difference of all displacements over the largest of the direct sum's, and its seconds.
-fn error(kernel: Arc<dyn ConvolutionWeights>, size: usize, found: &[f64]) -> Result<(f64, f64)> {
-    let steps = found.len() / size;
+/// Largest difference from the displacements of the direct sum over the largest of these, and its march.
+struct DirectComparison {
+    error: f64,
+    seconds: f64,
+}
+
+fn compare_with_direct_sum(
+    kernel: Arc<dyn ConvolutionWeights>,
+    size: usize,
+    computed: &[f64],
+) -> Result<DirectComparison> {
+    let steps = computed.len() / size;
     let mut direct = DirectHistory::new(kernel);
     direct.prepare(steps, &mut unobserved)?;
-    let (mut apart, mut largest, mut place) = (0.0_f64, 0.0_f64, found.chunks_exact(size));
-    let [seconds, _] = march(&mut direct, size, steps, |wanted| {
-        for (a, b) in place.next().unwrap_or_default().iter().zip(wanted) {
-            apart = apart.max((a - b).abs());
+    let mut difference = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut computed_steps = computed.chunks_exact(size);
+    let time = march(&mut direct, size, steps, |reference| {
+        for (a, b) in computed_steps.next().unwrap_or_default().iter().zip(reference) {
+            difference = difference.max((a - b).abs());
             largest = largest.max(b.abs());
         }
     })?;
-    Ok((apart / largest, seconds))
+    Ok(DirectComparison { error: difference / largest, seconds: time.total })
 }
 
 /// The table over the number of steps.
-pub(crate) fn cost(options: &Cost) -> std::result::Result<(), AnyError> {
-    let Cost { elements, longest } = *options;
-    let (kernel, size) = (patch(elements)?, 2 * elements);
+pub(crate) fn cost(options: &CostOptions) -> std::result::Result<(), AnyError> {
+    let CostOptions { elements, longest } = *options;
+    let kernel = patch(elements)?;
+    let size = 2 * elements;
     println!("{elements} elements");
     println!("    steps   setup s   march s  µs/step  slowest ms      MB  direct s   ratio  error");
-    let all = [100, 300, 1_000, 3_000, 10_000, 30_000, 54_000, 100_000, 300_000, 1_000_000];
-    for steps in all.into_iter().take_while(|steps| *steps <= longest) {
+    let step_counts = [100, 300, 1_000, 3_000, 10_000, 30_000, 54_000, 100_000, 300_000, 1_000_000];
+    for steps in step_counts.into_iter().take_while(|steps| *steps <= longest) {
         let begin = Instant::now();
         let mut relaxed = RelaxedFftHistory::new(Arc::clone(&kernel));
         relaxed.prepare(steps, &mut unobserved)?;
         let setup = begin.elapsed().as_secs_f64();
         let compared = steps <= LONGEST_DIRECT;
-        let mut found = Vec::with_capacity(if compared { steps * size } else { 0 });
-        let [total, slowest] = march(&mut relaxed, size, steps, |displacement| {
+        let mut computed = Vec::with_capacity(if compared { steps * size } else { 0 });
+        let time = march(&mut relaxed, size, steps, |displacement| {
             if compared {
-                found.extend_from_slice(displacement);
+                computed.extend_from_slice(displacement);
             }
         })?;
         print!(
-            "{steps:9} {setup:9.4} {total:9.4} {:8.2} {:11.3} {:7.1}",
-            1e6 * total / steps as f64,
-            1e3 * slowest,
+            "{steps:9} {setup:9.4} {:9.4} {:8.2} {:11.3} {:7.1}",
+            time.total,
+            1e6 * time.total / steps as f64,
+            1e3 * time.slowest_step,
             relaxed.memory() as f64 / 1e6,
         );
         if compared {
-            let (error, seconds) = error(Arc::clone(&kernel), size, &found)?;
-            print!(" {seconds:9.4} {:7.1} {error:.1e}", seconds / total);
+            let direct = compare_with_direct_sum(Arc::clone(&kernel), size, &computed)?;
+            let ratio = direct.seconds / time.total;
+            print!(" {:9.4} {ratio:7.1} {:.1e}", direct.seconds, direct.error);
         }
         println!();
     }
@@ -130,9 +152,10 @@ pub(crate) fn cost(options: &Cost) -> std::result::Result<(), AnyError> {
 }
 
 /// The table over the tolerance.
-pub(crate) fn exponentials(options: &Exponentials) -> std::result::Result<(), AnyError> {
-    let Exponentials { elements, steps, compared } = *options;
-    let (kernel, size) = (patch(elements)?, 2 * elements);
+pub(crate) fn exponentials(options: &ExponentialsOptions) -> std::result::Result<(), AnyError> {
+    let ExponentialsOptions { elements, steps, compared } = *options;
+    let kernel = patch(elements)?;
+    let size = 2 * elements;
     println!("{elements} elements, {steps} steps");
     println!(
         "tolerance      error  window  poles functions  passivity  setup s   µs/step       kB error, march"
@@ -148,10 +171,12 @@ pub(crate) fn exponentials(options: &Exponentials) -> std::result::Result<(), An
             }
         };
         let setup = begin.elapsed().as_secs_f64();
-        let mut found = Vec::with_capacity(compared * size);
-        march(&mut history, size, compared, |displacement| found.extend_from_slice(displacement))?;
-        let (error, _) = error(Arc::clone(&kernel), size, &found)?;
-        let [total, _] = march(&mut history, size, steps, |_| ())?;
+        let mut computed = Vec::with_capacity(compared * size);
+        march(&mut history, size, compared, |displacement| {
+            computed.extend_from_slice(displacement);
+        })?;
+        let error = compare_with_direct_sum(Arc::clone(&kernel), size, &computed)?.error;
+        let time = march(&mut history, size, steps, |_| ())?;
         println!(
             "{tolerance:>9.0e} {:>10.1e} {:>7} {:>6} {:>9} {:>10.4} {setup:>8.3} {:>9.2} {:>8.0} {error:>12.1e}",
             history.fit().error_bound,
@@ -159,7 +184,7 @@ pub(crate) fn exponentials(options: &Exponentials) -> std::result::Result<(), An
             history.fit().poles,
             history.fit().functions,
             history.fit().passivity_margin,
-            1e6 * total / steps as f64,
+            1e6 * time.total / steps as f64,
             history.memory() as f64 / 1e3,
         );
     }

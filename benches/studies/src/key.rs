@@ -1,15 +1,15 @@
-//! The key to a chart, in a strip beside it: it hides nothing.
+//! The key to a chart in a strip beside it.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::AnyError;
 
-pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type SheetArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Sample shown with a name.
+/// KeySample of a curve or marker beside its name.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Sample {
+pub(crate) enum KeySample {
     Line(RGBColor),
     Circle(RGBColor),
     Ring(RGBColor),
@@ -17,35 +17,35 @@ pub(crate) enum Sample {
     Cross(RGBColor),
 }
 
-/// Pixels beside the names, for a letter of theirs, and for a line.
-const SIDE: usize = 52;
-const LETTER: usize = 8;
-const LINE: i32 = 24;
+/// Pixels beside the names, for a letter of a name, and for a line of the key.
+const NAME_MARGIN: usize = 52;
+const LETTER_WIDTH: usize = 8;
+const LINE_HEIGHT: i32 = 24;
 
-/// Draws the key at the right of the sheet, from `top` down; gives back what is left of it.
+/// Draws the key at the right of the sheet from `top` down; returns the rest of the sheet.
 pub(crate) fn draw<'b>(
-    sheet: &Area<'b>,
+    sheet: &SheetArea<'b>,
     top: i32,
-    entries: &[(String, Sample)],
-) -> Result<Area<'b>, AnyError> {
+    entries: &[(String, KeySample)],
+) -> Result<SheetArea<'b>, AnyError> {
     let longest = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    let strip = u32::try_from(SIDE + LETTER * longest)?;
+    let strip = u32::try_from(NAME_MARGIN + LETTER_WIDTH * longest)?;
     let (chart, key) = sheet.split_horizontally(sheet.dim_in_pixel().0.saturating_sub(strip));
     let mut y = top;
     for (name, sample) in entries {
         match *sample {
-            Sample::Line(color) => {
+            KeySample::Line(color) => {
                 key.draw(&PathElement::new([(4, y), (28, y)], color.stroke_width(3)))?;
             }
-            Sample::Circle(color) => key.draw(&Circle::new((16, y), 4, color.filled()))?,
-            Sample::Ring(color) => key.draw(&Circle::new((16, y), 4, color))?,
-            Sample::Triangle(color) => {
+            KeySample::Circle(color) => key.draw(&Circle::new((16, y), 4, color.filled()))?,
+            KeySample::Ring(color) => key.draw(&Circle::new((16, y), 4, color))?,
+            KeySample::Triangle(color) => {
                 key.draw(&TriangleMarker::new((16, y), 5, color.filled()))?;
             }
-            Sample::Cross(color) => key.draw(&Cross::new((16, y), 4, color))?,
+            KeySample::Cross(color) => key.draw(&Cross::new((16, y), 4, color))?,
         }
         key.draw(&Text::new(name.clone(), (36, y - 6), ("sans-serif", 15)))?;
-        y += LINE;
+        y += LINE_HEIGHT;
     }
     Ok(chart)
 }

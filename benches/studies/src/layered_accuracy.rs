@@ -19,33 +19,38 @@ use basemat::structure::RigidBlock;
 use cpu_time::ThreadTime;
 
 use crate::AnyError;
-use crate::precision::force::{Errors, Force};
+use crate::precision::force::{Errors, ForceSeries};
 use basemat_problems::profiles::{gmb, p1, p3};
 
-const ELEMENTS: [usize; 3] = [8, 16, 32];
-const STEPS: [f64; 4] = [0.2, 0.1, 0.05, 0.025];
+const ELEMENT_COUNTS: [usize; 3] = [8, 16, 32];
+/// Time steps in b/c of the layer.
+const TIME_STEPS: [f64; 4] = [0.2, 0.1, 0.05, 0.025];
 
 /// Error against run time on layered ground.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct LayeredAccuracyOptions {
     /// Eight elements only, to see that all works.
     #[arg(long)]
     short: bool,
 }
 
-struct Found {
+struct LayeredMarch {
     errors: Errors,
-    /// Before the first step, and all steps, s.
-    seconds: [f64; 2],
+    /// Processor time before the first step, s.
+    setup_seconds: f64,
+    /// Processor time of all steps, s.
+    march_seconds: f64,
 }
 
 fn march(
     profile: &SoilProfile,
-    table: &Force,
-    (elements, step, stages): (usize, f64, Stages),
-) -> Result<Found, AnyError> {
+    reference: &ForceSeries,
+    elements: usize,
+    step: f64,
+    stages: Stages,
+) -> Result<LayeredMarch, AnyError> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1200 at most")]
-    let steps = (table.duration() / step).round() as usize;
+    let steps = (reference.duration() / step).round() as usize;
     let begin = ThreadTime::try_now()?;
     let ground = ElasticGround::new(profile.clone(), Strip::graded(-1.0..1.0, elements)?)?
         .with_stages(stages);
@@ -58,14 +63,15 @@ fn march(
         .gravity(0.0)
         .expected_steps(steps)
         .build()?;
-    let mut means = Vec::with_capacity(steps);
-    let ready = begin.try_elapsed()?.as_secs_f64();
-    simulation.run(steps, |state| means.push(state.base_shear))?;
-    let errors = Force::new(step, means).errors(table);
-    Ok(Found { errors, seconds: [ready, begin.try_elapsed()?.as_secs_f64() - ready] })
+    let mut mean_shears = Vec::with_capacity(steps);
+    let setup_seconds = begin.try_elapsed()?.as_secs_f64();
+    simulation.run(steps, |state| mean_shears.push(state.base_shear))?;
+    let errors = ForceSeries::new(step, mean_shears).errors(reference);
+    let march_seconds = begin.try_elapsed()?.as_secs_f64() - setup_seconds;
+    Ok(LayeredMarch { errors, setup_seconds, march_seconds })
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &LayeredAccuracyOptions) -> Result<(), AnyError> {
     let short = options.short;
     let cases = [
         ("elastic layer on rock", p1(Elastic, Elastic), "layered/td_block_SV_P1_elastic.csv"),
@@ -79,22 +85,22 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     println!("| profile | elements | Δt c/b | stages | error: history | peak | before | march |");
     println!("|---|---|---|---|---|---|---|---|");
     for (name, profile, table) in cases {
-        let table = Force::from_table(table, "V");
-        let counts = &ELEMENTS[..if short { 1 } else { 3 }];
-        let steps = &STEPS[..if short { 2 } else { 4 }];
+        let reference = ForceSeries::from_table(table, "V");
+        let counts = &ELEMENT_COUNTS[..if short { 1 } else { 3 }];
+        let steps = &TIME_STEPS[..if short { 2 } else { 4 }];
         for elements in counts {
             for step in steps {
-                // Three stages show where elements leave little.
+                // Three stages show where the error of the elements is small.
                 let both = elements == &counts[counts.len() - 1];
                 for stages in &[Stages::Two, Stages::Three][..if both { 2 } else { 1 }] {
-                    let found = march(&profile, &table, (*elements, *step, *stages))?;
-                    let Found { errors, seconds: [ready, march] } = found;
+                    let march = march(&profile, &reference, *elements, *step, *stages)?;
+                    let LayeredMarch { errors, setup_seconds, march_seconds } = march;
                     println!(
-                        "| {name} | {elements} | {step} | {} | {:.1e} | {:.1e} | {ready:.2} s | {:.1} ms |",
+                        "| {name} | {elements} | {step} | {} | {:.1e} | {:.1e} | {setup_seconds:.2} s | {:.1} ms |",
                         stages.count(),
                         errors.history,
                         errors.peak,
-                        1e3 * march
+                        1e3 * march_seconds
                     );
                 }
             }

@@ -44,31 +44,31 @@ use document::AnyError;
 #[derive(Debug, Parser)]
 #[command(bin_name = "cargo study")]
 enum Study {
-    Validation(validation::Options),
-    Precision(precision::Options),
-    Stability(stability::Options),
-    Performance(performance::Options),
-    Containment(containment::Options),
-    PaperReadings(paper_readings::Options),
-    PaperScheme(paper_scheme::Options),
-    FullPlane(full_plane::Options),
-    Fragility(fragility::Options),
-    Opensees(opensees::Options),
-    Passivity(passivity::Options),
-    ContactChatter(contact_chatter::Options),
-    ContactCost(contact_cost::Options),
-    ContactProblems(contact_problems::Options),
-    HistoryCost(history::Cost),
-    HistoryExponentials(history::Exponentials),
-    LayeredAccuracy(layered_accuracy::Options),
-    LayeredCost(layered_cost::Options),
-    Mats(mats::Options),
-    Elements(elements::Options),
-    Embedded(embedded::Options),
+    Validation(validation::ValidationOptions),
+    Precision(precision::PrecisionOptions),
+    Stability(stability::StabilityOptions),
+    Performance(performance::PerformanceOptions),
+    Containment(containment::ContainmentOptions),
+    PaperReadings(paper_readings::PaperReadingsOptions),
+    PaperScheme(paper_scheme::PaperSchemeOptions),
+    FullPlane(full_plane::FullPlaneOptions),
+    Fragility(fragility::FragilityOptions),
+    Opensees(opensees::OpenseesOptions),
+    Passivity(passivity::PassivityOptions),
+    ContactChatter(contact_chatter::ContactChatterOptions),
+    ContactCost(contact_cost::ContactCostOptions),
+    ContactProblems(contact_problems::ContactProblemsOptions),
+    HistoryCost(history::CostOptions),
+    HistoryExponentials(history::ExponentialsOptions),
+    LayeredAccuracy(layered_accuracy::LayeredAccuracyOptions),
+    LayeredCost(layered_cost::LayeredCostOptions),
+    Mats(mats::MatsOptions),
+    Elements(elements::ElementsOptions),
+    Embedded(embedded::EmbeddedOptions),
 }
 
 fn main() -> ExitCode {
-    let done = match Study::parse() {
+    let outcome = match Study::parse() {
         Study::Validation(options) => validation::run(&options),
         Study::Precision(options) => precision::run(&options),
         Study::Stability(options) => stability::run(&options),
@@ -94,9 +94,9 @@ fn main() -> ExitCode {
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
     };
-    match done {
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        // In words: which shards are missing, say.
+        // As text, for example which shards are missing.
         Err(error) => {
             eprintln!("{error}");
             ExitCode::FAILURE

@@ -11,7 +11,7 @@ use basemat_problems::passivity::Scene;
 
 /// Passivity of the half-plane under random tractions and displacements.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct PassivityOptions {
     /// Elements of the strip
     #[arg(long, default_value_t = 60)]
     elements: usize,
@@ -32,8 +32,8 @@ pub(crate) struct Options {
     tolerance: Option<f64>,
 }
 
-pub(crate) fn run(options: &Options) {
-    let &Options { elements, steps, .. } = options;
+pub(crate) fn run(options: &PassivityOptions) {
+    let &PassivityOptions { elements, steps, .. } = options;
     println!("{elements} elements, {steps} steps");
     println!(
         "{:>8} {:>8} {:>8} {:>12} {:>20} {:>8}",
@@ -43,14 +43,17 @@ pub(crate) fn run(options: &Options) {
     for &beta in &options.beta {
         for &poisson in &options.poisson {
             for &graded in meshes {
-                let (history, tolerance) = match options.tolerance {
-                    Some(tolerance) => (HistoryMethod::Exponentials, tolerance),
-                    None => (HistoryMethod::Auto, 0.0),
+                let history = if options.tolerance.is_some() {
+                    HistoryMethod::Exponentials
+                } else {
+                    HistoryMethod::Auto
                 };
+                let tolerance = options.tolerance.unwrap_or(0.0);
                 let scene =
                     Scene { poisson, beta, graded, elements, steps, seed: 1, history, tolerance };
                 let begin = std::time::Instant::now();
-                let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
+                let work = scene.least_work();
+                let growth = scene.growth_of_tractions();
                 let mesh = if graded { "graded" } else { "uniform" };
                 println!(
                     "{beta:>8} {poisson:>8.4} {mesh:>8} {work:>12.3e} {growth:>20.3} {:>8.1}",

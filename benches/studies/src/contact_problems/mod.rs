@@ -1,5 +1,6 @@
-//! A hundred thousand random contact problems, each solved by a simulation's step and by brute
-//! force: which method found the modes, in how many solves, and where the solution is not unique.
+//! Random contact problems, each solved by a simulation's step and by brute force.
+//!
+//! The table states which method found the modes, in how many solves, and where the solution is not unique.
 //!
 //! ```text
 //! cargo study contact-problems
@@ -17,7 +18,7 @@ use crate::AnyError;
 
 /// Random contact problems against brute force.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct ContactProblemsOptions {
     /// Problems, about
     #[arg(long, default_value_t = 100_000)]
     problems: usize,
@@ -33,12 +34,12 @@ pub(crate) struct Options {
 }
 
 /// Ranges of the friction coefficient.
-const FRICTION: [[f64; 2]; 6] =
+const FRICTION_RANGES: [[f64; 2]; 6] =
     [[0.0, 0.0], [0.0, 0.3], [0.3, 0.6], [0.6, 1.0], [1.0, 2.0], [2.0, 3.0]];
-/// Elements, and how many of a hundred sequences have them.
-const COUNTS: [(usize, usize); 5] = [(1, 10), (2, 30), (3, 40), (4, 18), (5, 2)];
+/// Numbers of elements, and how many of a hundred sequences have them.
+const ELEMENT_COUNTS: [(usize, usize); 5] = [(1, 10), (2, 30), (3, 40), (4, 18), (5, 2)];
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &ContactProblemsOptions) -> Result<(), AnyError> {
     if let Some(folder) = &options.published {
         return published::run(folder, options.docs.as_deref());
     }
@@ -50,11 +51,11 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     let mut total = Tally::default();
     for real in [true, false] {
-        for range in FRICTION {
+        for range in FRICTION_RANGES {
             let mut tally = Tally::default();
-            let sequences = options.problems.div_ceil(2 * FRICTION.len() * STEPS);
-            for (count, share) in COUNTS {
-                for _ in 0..(sequences * share).div_ceil(100) {
+            let sequences = options.problems.div_ceil(2 * FRICTION_RANGES.len() * STEPS);
+            for (count, percent) in ELEMENT_COUNTS {
+                for _ in 0..(sequences * percent).div_ceil(100) {
                     let friction = random.within(range[0], range[1].max(f64::MIN_POSITIVE));
                     let friction = if range[1] == 0.0 { 0.0 } else { friction };
                     tally.add(&sequence(count, friction, real, &mut random));
@@ -70,12 +71,14 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
 }
 
 fn print_row(operator: &str, friction: &str, tally: &Tally) {
-    let [active, seidel, path] = tally.methods;
     let mean = tally.trials as f64 / (tally.problems - tally.failed).max(1) as f64;
     println!(
-        "| {operator} | {friction} | {} | {active} | {seidel} | {path} | {mean:.2} | {} | {} | {} | {} | {} \
+        "| {operator} | {friction} | {} | {} | {} | {} | {mean:.2} | {} | {} | {} | {} | {} \
          | {:.0e} | {:.0e} |",
         tally.problems,
+        tally.methods[0],
+        tally.methods[1],
+        tally.methods[2],
         tally.most_trials,
         tally.several,
         tally.most_solutions,

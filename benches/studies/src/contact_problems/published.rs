@@ -13,27 +13,27 @@ use cpu_time::ProcessTime;
 
 use crate::AnyError;
 use crate::document::splice;
-use crate::figure::{BLUE, Figure, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 
-/// Largest residual of a problem with a definite W, and of another one.
-const LIMITS: [f64; 2] = [1e-11, 1e-7];
-/// Least over greatest eigenvalue of W below which W is singular.
-const SINGULAR: f64 = 1e-12;
-/// Compliance of a layer that a singular W gets on its diagonal, over its largest entry. Residuals are without it.
-const LAYER: f64 = 1e-9;
+/// Largest residual of a problem with a definite W, and with a singular W.
+const RESIDUAL_LIMITS: [f64; 2] = [1e-11, 1e-7];
+/// Ratio of the smallest to the largest eigenvalue of W below which W is singular.
+const SINGULAR_EIGENVALUE_RATIO: f64 = 1e-12;
+/// Compliance of a layer on the diagonal of a singular W, over its largest entry. Residuals are without it.
+const LAYER_COMPLIANCE_RATIO: f64 = 1e-9;
 
 /// u = W r + q for some contacts: normal components first, then those along x, in space along y.
-struct Problem {
+struct PublishedProblem {
     dimension: usize,
-    /// Least over greatest eigenvalue of W.
+    /// Smallest over largest eigenvalue of W.
     ratio: f64,
     friction: Vec<f64>,
     velocity: Vec<f64>,
     matrix: Vec<f64>,
 }
 
-/// Solution of a problem.
-struct Solution {
+/// PublishedSolution of a problem.
+struct PublishedSolution {
     method: String,
     iterations: usize,
     /// Processor time, s.
@@ -41,7 +41,7 @@ struct Solution {
     residual: f64,
 }
 
-impl Problem {
+impl PublishedProblem {
     /// The problem of a file of export.py.
     fn read(text: &str) -> Result<Self, AnyError> {
         let numbers: Vec<f64> =
@@ -55,53 +55,62 @@ impl Problem {
         if rest.len() != count + size + size * size {
             return Err(format!("{} numbers for {count} contacts", rest.len()).into());
         }
-        let (friction, rest) = rest.split_at(count);
-        let (velocity, matrix) = rest.split_at(size);
-        let [friction, velocity, matrix] = [friction, velocity, matrix].map(<[f64]>::to_vec);
-        Ok(Self { dimension, ratio, friction, velocity, matrix })
+        let friction = &rest[..count];
+        let velocity = &rest[count..count + size];
+        let matrix = &rest[count + size..];
+        Ok(Self {
+            dimension,
+            ratio,
+            friction: friction.to_vec(),
+            velocity: velocity.to_vec(),
+            matrix: matrix.to_vec(),
+        })
     }
 
     /// Solves it in one step of a body too heavy to move, on contact elements of 1 m².
-    fn solve(&self) -> Result<Solution, AnyError> {
-        let (count, size) = (self.friction.len(), self.velocity.len());
+    fn solve(&self) -> Result<PublishedSolution, AnyError> {
+        let count = self.friction.len();
+        let size = self.velocity.len();
         let mut matrix = self.matrix.clone();
-        if self.ratio < SINGULAR {
-            let layer = LAYER * matrix.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        if self.ratio < SINGULAR_EIGENVALUE_RATIO {
+            let layer = LAYER_COMPLIANCE_RATIO
+                * matrix.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
             (0..size).for_each(|i| matrix[i * (size + 1)] += layer);
         }
-        let laws = self.friction.iter().map(|own| -> Result<Box<dyn InterfaceLaw>, AnyError> {
-            Ok(Box::new(Coulomb::new(*own)?))
-        });
-        let builder =
-            Simulation::builder(1.0).interfaces(laws.collect::<Result<_, _>>()?).gravity(0.0);
-        let (heavy, middle) = (1e60, 0.5 * count as f64);
-        let (ground, motion, builder) = if self.dimension == 3 {
+        let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
+        for friction in &self.friction {
+            laws.push(Box::new(Coulomb::new(*friction)?));
+        }
+        let builder = Simulation::builder(1.0).interfaces(laws).gravity(0.0);
+        let heavy = 1e60;
+        let middle = 0.5 * count as f64;
+        let (builder, motion) = if self.dimension == 3 {
             let plan = Plan::masked([0.0; 2], [1.0; 2], count, &vec![true; count])?;
             let outline = [[-middle, -0.5], [middle, -0.5], [middle, 0.5], [-middle, 0.5]];
             let inertia = [[heavy, 0.0, 0.0], [0.0, heavy, 0.0], [0.0, 0.0, heavy]];
             let body = RigidBody::from_mass(outline.to_vec(), heavy, inertia, [0.0; 3])?;
             let (ground, motion) = Prescribed::new(plan.elements(), matrix);
-            (ground, motion, builder.structure(body.centered_at([middle, 0.5])?))
+            (builder.structure(body.centered_at([middle, 0.5])?).ground(ground), motion)
         } else {
             let strip = Strip::uniform(0.0..2.0 * middle, count)?;
             let body = RigidBlock::from_mass(2.0 * middle, heavy, heavy, 0.0)?;
             let (ground, motion) = Prescribed::new(strip.elements(), matrix);
-            (ground, motion, builder.structure(body.centered_at(middle)?))
+            (builder.structure(body.centered_at(middle)?).ground(ground), motion)
         };
-        let mut simulation = builder.ground(ground).build()?;
+        let mut simulation = builder.build()?;
         motion.lock().map_err(|_| "poisoned")?.copy_from_slice(&self.velocity);
         let begin = ProcessTime::try_now()?;
         let state = simulation.step()?;
         let seconds = begin.try_elapsed()?.as_secs_f64();
-        let all = &state.contact;
-        let force: Vec<f64> = all
+        let contact = &state.contact;
+        let force: Vec<f64> = contact
             .iter()
-            .map(|own| own.pressure)
-            .chain(all.iter().map(|own| own.shear))
-            .chain(all.iter().map(|own| own.shear_across))
+            .map(|element| element.pressure)
+            .chain(contact.iter().map(|element| element.shear))
+            .chain(contact.iter().map(|element| element.shear_across))
             .take(size)
             .collect();
-        Ok(Solution {
+        Ok(PublishedSolution {
             method: state.method.to_string(),
             iterations: state.trials,
             seconds,
@@ -112,19 +121,22 @@ impl Problem {
     /// ‖r − P(r − u − μ‖u_T‖ n)‖ over the largest of ‖q‖, ‖r‖ and ‖u‖, with P the projection on Coulomb's cones: the error
     /// by which Siconos accepts a solution (`fc3d_compute_error`, `fc2d_compute_error`).
     fn residual(&self, force: &[f64]) -> f64 {
-        let (count, size) = (self.friction.len(), force.len());
+        let count = self.friction.len();
+        let size = force.len();
         let rows = self.matrix.chunks_exact(size).zip(&self.velocity);
         let velocity: Vec<f64> = rows
-            .map(|(row, own)| own + row.iter().zip(force).map(|(w, r)| w * r).sum::<f64>())
+            .map(|(row, prescribed)| {
+                prescribed + row.iter().zip(force).map(|(w, r)| w * r).sum::<f64>()
+            })
             .collect();
-        let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
         let scale = norm(&self.velocity).max(norm(force)).max(norm(&velocity));
-        let tangential = || (1..self.dimension).map(|k| k * count);
-        let each = (0..count).map(|e| {
+        let mut squares = 0.0;
+        for e in 0..count {
+            let tangential: Vec<usize> = (1..self.dimension).map(|k| k * count + e).collect();
             let friction = self.friction[e];
-            let slip = norm(&tangential().map(|k| velocity[k + e]).collect::<Vec<_>>());
+            let slip = norm(&tangential.iter().map(|&k| velocity[k]).collect::<Vec<_>>());
             let normal = force[e] - velocity[e] - friction * slip;
-            let trial: Vec<f64> = tangential().map(|k| force[k + e] - velocity[k + e]).collect();
+            let trial: Vec<f64> = tangential.iter().map(|&k| force[k] - velocity[k]).collect();
             let shear = norm(&trial);
             let (pressure, factor) = if friction * shear <= -normal {
                 (0.0, 0.0)
@@ -134,40 +146,49 @@ impl Problem {
                 let pressure = (normal + friction * shear) / (1.0 + friction * friction);
                 (pressure, friction * pressure / shear)
             };
-            let across =
-                tangential().zip(&trial).map(|(k, own)| (force[k + e] - factor * own).powi(2));
-            (force[e] - pressure).powi(2) + across.sum::<f64>()
-        });
-        each.sum::<f64>().sqrt() / scale.max(f64::MIN_POSITIVE)
+            let across = tangential.iter().zip(&trial);
+            let across = across.map(|(&k, shear)| (force[k] - factor * shear).powi(2));
+            squares += (force[e] - pressure).powi(2) + across.sum::<f64>();
+        }
+        squares.sqrt() / scale.max(f64::MIN_POSITIVE)
     }
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// Solves the problems of a folder; prints a table, and writes it and a picture into the documents.
 pub(super) fn run(folder: &Path, docs: Option<&Path>) -> Result<(), AnyError> {
     let mut paths: Vec<_> = std::fs::read_dir(folder)?
-        .map(|own| Ok(own?.path()))
+        .map(|entry| Ok(entry?.path()))
         .collect::<Result<_, std::io::Error>>()?;
-    paths.retain(|path| path.extension().is_some_and(|own| own == "txt"));
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "txt"));
     paths.sort();
     let mut text = "| problem | directions | contacts | friction | least over greatest eigenvalue of W | method | iterations | ms | residual |\n|---|---|---|---|---|---|---|---|---|\n".to_owned();
-    let (mut points, mut failed) = ([vec![], vec![]], vec![]);
+    let mut points = [vec![], vec![]];
+    let mut failed = vec![];
     for path in &paths {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let problem = Problem::read(&std::fs::read_to_string(path)?)?;
-        let Problem { dimension, ratio, friction, .. } = &problem;
-        let kind = usize::from(*ratio < SINGULAR);
-        let least = if kind == 1 { "0".to_owned() } else { format!("{ratio:.0e}") };
-        let least_friction = friction.iter().copied().fold(f64::INFINITY, f64::min);
-        write!(text, "| {name} | {dimension} | {} | {least_friction} | {least} |", friction.len())?;
+        let problem = PublishedProblem::read(&std::fs::read_to_string(path)?)?;
+        let PublishedProblem { dimension, ratio, friction, .. } = &problem;
+        let kind = usize::from(*ratio < SINGULAR_EIGENVALUE_RATIO);
+        let eigenvalue_ratio = if kind == 1 { "0".to_owned() } else { format!("{ratio:.0e}") };
+        let smallest_friction = friction.iter().copied().fold(f64::INFINITY, f64::min);
+        write!(
+            text,
+            "| {name} | {dimension} | {} | {smallest_friction} | {eigenvalue_ratio} |",
+            friction.len()
+        )?;
         match problem.solve() {
-            Ok(Solution { method, iterations, seconds, residual }) => {
+            Ok(PublishedSolution { method, iterations, seconds, residual }) => {
                 writeln!(
                     text,
                     " {method} | {iterations} | {:.2} | {residual:.0e} |",
                     1e3 * seconds
                 )?;
                 points[kind].push((1e3 * seconds, residual.max(1e-17)));
-                if residual.is_nan() || residual > LIMITS[kind] {
+                if residual.is_nan() || residual > RESIDUAL_LIMITS[kind] {
                     failed.push(name);
                 }
             }
@@ -185,10 +206,10 @@ pub(super) fn run(folder: &Path, docs: Option<&Path>) -> Result<(), AnyError> {
     }
     println!("{text}");
     let [definite, singular] = points;
-    let panel = Panel::new("time of the step, ms", "residual by the measure of Siconos")
+    let panel = FigurePanel::new("time of the step, ms", "residual by the measure of Siconos")
         .double_logarithmic()
-        .circles("W definite", BLUE, definite)
-        .crosses("W singular, soft layer", RED, singular);
+        .circles("W definite", CURVE_BLUE, definite)
+        .crosses("W singular, soft layer", CURVE_RED, singular);
     let figure = Figure::new("Problems of FCLIB and of the tests of Siconos", 1, vec![panel]);
     if let Some(docs) = docs {
         splice("contact_problems.md", "published problems", &text)?;

@@ -1,4 +1,4 @@
-//! One case: its run, and what is kept of it.
+//! A case of the containment, and its results.
 
 use basemat::Simulation;
 use basemat::bem::{ElasticGround, Strip};
@@ -11,14 +11,14 @@ use basemat_problems::containment::{Containment, PAPER_SHEARS, ROWS};
 
 /// A name and a friction coefficient; `None` is bonded, infinity uplift only.
 #[derive(Debug, Clone)]
-pub(crate) struct Case {
+pub(crate) struct ContainmentCase {
     pub(crate) name: String,
     pub(crate) friction: Option<f64>,
 }
 
 /// A case that has run.
-pub(crate) struct Outcome {
-    pub(crate) case: Case,
+pub(crate) struct ContainmentOutcome {
+    pub(crate) case: ContainmentCase,
     pub(crate) run: Run,
     /// With the probes of [`Containment::probes`], and "foundation", the acceleration of the foundation's top.
     pub(crate) time_series: TimeSeries,
@@ -33,13 +33,14 @@ pub(crate) struct Outcome {
     pub(crate) peak_sway: f64,
 }
 
-impl Case {
+impl ContainmentCase {
     /// Bonded, uplift only, then one case per friction coefficient.
     pub(crate) fn list(friction: &[f64]) -> Vec<Self> {
-        let first = ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
-        let rest =
+        let without_sliding =
+            ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
+        let sliding =
             friction.iter().map(|friction| (format!("friction {friction}"), Some(*friction)));
-        first.chain(rest).map(|(name, friction)| Self { name, friction }).collect()
+        without_sliding.chain(sliding).map(|(name, friction)| Self { name, friction }).collect()
     }
 
     /// Peak base shear of the paper's Table 1, lb/ft, where it has this case.
@@ -49,9 +50,14 @@ impl Case {
     }
 
     /// Runs so many seconds of El Centro.
-    pub(crate) fn run(&self, scene: Containment, duration: f64) -> basemat::Result<Outcome> {
+    pub(crate) fn run(
+        &self,
+        scene: Containment,
+        duration: f64,
+    ) -> basemat::Result<ContainmentOutcome> {
         let model = scene.structure()?;
-        let (probes, top) = (scene.probes(&model)?, scene.foundation_top(&model)?);
+        let probes = scene.probes(&model)?;
+        let top = scene.foundation_top(&model)?;
         let builder = Simulation::builder(scene.time_step(0.5))
             .structure(model)
             // Equal elements, as in the paper.
@@ -79,7 +85,7 @@ impl Case {
         let mut time_series = Recorder::new().start(&simulation)?;
         time_series.reserve(steps)?;
         let run = simulation.run(steps, |state| time_series.record(state))?;
-        Ok(Outcome {
+        Ok(ContainmentOutcome {
             case: self.clone(),
             superstructure_mass: scene.superstructure_mass(),
             peak_shear: run.probe("base shear")?.magnitude(),
@@ -92,7 +98,7 @@ impl Case {
     }
 }
 
-impl Outcome {
+impl ContainmentOutcome {
     /// Times and values of a probe, multiplied by a factor.
     pub(crate) fn curve(&self, probe: &str, factor: f64) -> basemat::Result<Vec<(f64, f64)>> {
         let values = self.time_series.probe(probe)?.iter().map(|value| factor * value);

@@ -1,6 +1,7 @@
-//! El Centro on the containment of Patel & Spyrakos, "Uplifting-sliding response of flexible structures to seismic
-//! loads": what docs/paper.md says of its tables, figures and conclusions. The example `containment` shows how one
-//! such run is made.
+//! El Centro on the containment of Patel & Spyrakos, for docs/paper.md.
+//!
+//! Their paper is "Uplifting-sliding response of flexible structures to seismic loads". The page states the paper's
+//! tables, figures and conclusions beside the crate's. The example `containment` shows how one such run is made.
 //!
 //! ```text
 //! cargo study containment                   # 1 s
@@ -19,11 +20,11 @@ use basemat_problems::containment::Containment;
 
 use crate::AnyError;
 use crate::document::write_csv;
-use case::{Case, Outcome};
+use case::{ContainmentCase, ContainmentOutcome};
 
 /// El Centro on the paper's containment: Table 1, conclusions, limits of service, figures.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct ContainmentOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/containment")]
     out: PathBuf,
@@ -47,36 +48,36 @@ pub(crate) struct Options {
     sweep: bool,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &ContainmentOptions) -> Result<(), AnyError> {
     let formulation =
         if options.one_point { QuadFormulation::OnePoint } else { QuadFormulation::Full };
-    let (width, height) = (options.width, options.height);
+    let width = options.width;
+    let height = options.height;
     let scene = Containment { width, height, formulation, ..Containment::default() };
     let out = &options.out;
-    // A folder that cannot be written is better known before the runs than after.
+    // The folder is created first, so that an error comes before the runs.
     std::fs::create_dir_all(out)?;
     let duration = el_centro_1940().duration();
-    let results = run_all(&Case::list(&options.friction), scene, duration)?;
+    let results = run_all(&ContainmentCase::list(&options.friction), scene, duration)?;
     report::print(&results, scene.weights());
     report::write(out, &results)?;
     report::draw(out, &results)?;
     if options.sweep {
         let frictions: Vec<f64> = (1..=16).map(|k| 0.05 * f64::from(k)).collect();
-        let runs = run_all(&Case::list(&frictions)[2..], scene, duration)?;
-        let slip = |outcome: &Outcome| outcome.run.whole.mean_slip.magnitude();
+        let runs = run_all(&ContainmentCase::list(&frictions)[2..], scene, duration)?;
         write_csv(
             out.join("friction_sweep.csv"),
             ["friction", "peak_base_shear_n_per_m", "max_slip_m"],
-            frictions
-                .iter()
-                .zip(&runs)
-                .map(|(mu, run)| [*mu, run.peak_shear, slip(run)].map(|x| x.to_string())),
+            frictions.iter().zip(&runs).map(|(friction, outcome)| {
+                let slip = outcome.run.whole.mean_slip.magnitude();
+                [*friction, outcome.peak_shear, slip].map(|number| number.to_string())
+            }),
         )?;
         report::draw_sweep(out, &frictions, &runs, results[1].peak_shear)?;
     }
     if options.meshes {
-        let fine = Containment { elements: 15, ..scene };
-        let fine = run_all(&Case::list(&options.friction), fine, duration)?;
+        let fine_scene = Containment { elements: 15, ..scene };
+        let fine = run_all(&ContainmentCase::list(&options.friction), fine_scene, duration)?;
         report::compare_meshes(out, &results, &fine)?;
     }
     println!("\nfiles in {}", out.display());
@@ -85,13 +86,14 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
 
 /// Runs the cases, as many at a time as there are processors.
 pub(crate) fn run_all(
-    cases: &[Case],
+    cases: &[ContainmentCase],
     scene: Containment,
     duration: f64,
-) -> Result<Vec<Outcome>, AnyError> {
-    let runs = Sweep::new(cases.len()).collect(|now| cases[now.index].run(scene, duration));
-    let named = |(case, run): (&Case, Result<_, _>)| {
-        run.map_err(|error| format!("{}: {error}", case.name).into())
-    };
-    cases.iter().zip(runs).map(named).collect()
+) -> Result<Vec<ContainmentOutcome>, AnyError> {
+    let runs = Sweep::new(cases.len()).collect(|case| cases[case.index].run(scene, duration));
+    let mut outcomes = Vec::new();
+    for (case, run) in cases.iter().zip(runs) {
+        outcomes.push(run.map_err(|error| format!("{}: {error}", case.name))?);
+    }
+    Ok(outcomes)
 }

@@ -2,18 +2,19 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use basemat::fem::{Direction, Material};
+use basemat::fem::Material;
 use basemat_problems::space_beams::{
     chain, hinged_cantilever, rectangle, sheared, straight_cantilever, twisted_cantilever,
 };
 use basemat_problems::supported::{RX, X, Y, Z};
 
-use super::row::Rows;
+use super::row::BenchmarkRows;
 use crate::AnyError;
 
 /// St Venant's torsion constant of a rectangle, m⁴: Timoshenko & Goodier, article 109.
-fn torsion_constant(one: f64, other: f64) -> f64 {
-    let (long, short) = (one.max(other), one.min(other));
+fn torsion_constant(width: f64, height: f64) -> f64 {
+    let long = width.max(height);
+    let short = width.min(height);
     let sum: f64 = (0..20)
         .map(|k| f64::from(2 * k + 1))
         .map(|n| (0.5 * n * PI * long / short).tanh() / n.powi(5))
@@ -21,7 +22,7 @@ fn torsion_constant(one: f64, other: f64) -> f64 {
     long * short.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * short / long * sum)
 }
 
-fn straight(rows: &mut Rows) {
+fn straight(rows: &mut BenchmarkRows) {
     for count in [1, 6] {
         let beam = straight_cantilever(torsion_constant(0.2, 0.1), count);
         for (quantity, direction) in
@@ -33,16 +34,18 @@ fn straight(rows: &mut Rows) {
     }
 }
 
-fn curved(rows: &mut Rows) -> Result<(), AnyError> {
+fn curved(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     let material = Material::new(1.0e7, 0.25, 0.0)?;
     let section = rectangle(0.1, 0.2, torsion_constant(0.1, 0.2));
     for count in [6, 12, 48] {
-        let around = |part: f64| {
-            let (sine, cosine) = (FRAC_PI_2 * part).sin_cos();
+        let point_on_arc = |part: f64| {
+            let angle = FRAC_PI_2 * part;
+            let sine = angle.sin();
+            let cosine = angle.cos();
             [4.22 * cosine, 4.22 * sine, 0.0]
         };
         // y of the section across the plane of the arc.
-        let beam = chain(material, section, count, around, |_| [0.0, 0.0, 1.0]);
+        let beam = chain(material, section, count, point_on_arc, |_| [0.0, 0.0, 1.0]);
         for (quantity, direction) in [("in-plane", Y), ("out-of-plane", Z)] {
             let value = beam.work(&[(count, direction, 1.0)]);
             for benchmark in ["MacNeal-Harder curved cantilever", "curved cantilever, closed form"]
@@ -54,20 +57,21 @@ fn curved(rows: &mut Rows) -> Result<(), AnyError> {
     Ok(())
 }
 
-fn twisted(rows: &mut Rows) {
+fn twisted(rows: &mut BenchmarkRows) {
     for (thickness, force) in [(0.32, 1.0), (0.0032, 1e-6)] {
         for count in [12, 96] {
             let beam = twisted_cantilever(thickness, torsion_constant(1.1, thickness), count);
             let benchmark = format!("MacNeal-Harder twisted beam t={thickness}");
-            let tip = |direction: Direction| force * beam.work(&[(count, direction, 1.0)]);
+            let in_plane = force * beam.work(&[(count, Z, 1.0)]);
+            let out_of_plane = force * beam.work(&[(count, Y, 1.0)]);
             let mesh = count.to_string();
-            rows.put(&benchmark, "along the width of the tip (in-plane)", &mesh, tip(Z));
-            rows.put(&benchmark, "across (out-of-plane)", &mesh, tip(Y));
+            rows.put(&benchmark, "along the width of the tip (in-plane)", &mesh, in_plane);
+            rows.put(&benchmark, "across (out-of-plane)", &mesh, out_of_plane);
         }
     }
 }
 
-pub(super) fn run(rows: &mut Rows) -> Result<(), AnyError> {
+pub(super) fn run(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     straight(rows);
     curved(rows)?;
     twisted(rows);

@@ -5,9 +5,9 @@ use basemat_problems::columns;
 use basemat_problems::space_beams::{section, sheared};
 use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z};
 
-use super::row::Rows;
+use super::row::BenchmarkRows;
 
-fn supported(rows: &mut Rows, section: BeamSection, name: &str) {
+fn supported(rows: &mut BenchmarkRows, section: BeamSection, name: &str) {
     let supports: [(&str, &[Direction], &[Direction]); 3] = [
         ("cantilever", &CLAMPED, &[]),
         ("pinned", &[X, Y, Z, RZ], &[X, Y]),
@@ -22,11 +22,11 @@ fn supported(rows: &mut Rows, section: BeamSection, name: &str) {
     }
 }
 
-pub(super) fn run(rows: &mut Rows) {
+pub(super) fn run(rows: &mut BenchmarkRows) {
     supported(rows, section(), "Euler");
     supported(rows, sheared(), "with shear (Engesser)");
     for count in [2, 4, 8] {
-        let benchmark = "buckling of a cantilever by its own weight";
+        let benchmark = "buckling of a cantilever by its weight";
         rows.put(benchmark, "q L, N", &count.to_string(), columns::own_weight(count));
     }
     for count in [1, 2, 4] {

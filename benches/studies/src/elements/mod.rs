@@ -1,7 +1,7 @@
 //! Benchmarks of the finite elements in space, and random flexible structures on the ground.
 //!
-//! Each value has the value of another program of the same formulation beside it, an accepted target and a gate; the
-//! process fails if one is missed. The content of `benches/studies/tables/elements.md` comes from
+//! Each value is compared with the value of another program of the same formulation and with an accepted target; the
+//! process fails if a limit is exceeded. The content of `benches/studies/tables/elements.md` comes from
 //!
 //! ```text
 //! cargo study elements --docs docs
@@ -29,11 +29,11 @@ use cpu_time::ProcessTime;
 
 use crate::AnyError;
 use crate::document::{splice, write_csv};
-use row::Rows;
+use row::BenchmarkRows;
 
 /// Benchmarks of finite elements in space: values, targets, gates.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct ElementsOptions {
     /// Coarse meshes only.
     #[arg(long)]
     short: bool,
@@ -48,9 +48,10 @@ pub(crate) struct Options {
     docs: Option<PathBuf>,
 }
 
-type Group = (&'static str, fn(&mut Rows, bool) -> Result<(), AnyError>);
+/// Name of a group and the function that runs it.
+type BenchmarkGroup = (&'static str, fn(&mut BenchmarkRows, bool) -> Result<(), AnyError>);
 
-const GROUPS: [Group; 11] = [
+const BENCHMARK_GROUPS: [BenchmarkGroup; 11] = [
     ("single", |rows, _| single::run(rows)),
     ("beams", |rows, _| beams::run(rows)),
     ("beam-modes", |rows, _| {
@@ -73,42 +74,45 @@ const GROUPS: [Group; 11] = [
     ("raft", raft::run),
 ];
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+fn number_text(value: Option<f64>) -> String {
+    value.map_or(String::new(), |value| format!("{value:.7e}"))
+}
+
+pub(crate) fn run(options: &ElementsOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
-    let mut rows = Rows::tabled();
+    let mut rows = BenchmarkRows::tabled();
     println!(
         "benchmark | quantity | mesh | found | tabled | difference | found / target | verdict"
     );
-    for (name, run) in GROUPS {
+    for (name, run) in BENCHMARK_GROUPS {
         if options.only.as_deref().is_none_or(|only| only == name) {
             let begin = ProcessTime::try_now()?;
             run(&mut rows, options.short)?;
             println!("{name}: {:.0} s", begin.try_elapsed()?.as_secs_f64());
         }
     }
-    let text = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.7e}"));
     let columns =
         ["table", "benchmark", "quantity", "mesh", "found", "tabled", "target", "verdict"];
-    let files = rows.all.iter().map(|row| {
+    let records = rows.all.iter().map(|row| {
         let target = row.target.map(|(target, _)| target);
         [
             row.table.to_owned(),
             row.benchmark.clone(),
             row.quantity.clone(),
             row.mesh.clone(),
-            text(row.found),
-            text(Some(row.tabled)),
-            text(target),
+            number_text(row.computed),
+            number_text(Some(row.tabled)),
+            number_text(target),
             row.verdict().to_owned(),
         ]
     });
-    write_csv(options.out.join("rows.csv"), columns, files)?;
-    let found = rows.all.iter().filter(|row| row.found.is_some()).count();
+    write_csv(options.out.join("rows.csv"), columns, records)?;
+    let computed = rows.all.iter().filter(|row| row.computed.is_some()).count();
     let mut failed = rows.failed();
     if !options.short && options.only.is_none() {
         failed.extend(rows.missing());
     }
-    println!("{found} of {} rows, {} fail", rows.all.len(), failed.len());
+    println!("{computed} of {} rows, {} fail", rows.all.len(), failed.len());
     if options.docs.is_some() && options.only.is_none() {
         splice("elements.md", "elements benchmarks", &report::benchmarks(&rows)?)?;
         splice("elements.md", "elements summary", &report::summary(&rows)?)?;

@@ -1,10 +1,10 @@
-//! Rows of the tables of benchmarks: values of the same formulation, targets, gates, and the values found.
+//! Rows of the tables of benchmarks: values of the same formulation, targets, gates, and computed values.
 
 use basemat_problems::table;
 
 /// One value of a benchmark.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
+pub(super) struct BenchmarkRow {
     pub(super) table: &'static str,
     pub(super) benchmark: String,
     pub(super) quantity: String,
@@ -12,41 +12,50 @@ pub(super) struct Row {
     /// Value of another program.
     pub(super) tabled: f64,
     /// Largest relative difference from the tabled value.
-    pub(super) same: f64,
+    pub(super) tolerance: f64,
     /// Accepted value, and largest relative difference from it.
     pub(super) target: Option<(f64, Option<f64>)>,
-    pub(super) found: Option<f64>,
+    pub(super) computed: Option<f64>,
 }
 
-impl Row {
+impl BenchmarkRow {
     /// A value without a target, of six digits.
-    fn new(table: &'static str, [benchmark, quantity, mesh]: [&str; 3], tabled: f64) -> Self {
-        let [benchmark, quantity, mesh] = [benchmark, quantity, mesh].map(str::to_owned);
-        // Half of the last digit.
-        Self { table, benchmark, quantity, mesh, tabled, same: 1e-5, target: None, found: None }
+    fn new(table: &'static str, benchmark: &str, quantity: &str, mesh: &str, tabled: f64) -> Self {
+        Self {
+            table,
+            benchmark: benchmark.to_owned(),
+            quantity: quantity.to_owned(),
+            mesh: mesh.to_owned(),
+            tabled,
+            // Half of the last digit.
+            tolerance: 1e-5,
+            target: None,
+            computed: None,
+        }
     }
 
     /// Whether the row has these names.
-    fn is(&self, benchmark: &str, quantity: &str, mesh: &str) -> bool {
+    fn has_names(&self, benchmark: &str, quantity: &str, mesh: &str) -> bool {
         self.benchmark == benchmark && self.quantity == quantity && self.mesh == mesh
     }
 
-    /// Relative difference of the value found from the tabled one.
+    /// Relative difference of the computed value from the tabled value.
     pub(super) fn difference(&self) -> Option<f64> {
-        Some((self.found? / self.tabled - 1.0).abs())
+        Some((self.computed? / self.tabled - 1.0).abs())
     }
 
-    /// Value found over the target.
+    /// Computed value over the target.
     pub(super) fn ratio(&self) -> Option<f64> {
-        Some(self.found? / self.target?.0)
+        Some(self.computed? / self.target?.0)
     }
 
     /// Words of a verdict; those in capitals are failures.
     pub(super) fn verdict(&self) -> &'static str {
         let Some(difference) = self.difference() else { return "not computed" };
         let gate = self.target.and_then(|(_, gate)| gate);
-        let off = self.ratio().zip(gate).is_some_and(|(ratio, gate)| (ratio - 1.0).abs() > gate);
-        match (difference > self.same, off) {
+        let misses_target =
+            self.ratio().zip(gate).is_some_and(|(ratio, gate)| (ratio - 1.0).abs() > gate);
+        match (difference > self.tolerance, misses_target) {
             (true, true) => "OFF TABLE AND TARGET",
             (true, false) => "OFF TABLE",
             (false, true) => "OFF TARGET",
@@ -60,7 +69,7 @@ impl Row {
     }
 }
 
-/// Whether each element of a raft has its own cell: "Shell4 16x16, 16x16 cells".
+/// Whether a raft has one cell for each element: "Shell4 16x16, 16x16 cells".
 fn has_cell_for_each_element(mesh: &str) -> bool {
     let counts: Vec<&str> = mesh.split([' ', ',']).filter(|word| word.contains('x')).collect();
     matches!(counts[..], [elements, cells] if elements == cells)
@@ -70,14 +79,15 @@ fn has_cell_for_each_element(mesh: &str) -> bool {
 ///
 /// On springs a Ritz solution of degree 36, on the half-space the values extrapolated to small cells.
 fn raft_target(is_winkler: bool, quantity: &str, mesh: &str) -> Option<(f64, Option<f64>)> {
-    let [springs, half_space] = match quantity {
+    // On springs, and on the half-space.
+    let targets = match quantity {
         "settlement middle, mm" => [3.487_449, 6.037],
         "settlement middle of a side, mm" => [0.743_579_3, 3.072],
         "settlement corner, mm" => [-0.495_681_2, 1.678],
         "moment mx = my under the load, kNm/m" => [729.3671, f64::NAN],
         _ => return None,
     };
-    let target = if is_winkler { springs } else { half_space };
+    let target = if is_winkler { targets[0] } else { targets[1] };
     let gates = if quantity.starts_with("moment") { [0.14, 0.04] } else { [1e-2, 3e-3] };
     let gate = if mesh.starts_with("Shell4 16x16") {
         Some(gates[0])
@@ -89,65 +99,70 @@ fn raft_target(is_winkler: bool, quantity: &str, mesh: &str) -> Option<(f64, Opt
     target.is_finite().then_some((target, gate))
 }
 
-/// Rows of the tables, and values found that no table has.
+/// Rows of the tables, and computed values that no table has.
 #[derive(Debug, Default)]
-pub(super) struct Rows {
-    pub(super) all: Vec<Row>,
+pub(super) struct BenchmarkRows {
+    pub(super) all: Vec<BenchmarkRow>,
     pub(super) others: Vec<(String, f64)>,
     /// Values that must not exceed a bound.
     pub(super) bounds: Vec<(String, f64, f64)>,
 }
 
-impl Rows {
+impl BenchmarkRows {
     /// The tables of `tests/data/elements`.
     pub(super) fn tabled() -> Self {
         let mut all = Vec::new();
         let gates = table("elements/gates.csv");
-        let columns =
-            ["benchmark", "quantity", "element and mesh", "accepted target", "accuracy gate"];
-        let [benchmarks, quantities, meshes, targets, accuracies] =
-            columns.map(|column| gates.text(column));
+        let benchmarks = gates.text("benchmark");
+        let quantities = gates.text("quantity");
+        let meshes = gates.text("element and mesh");
+        let targets = gates.text("accepted target");
+        let accuracies = gates.text("accuracy gate");
         let values = gates.column("value (same formulation: within 1e-5)");
         for (k, &tabled) in values.iter().enumerate() {
             let target: Option<f64> = targets[k].parse().ok();
-            let names = [benchmarks[k], quantities[k], meshes[k]];
+            let row = BenchmarkRow::new("gates", benchmarks[k], quantities[k], meshes[k], tabled);
             let target = target.map(|target| (target, accuracies[k].parse().ok()));
-            all.push(Row { target, ..Row::new("gates", names, tabled) });
+            all.push(BenchmarkRow { target, ..row });
         }
         let shells = table("elements/containment.csv");
-        let [benchmarks, quantities, masses, meshes] =
-            ["benchmark", "quantity", "mass", "mesh around x (cylinder + dome)"]
-                .map(|column| shells.text(column));
+        let benchmarks = shells.text("benchmark");
+        let quantities = shells.text("quantity");
+        let masses = shells.text("mass");
+        let meshes = shells.text("mesh around x (cylinder + dome)");
         for (k, &tabled) in shells.column("value").iter().enumerate() {
             let mesh = format!("{} {}", meshes[k], masses[k]);
-            all.push(Row::new("containment", [benchmarks[k], quantities[k], &mesh], tabled));
+            all.push(BenchmarkRow::new("containment", benchmarks[k], quantities[k], &mesh, tabled));
         }
         let raft = table("elements/raft.csv");
-        let [grounds, solutions, quantities] =
-            ["ground", "solution", "quantity"].map(|column| raft.text(column));
+        let grounds = raft.text("ground");
+        let solutions = raft.text("solution");
+        let quantities = raft.text("quantity");
         for (k, &tabled) in raft.column("value").iter().enumerate() {
             if !solutions[k].starts_with("Shell4") {
                 continue;
             }
             let is_winkler = grounds[k].starts_with("Winkler");
-            let mut row = Row::new("raft", [grounds[k], quantities[k], solutions[k]], tabled);
+            let mut row =
+                BenchmarkRow::new("raft", grounds[k], quantities[k], solutions[k], tabled);
             if !is_winkler && !has_cell_for_each_element(solutions[k]) {
                 // Two elements a cell: the other program takes other means.
-                row.same = 1e-2;
+                row.tolerance = 1e-2;
             }
             row.target = raft_target(is_winkler, quantities[k], solutions[k]);
             all.push(row);
         }
         let plates = table("elements/invariance.csv");
-        let [tests, elements] = ["test", "element"].map(|column| plates.text(column));
+        let tests = plates.text("test");
+        let elements = plates.text("element");
         for (k, &tabled) in plates.column("relative difference or ratio").iter().enumerate() {
             if !tests[k].starts_with("clamped square") {
                 continue;
             }
-            let mut row = Row::new("invariance", [tests[k], "", elements[k]], tabled);
+            let mut row = BenchmarkRow::new("invariance", tests[k], "", elements[k], tabled);
             if tests[k].contains("1e-06") {
                 // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
-                row.same = 1e-3;
+                row.tolerance = 1e-3;
             }
             all.push(row);
         }
@@ -155,15 +170,15 @@ impl Rows {
     }
 
     /// The row of the tables with these names.
-    pub(super) fn get(&self, benchmark: &str, quantity: &str, mesh: &str) -> Option<&Row> {
-        self.all.iter().find(|row| row.is(benchmark, quantity, mesh))
+    pub(super) fn get(&self, benchmark: &str, quantity: &str, mesh: &str) -> Option<&BenchmarkRow> {
+        self.all.iter().find(|row| row.has_names(benchmark, quantity, mesh))
     }
 
     /// Enters a value of the tables' `benchmark`, `quantity` and `mesh`.
     pub(super) fn put(&mut self, benchmark: &str, quantity: &str, mesh: &str, value: f64) {
-        match self.all.iter_mut().find(|row| row.is(benchmark, quantity, mesh)) {
+        match self.all.iter_mut().find(|row| row.has_names(benchmark, quantity, mesh)) {
             Some(row) => {
-                row.found = Some(value);
+                row.computed = Some(value);
                 println!(
                     "{benchmark} | {quantity} | {mesh} | {value:.6e} | {:.6e} | {:.0e} | {} | {}",
                     row.tabled,
@@ -177,19 +192,19 @@ impl Rows {
     }
 
     /// Enters a value that must not exceed a bound.
-    pub(super) fn bound(&mut self, name: &str, value: f64, most: f64) {
-        let verdict = if value <= most { "holds" } else { "ABOVE ITS BOUND" };
-        println!("{name} | {value:.1e} | at most {most:.0e} | {verdict}");
-        self.bounds.push((name.to_owned(), value, most));
+    pub(super) fn bound(&mut self, name: &str, value: f64, bound: f64) {
+        let verdict = if value <= bound { "holds" } else { "ABOVE ITS BOUND" };
+        println!("{name} | {value:.1e} | at most {bound:.0e} | {verdict}");
+        self.bounds.push((name.to_owned(), value, bound));
     }
 
-    /// Rows and bounds that fail, in words.
+    /// Rows and bounds that fail, as text.
     pub(super) fn failed(&self) -> Vec<String> {
         let rows = self.all.iter().filter(|row| row.fails()).map(|row| {
             format!("{} | {} | {}: {}", row.benchmark, row.quantity, row.mesh, row.verdict())
         });
-        let bounds = self.bounds.iter().filter(|(_, value, most)| value > most || value.is_nan());
-        rows.chain(bounds.map(|(name, value, most)| format!("{name}: {value:e} > {most:e}")))
+        let bounds = self.bounds.iter().filter(|(_, value, bound)| value > bound || value.is_nan());
+        rows.chain(bounds.map(|(name, value, bound)| format!("{name}: {value:e} > {bound:e}")))
             .collect()
     }
 
@@ -197,12 +212,10 @@ impl Rows {
     ///
     /// Stresses of bricks from strains at the corner do not count: the crate extrapolates stresses from the Gauss points.
     pub(super) fn missing(&self) -> impl Iterator<Item = String> {
-        let is_missing =
-            |row: &&Row| row.found.is_none() && row.quantity != "syy at D, at the corner, MPa";
-        let text = |row: &Row| {
-            format!("{} | {} | {}: not computed", row.benchmark, row.quantity, row.mesh)
-        };
-        self.all.iter().filter(is_missing).map(text)
+        self.all
+            .iter()
+            .filter(|row| row.computed.is_none() && row.quantity != "syy at D, at the corner, MPa")
+            .map(|row| format!("{} | {} | {}: not computed", row.benchmark, row.quantity, row.mesh))
     }
 
     /// Enters a value that no table has.

@@ -5,12 +5,12 @@ use basemat_problems::flexible_scenes::Outcome;
 use crate::AnyError;
 
 /// Number of scenes, fewer for continuous integration.
-const SCENES: [usize; 2] = [200, 4];
+const SCENE_COUNTS: [usize; 2] = [200, 4];
 
 /// Runs the scenes and returns their table for the documents.
 pub(super) fn run(short: bool) -> Result<String, AnyError> {
     let mut outcome = Outcome::default();
-    for number in 0..SCENES[usize::from(short)] {
+    for number in 0..SCENE_COUNTS[usize::from(short)] {
         outcome.run(number);
         if number % 20 == 19 {
             println!("{} scenes: energy error {:.1e}", number + 1, outcome.residual);

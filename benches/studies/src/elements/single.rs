@@ -7,25 +7,26 @@ use basemat_problems::patch::{POINTS, QUADS, STATES, bricks, field};
 use basemat_problems::space_beams::{concrete, sheared};
 use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, rigid, values};
 
-use super::row::Rows;
-use super::surface::{Pattern, Surface};
+use super::row::BenchmarkRows;
+use super::surface::{ShellPattern, ShellSurface};
 use crate::AnyError;
 
-/// Largest displacement of inner nodes from a uniform `state` while the nodes before `inner` are held in it, relative
-/// to the largest of all.
-fn error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
+/// Largest displacement of inner nodes from a uniform `state`, relative to the largest displacement of all.
+///
+/// The nodes before `inner` are restrained in this state.
+fn patch_error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
     let mut loads = Vec::new();
     let mut forces = vec![[0.0; 6]; state.len()];
     for element in scene.mesh.elements() {
-        let own = values(element, state);
+        let displacement = values(element, state);
         let matrix = Part::Stiffness.of(element, &scene.points(element.nodes()));
         let places = element
             .nodes()
             .iter()
             .flat_map(|&node| element.directions().iter().map(move |&direction| (node, direction)));
-        for ((node, direction), row) in places.zip(matrix.chunks(own.len())) {
+        for ((node, direction), row) in places.zip(matrix.chunks(displacement.len())) {
             let place = CLAMPED.iter().position(|&other| other == direction).unwrap_or(0);
-            forces[node][place] -= row.iter().zip(&own).map(|(k, u)| k * u).sum::<f64>();
+            forces[node][place] -= row.iter().zip(&displacement).map(|(k, u)| k * u).sum::<f64>();
         }
     }
     for (node, forces) in forces.iter().enumerate() {
@@ -34,15 +35,15 @@ fn error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
         }
         loads.extend(CLAMPED.into_iter().zip(forces).map(|(direction, &f)| (node, direction, f)));
     }
-    let found = scene.displacements(&loads);
-    largest(found.as_flattened()) / largest(state.as_flattened())
+    let displacements = scene.displacements(&loads);
+    largest(displacements.as_flattened()) / largest(state.as_flattened())
 }
 
-fn patches(rows: &mut Rows) -> Result<(), AnyError> {
-    for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
+fn patches(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
+    for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Rising] {
         for thickness in [0.001, 0.05] {
             for name in STATES {
-                let mut patch = Surface::new(Material::new(1.0e6, 0.25, 1.0)?, thickness);
+                let mut patch = ShellSurface::new(Material::new(1.0e6, 0.25, 1.0)?, thickness);
                 for [x, y] in POINTS {
                     patch.scene.node([x, y, 0.0]);
                 }
@@ -50,7 +51,7 @@ fn patches(rows: &mut Rows) -> Result<(), AnyError> {
                     patch.shell(&corners, thickness)?;
                 }
                 let state = POINTS.map(|[x, y]| field(name, x, y));
-                let error = error(patch.scene, 4, &state);
+                let error = patch_error(patch.scene, 4, &state);
                 let case = format!("t/size={:.3}", thickness / 0.24);
                 rows.bound(&format!("patch {name} {} {case}", pattern.element()), error, 1e-9);
             }
@@ -58,63 +59,76 @@ fn patches(rows: &mut Rows) -> Result<(), AnyError> {
     }
     let material = Material::new(1.0e6, 0.25, 1.0)?;
     let scene = bricks(material);
-    let uniform = |&[x, y, z]: &[f64; 3]| {
-        [x + 0.5 * (y + z), y + 0.5 * (x + z), z + 0.5 * (x + y), 0.0, 0.0, 0.0]
-    };
-    let state: Vec<[f64; 6]> = scene.mesh.nodes().iter().map(uniform).collect();
-    let error = error(scene, 8, &state);
+    let mut state: Vec<[f64; 6]> = Vec::new();
+    for [x, y, z] in scene.mesh.nodes() {
+        state.push([x + 0.5 * (y + z), y + 0.5 * (x + z), z + 0.5 * (x + y), 0.0, 0.0, 0.0]);
+    }
+    let error = patch_error(scene, 8, &state);
     rows.bound("patch of seven distorted bricks", error, 1e-9);
     Ok(())
 }
 
-/// An element, its name and the places of its nodes.
-type Sample = (&'static str, Box<dyn Element>, Vec<[f64; 3]>);
+/// Name of an element, the element, and the coordinates of its nodes.
+type ElementSample = (&'static str, Box<dyn Element>, Vec<[f64; 3]>);
 
-fn samples() -> Result<Vec<Sample>, AnyError> {
+fn samples() -> Result<Vec<ElementSample>, AnyError> {
     let concrete = concrete();
     let quads = [
         ("Shell4 flat", [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], [0.0; 4]),
         ("Shell4 distorted", [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [-0.2, 1.3]], [0.0; 4]),
         ("Shell4 warped", [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [-0.2, 1.3]], [0.0, 0.2, -0.1, 0.3]),
     ];
-    let mut all: Vec<Sample> = Vec::new();
+    let mut samples: Vec<ElementSample> = Vec::new();
     for (name, plan, heights) in quads {
         let points = plan.iter().zip(heights).map(|(&[x, y], z)| [x, y, z]).collect();
-        all.push((name, Box::new(Shell::new([0, 1, 2, 3], concrete, 0.2)?), points));
+        samples.push((name, Box::new(Shell::new([0, 1, 2, 3], concrete, 0.2)?), points));
     }
     let triangle = vec![[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
-    all.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
+    samples.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
     let brick = DISTORTED.to_vec();
-    all.push(("Hex8 distorted", Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)), brick));
+    samples.push((
+        "Hex8 distorted",
+        Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)),
+        brick,
+    ));
     let beam = SpaceBeam::new([0, 1], concrete, sheared(), [1.0, 1.0, 0.2])?
         .with_offsets([[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]])?;
-    all.push(("SpaceBeam with offsets", Box::new(beam), vec![[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]]));
-    Ok(all)
+    samples.push((
+        "SpaceBeam with offsets",
+        Box::new(beam),
+        vec![[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]],
+    ));
+    Ok(samples)
 }
 
-fn rigid_motions(rows: &mut Rows) -> Result<(), AnyError> {
+fn rigid_motions(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     for (name, element, points) in samples()? {
         let order = element.order();
         let matrix = Part::Stiffness.of(&*element, &points);
         let scale = largest(&matrix);
         for motion in 0..6 {
             let state: Vec<[f64; 6]> = points.iter().map(|&point| rigid(motion, point)).collect();
-            let own = values(&*element, &state);
-            let force = |row: &[f64]| row.iter().zip(&own).map(|(k, u)| k * u).sum::<f64>().abs();
-            let most = matrix.chunks(order).map(force).fold(0.0, f64::max);
-            rows.bound(&format!("rigid motion {motion}, {name}"), most / scale, 1e-12);
+            let displacement = values(&*element, &state);
+            let mut largest_force = 0.0_f64;
+            for row in matrix.chunks(order) {
+                let force: f64 = row.iter().zip(&displacement).map(|(k, u)| k * u).sum();
+                largest_force = largest_force.max(force.abs());
+            }
+            rows.bound(&format!("rigid motion {motion}, {name}"), largest_force / scale, 1e-12);
         }
         let square: Vec<Vec<f64>> = matrix.chunks(order).map(<[f64]>::to_vec).collect();
-        let (found, _) = eigenpairs(&square);
-        let most = found[order - 1];
-        rows.bound(&format!("sixth eigenvalue, {name}"), largest(&found[..6]) / most, 1e-13);
-        // Of its inverse: none of the others is near zero.
-        rows.bound(&format!("largest over seventh eigenvalue, {name}"), most / found[6], 1e6);
+        let eigenvalues = eigenpairs(&square).0;
+        let greatest = eigenvalues[order - 1];
+        let sixth = largest(&eigenvalues[..6]);
+        rows.bound(&format!("sixth eigenvalue, {name}"), sixth / greatest, 1e-13);
+        // The other eigenvalues are not near zero.
+        let condition = greatest / eigenvalues[6];
+        rows.bound(&format!("largest over seventh eigenvalue, {name}"), condition, 1e6);
     }
     Ok(())
 }
 
-fn renumbered(rows: &mut Rows) -> Result<(), AnyError> {
+fn renumbered(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     for (name, element, points) in samples()? {
         let orders: &[&[usize]] = match points.len() {
             4 => &[&[1, 2, 3, 0], &[0, 3, 2, 1]],
@@ -128,21 +142,27 @@ fn renumbered(rows: &mut Rows) -> Result<(), AnyError> {
         let matrix = Part::Stiffness.of(&*element, &points);
         for &places in orders {
             let moved: Vec<[f64; 3]> = places.iter().map(|&place| points[place]).collect();
-            let found = Part::Stiffness.of(&*element, &moved);
-            let place = |k: usize| size * places[k / size] + k % size;
-            let apart =
-                |k: usize| (found[k] - matrix[place(k / order) * order + place(k % order)]).abs();
-            let most = (0..order * order).map(apart).fold(0.0, f64::max) / largest(&matrix);
-            rows.bound(&format!("renumbered {places:?}, {name}"), most, 1e-12);
+            let computed = Part::Stiffness.of(&*element, &moved);
+            let dofs: Vec<usize> =
+                (0..order).map(|dof| size * places[dof / size] + dof % size).collect();
+            let mut difference = 0.0_f64;
+            for row in 0..order {
+                for column in 0..order {
+                    let reference = matrix[dofs[row] * order + dofs[column]];
+                    difference = difference.max((computed[row * order + column] - reference).abs());
+                }
+            }
+            let error = difference / largest(&matrix);
+            rows.bound(&format!("renumbered {places:?}, {name}"), error, 1e-12);
         }
     }
     Ok(())
 }
 
-/// Beams of the plane x–z: largest difference from the beam of the plane, of the largest entry.
-fn in_the_plane(rows: &mut Rows) -> Result<(), AnyError> {
-    const PLACES: [usize; 6] = [0, 2, 4, 6, 8, 10];
-    const SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+/// Bounds the largest difference of beams in the plane x–z from the beam of the plane, relative to the largest entry.
+fn in_the_plane(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
+    const PLANE_DOFS: [usize; 6] = [0, 2, 4, 6, 8, 10];
+    const PLANE_SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
     for ends in [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]] {
         let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
             .with_shear_stiffness(12.5e9 * 0.1)?
@@ -152,41 +172,43 @@ fn in_the_plane(rows: &mut Rows) -> Result<(), AnyError> {
         let displacement = [1e-3, 2e-3, 1e-3, -2e-3, -1e-3, 3e-3];
         let mut in_space = [0.0; 12];
         for k in 0..6 {
-            in_space[PLACES[k]] = SIGNS[k] * displacement[k];
+            in_space[PLANE_DOFS[k]] = PLANE_SIGNS[k] * displacement[k];
         }
         let flat_points = ends.map(|[x, z]| [x, z, 0.0]);
         let points = ends.map(|[x, z]| [x, 0.0, z]);
-        let none = "a beam with an axial force";
-        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).ok_or(none)?;
-        let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(none)?;
+        let missing = "a beam with an axial force";
+        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).ok_or(missing)?;
+        let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(missing)?;
         for (name, part) in [
             ("stiffness", Part::Stiffness),
             ("geometric stiffness", Part::GeometricStiffness),
             ("mass", Part::Mass(MassKind::Consistent)),
             ("lumped mass", Part::Mass(MassKind::Lumped)),
         ] {
-            let [flat, own] = [part.of(&*flat, &flat_points), part.of(&*beam, &points)];
-            let mut most = 0.0_f64;
+            let plane_matrix = part.of(&*flat, &flat_points);
+            let space_matrix = part.of(&*beam, &points);
+            let mut difference = 0.0_f64;
             for i in 0..6 {
                 for j in 0..6 {
-                    let row = 12 * PLACES[i];
-                    let value = SIGNS[i] * SIGNS[j] * own[row + PLACES[j]];
-                    most =
-                        most.max((value - flat[6 * i + j]).abs()).max(own[row + 2 * j + 1].abs());
+                    let row = 12 * PLANE_DOFS[i];
+                    let value = PLANE_SIGNS[i] * PLANE_SIGNS[j] * space_matrix[row + PLANE_DOFS[j]];
+                    let out_of_plane = space_matrix[row + 2 * j + 1];
+                    difference = difference.max((value - plane_matrix[6 * i + j]).abs());
+                    difference = difference.max(out_of_plane.abs());
                 }
             }
             let name = format!("beam in the plane, {ends:?}: {name}");
-            rows.bound(&name, most / largest(&flat), 1e-12);
+            rows.bound(&name, difference / largest(&plane_matrix), 1e-12);
         }
     }
     Ok(())
 }
 
-fn clamped_squares(rows: &mut Rows) -> Result<(), AnyError> {
-    for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
+fn clamped_squares(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
+    for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Rising] {
         for (slenderness, name) in [(1e-2, "0.01"), (1e-4, "0.0001"), (1e-6, "1e-06")] {
             let thickness = 10.0 * slenderness;
-            let mut plate = Surface::new(Material::new(200.0e9, 0.3, 8000.0)?, thickness);
+            let mut plate = ShellSurface::new(Material::new(200.0e9, 0.3, 8000.0)?, thickness);
             let nodes = plate.grid([8, 8], pattern, |x, y| [10.0 * x, 10.0 * y, 0.0])?;
             for (i, row) in nodes.iter().enumerate() {
                 for (j, &node) in row.iter().enumerate() {
@@ -197,8 +219,8 @@ fn clamped_squares(rows: &mut Rows) -> Result<(), AnyError> {
             let mut loads = Vec::new();
             for shell in &plate.shells {
                 let forces = shell.pressure_forces(&plate.scene.points(shell.nodes()), 1.0)?;
-                let own = shell.nodes().iter().zip(forces);
-                loads.extend(own.map(|(&node, [.., force])| (node, Z, force)));
+                let nodes_and_forces = shell.nodes().iter().zip(forces);
+                loads.extend(nodes_and_forces.map(|(&node, [.., force])| (node, Z, force)));
             }
             let rigidity = 200.0e9 * thickness.powi(3) / 12.0 / 0.91;
             let ratio = plate.scene.solve(&loads)(nodes[4][4], Z) * rigidity / (0.001_265_32 * 1e4);
@@ -210,7 +232,7 @@ fn clamped_squares(rows: &mut Rows) -> Result<(), AnyError> {
     Ok(())
 }
 
-pub(super) fn run(rows: &mut Rows) -> Result<(), AnyError> {
+pub(super) fn run(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     patches(rows)?;
     rigid_motions(rows)?;
     renumbered(rows)?;

@@ -7,7 +7,7 @@ use crate::AnyError;
 
 /// Elements of a cell of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Pattern {
+pub(super) enum ShellPattern {
     Quadrilaterals,
     /// The diagonal (i, j)–(i + 1, j + 1).
     Rising,
@@ -15,7 +15,7 @@ pub(super) enum Pattern {
     Falling,
 }
 
-impl Pattern {
+impl ShellPattern {
     /// Name of the elements in the tables.
     pub(super) fn element(self) -> &'static str {
         if self == Self::Quadrilaterals { "Shell4" } else { "Shell3" }
@@ -31,14 +31,14 @@ impl Pattern {
 }
 
 /// Shells of one material and thickness.
-pub(super) struct Surface {
+pub(super) struct ShellSurface {
     pub(super) scene: Supported,
     pub(super) shells: Vec<Shell>,
     material: Material,
     thickness: f64,
 }
 
-impl Surface {
+impl ShellSurface {
     pub(super) fn new(material: Material, thickness: f64) -> Self {
         Self { scene: Supported::new(), shells: Vec::new(), material, thickness }
     }
@@ -51,10 +51,14 @@ impl Surface {
     }
 
     /// Cells between nodes in a grid.
-    pub(super) fn fill(&mut self, nodes: &[Vec<usize>], pattern: Pattern) -> Result<(), AnyError> {
-        for (one, other) in nodes.iter().zip(&nodes[1..]) {
-            for j in 0..one.len() - 1 {
-                let cell = [one[j], other[j], other[j + 1], one[j + 1]];
+    pub(super) fn fill(
+        &mut self,
+        nodes: &[Vec<usize>],
+        pattern: ShellPattern,
+    ) -> Result<(), AnyError> {
+        for (row, next) in nodes.iter().zip(&nodes[1..]) {
+            for j in 0..row.len() - 1 {
+                let cell = [row[j], next[j], next[j + 1], row[j + 1]];
                 for corners in pattern.split(cell) {
                     self.shell(&corners, self.thickness)?;
                 }
@@ -63,19 +67,21 @@ impl Surface {
         Ok(())
     }
 
-    /// Nodes (nx + 1) × (ny + 1) at the points of `place`, whose arguments run from 0 to 1, and cells between them.
+    /// Nodes (nx + 1) × (ny + 1) at the points of `point`, whose arguments run from 0 to 1, and cells between them.
     pub(super) fn grid(
         &mut self,
         [nx, ny]: [usize; 2],
-        pattern: Pattern,
-        place: impl Fn(f64, f64) -> [f64; 3],
+        pattern: ShellPattern,
+        point: impl Fn(f64, f64) -> [f64; 3],
     ) -> Result<Vec<Vec<usize>>, AnyError> {
-        let ratio = |k: usize, n: usize| k as f64 / n as f64;
-        let mut row = |i| {
-            let node = |j| self.scene.node(place(ratio(i, nx), ratio(j, ny)));
-            (0..=ny).map(node).collect()
-        };
-        let nodes: Vec<Vec<usize>> = (0..=nx).map(&mut row).collect();
+        let mut nodes: Vec<Vec<usize>> = Vec::new();
+        for i in 0..=nx {
+            let mut row = Vec::new();
+            for j in 0..=ny {
+                row.push(self.scene.node(point(i as f64 / nx as f64, j as f64 / ny as f64)));
+            }
+            nodes.push(row);
+        }
         self.fill(&nodes, pattern)?;
         Ok(nodes)
     }
@@ -84,16 +90,17 @@ impl Surface {
     pub(super) fn mean_at(
         &self,
         node: usize,
-        all: &[[f64; 6]],
+        displacements: &[[f64; 6]],
         value: impl Fn(&ShellResultants) -> f64,
     ) -> Result<f64, AnyError> {
-        let (mut sum, mut count) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut count = 0.0;
         for shell in &self.shells {
-            if let Some(corner) = shell.nodes().iter().position(|&own| own == node) {
+            if let Some(corner) = shell.nodes().iter().position(|&corner| corner == node) {
                 let points = self.scene.points(shell.nodes());
-                let displacement = values(shell, all);
-                let own = shell.resultants(&points, &displacement)?[corner];
-                sum += value(&own.in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])?);
+                let displacement = values(shell, displacements);
+                let resultants = shell.resultants(&points, &displacement)?[corner];
+                sum += value(&resultants.in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])?);
                 count += 1.0;
             }
         }
@@ -101,10 +108,13 @@ impl Surface {
     }
 }
 
-/// A force spread evenly over nodes in a row: half a share for each end.
+/// A force spread evenly over the spans between nodes in a row.
 pub(super) fn spread(nodes: &[usize], direction: Direction, force: f64) -> Vec<Load> {
     let spans = (nodes.len() - 1) as f64;
-    let part = |k: usize| if k == 0 || k + 1 == nodes.len() { 0.5 } else { 1.0 };
-    let load = |(k, &node): (usize, &usize)| (node, direction, force / spans * part(k));
-    nodes.iter().enumerate().map(load).collect()
+    let mut loads = Vec::new();
+    for (k, &node) in nodes.iter().enumerate() {
+        let part = if k == 0 || k + 1 == nodes.len() { 0.5 } else { 1.0 };
+        loads.push((node, direction, force / spans * part));
+    }
+    loads
 }

@@ -5,16 +5,18 @@ use std::f64::consts::FRAC_PI_2;
 use basemat::fem::{Element, Material};
 use basemat_problems::supported::{CLAMPED, Load, RX, RY, RZ, X, Y, Z};
 
-use super::row::Rows;
-use super::surface::{Pattern, Surface};
+use super::row::BenchmarkRows;
+use super::surface::{ShellPattern, ShellSurface};
 use crate::AnyError;
 
-fn roof(rows: &mut Rows) -> Result<(), AnyError> {
+fn roof(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     for count in [4, 8, 16] {
-        for pattern in [Pattern::Quadrilaterals, Pattern::Falling] {
-            let mut roof = Surface::new(Material::new(4.32e8, 0.0, 0.0)?, 0.25);
+        for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Falling] {
+            let mut roof = ShellSurface::new(Material::new(4.32e8, 0.0, 0.0)?, 0.25);
             let nodes = roof.grid([count, count], pattern, |along, around| {
-                let (sine, cosine) = (40.0 * around).to_radians().sin_cos();
+                let angle = (40.0 * around).to_radians();
+                let sine = angle.sin();
+                let cosine = angle.cos();
                 [25.0 * along, 25.0 * sine, 25.0 * cosine]
             })?;
             for k in 0..=count {
@@ -25,8 +27,8 @@ fn roof(rows: &mut Rows) -> Result<(), AnyError> {
             let mut loads: Vec<Load> = Vec::new();
             for shell in &roof.shells {
                 let areas = shell.areas(&roof.scene.points(shell.nodes()))?;
-                let own = shell.nodes().iter().zip(areas);
-                loads.extend(own.map(|(&node, area)| (node, Z, -90.0 * area)));
+                let nodes_and_areas = shell.nodes().iter().zip(areas);
+                loads.extend(nodes_and_areas.map(|(&node, area)| (node, Z, -90.0 * area)));
             }
             let value = roof.scene.solve(&loads)(nodes[0][count], Z);
             let mesh = format!("{} {count}x{count}", pattern.element());
@@ -36,18 +38,20 @@ fn roof(rows: &mut Rows) -> Result<(), AnyError> {
     Ok(())
 }
 
-fn cylinder(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
+fn cylinder(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
     for count in [4, 8, 16, 32, 48, 64] {
         if short && count > 16 {
             break;
         }
-        for pattern in [Pattern::Quadrilaterals, Pattern::Falling] {
-            if count > 32 && pattern == Pattern::Falling {
+        for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Falling] {
+            if count > 32 && pattern == ShellPattern::Falling {
                 continue;
             }
-            let mut pipe = Surface::new(Material::new(3.0e6, 0.3, 0.0)?, 3.0);
+            let mut pipe = ShellSurface::new(Material::new(3.0e6, 0.3, 0.0)?, 3.0);
             let nodes = pipe.grid([count, count], pattern, |along, around| {
-                let (sine, cosine) = (FRAC_PI_2 * around).sin_cos();
+                let angle = FRAC_PI_2 * around;
+                let sine = angle.sin();
+                let cosine = angle.cos();
                 [300.0 * along, 300.0 * sine, 300.0 * cosine]
             })?;
             for k in 0..=count {
@@ -65,15 +69,16 @@ fn cylinder(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
     Ok(())
 }
 
-fn hemisphere(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
+fn hemisphere(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
     for count in [4, 8, 16, 32] {
         if short && count > 16 {
             break;
         }
-        for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
-            let mut dome = Surface::new(Material::new(6.825e7, 0.3, 0.0)?, 0.04);
+        for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Rising] {
+            let mut dome = ShellSurface::new(Material::new(6.825e7, 0.3, 0.0)?, 0.04);
             let nodes = dome.grid([count, count], pattern, |around, up| {
-                let (east, north) = (FRAC_PI_2 * around, (72.0 * up).to_radians());
+                let east = FRAC_PI_2 * around;
+                let north = (72.0 * up).to_radians();
                 let radius = 10.0 * north.cos();
                 [radius * east.cos(), radius * east.sin(), 10.0 * north.sin()]
             })?;
@@ -81,7 +86,8 @@ fn hemisphere(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
                 dome.scene.hold(nodes[0][k], &[Y, RX, RZ]);
                 dome.scene.hold(nodes[count][k], &[X, RY, RZ]);
             }
-            let [pulled, pushed] = [nodes[0][0], nodes[count][0]];
+            let pulled = nodes[0][0];
+            let pushed = nodes[count][0];
             dome.scene.hold(pulled, &[Z]);
             let value = dome.scene.solve(&[(pulled, X, 1.0), (pushed, Y, -1.0)])(pulled, X);
             let mesh = format!("{} {count}x{count}", pattern.element());
@@ -95,28 +101,38 @@ fn hemisphere(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
 fn on_arc(from: [f64; 3], to: [f64; 3], part: f64) -> [f64; 3] {
     let cosine: f64 = (0..3).map(|k| from[k] * to[k]).sum();
     let angle = cosine.clamp(-1.0, 1.0).acos();
-    let [one, other] = [1.0 - part, part].map(|part| (part * angle).sin() / angle.sin());
-    std::array::from_fn(|k| one * from[k] + other * to[k])
+    let weight_from = ((1.0 - part) * angle).sin() / angle.sin();
+    let weight_to = (part * angle).sin() / angle.sin();
+    std::array::from_fn(|k| weight_from * from[k] + weight_to * to[k])
 }
 
-fn closed_hemisphere(rows: &mut Rows) -> Result<(), AnyError> {
+fn unit_vector(axis: usize) -> [f64; 3] {
+    std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 })
+}
+
+fn closed_hemisphere(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     let middle = [1.0 / 3.0_f64.sqrt(); 3];
     for count in [4, 8, 16] {
-        for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
-            let mut dome = Surface::new(Material::new(68.25e9, 0.3, 0.0)?, 0.04);
+        for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Rising] {
+            let mut dome = ShellSurface::new(Material::new(68.25e9, 0.3, 0.0)?, 0.04);
             for axis in 0..3 {
-                let unit = |axis: usize| std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 });
-                let [a, next, last] = [0, 1, 2].map(|step| unit((axis + step) % 3));
-                let [b, d] = [next, last].map(|other| on_arc(a, other, 0.5));
-                let mut node = |i: usize, j: usize| {
-                    let [s, t] = [i, j].map(|k| k as f64 / count as f64);
-                    let point = on_arc(on_arc(a, b, s), on_arc(d, middle, s), t).map(|x| 10.0 * x);
-                    // Patches share the nodes of their edges.
-                    let known = dome.scene.mesh.node_at_point(point);
-                    known.unwrap_or_else(|_| dome.scene.node(point))
-                };
-                let nodes: Vec<Vec<usize>> =
-                    (0..=count).map(|i| (0..=count).map(|j| node(i, j)).collect()).collect();
+                let a = unit_vector(axis);
+                let b = on_arc(a, unit_vector((axis + 1) % 3), 0.5);
+                let d = on_arc(a, unit_vector((axis + 2) % 3), 0.5);
+                let mut nodes = Vec::new();
+                for i in 0..=count {
+                    let s = i as f64 / count as f64;
+                    let mut row = Vec::new();
+                    for j in 0..=count {
+                        let t = j as f64 / count as f64;
+                        let unit_point = on_arc(on_arc(a, b, s), on_arc(d, middle, s), t);
+                        let point = unit_point.map(|x| 10.0 * x);
+                        // Patches have the nodes of their edges in common.
+                        let existing = dome.scene.mesh.node_at_point(point);
+                        row.push(existing.unwrap_or_else(|_| dome.scene.node(point)));
+                    }
+                    nodes.push(row);
+                }
                 dome.fill(&nodes, pattern)?;
             }
             let points = dome.scene.mesh.nodes().to_vec();
@@ -128,9 +144,10 @@ fn closed_hemisphere(rows: &mut Rows) -> Result<(), AnyError> {
                     dome.scene.hold(node, &[Y, RX, RZ]);
                 }
             }
-            let at = |point| dome.scene.mesh.node_at_point(point);
-            let (pole, pulled, pushed) =
-                (at([0.0, 0.0, 10.0])?, at([10.0, 0.0, 0.0])?, at([0.0, 10.0, 0.0])?);
+            let mesh = &dome.scene.mesh;
+            let pole = mesh.node_at_point([0.0, 0.0, 10.0])?;
+            let pulled = mesh.node_at_point([10.0, 0.0, 0.0])?;
+            let pushed = mesh.node_at_point([0.0, 10.0, 0.0])?;
             dome.scene.hold(pole, &CLAMPED);
             let value = dome.scene.solve(&[(pulled, X, 2e3), (pushed, Y, -2e3)])(pulled, X);
             let mesh = format!("{} 3 patches {count}x{count}", pattern.element());
@@ -140,7 +157,7 @@ fn closed_hemisphere(rows: &mut Rows) -> Result<(), AnyError> {
     Ok(())
 }
 
-pub(super) fn run(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
+pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError> {
     roof(rows)?;
     cylinder(rows, short)?;
     hemisphere(rows, short)?;

@@ -1,7 +1,7 @@
-//! Errors and processor time of a block in a trench, welded and with contact, over meshes and time steps.
+//! Errors and processor time of a block in a trench over meshes and time steps.
 //!
 //! Half width, depth, density, shear modulus and shear wave speed are 1, the block is 3 high, ν = 1/3: the block of
-//! `tests/data/embedded/td_*.csv`, under its pulse of shear waves.
+//! `tests/data/embedded/td_*.csv`, under its pulse of shear waves. Its faces are welded or in contact.
 
 use std::fmt::Write as _;
 
@@ -17,41 +17,45 @@ use cpu_time::ProcessTime;
 
 use crate::AnyError;
 
-const DURATION: f64 = 25.6;
-/// Instants that all time steps have.
-const SAMPLE: f64 = 0.4;
+const PULSE_DURATION: f64 = 25.6;
+/// Time between samples; a multiple of all time steps.
+const SAMPLE_INTERVAL: f64 = 0.4;
 /// Largest acceleration of the pulse over gravity.
-const STRENGTH: f64 = 0.8;
+const PEAK_OVER_GRAVITY: f64 = 0.8;
 /// Largest acceleration of the pulse.
-const PEAK: f64 = 2.16;
+const PEAK_ACCELERATION: f64 = 2.16;
 
 /// A mesh, its time step, and whether all faces are welded.
 #[derive(Debug, Clone, Copy)]
-struct Setting {
+struct TrenchSetting {
     elements: [usize; 2],
     step: f64,
     welded: bool,
 }
 
-/// Motion of the base, rotation and thrust on the left wall at the samples; seconds of build and steps.
-struct Found {
+/// A march of the block, and its processor times.
+struct TrenchMarch {
+    /// Motion of the base, rotation and thrust on the left wall at the samples.
     series: [Vec<f64>; 3],
-    seconds: [f64; 2],
+    build_seconds: f64,
+    step_seconds: f64,
 }
 
 fn elements([base, wall]: [usize; 2]) -> basemat::Result<TrenchElements> {
     Trench::new(-1.0..1.0, 1.0)?.elements(base, wall)
 }
 
-fn march(setting: Setting, kernels: &SharedKernels) -> Result<Found, AnyError> {
-    let Setting { elements: counts, step, welded } = setting;
+fn march(setting: TrenchSetting, kernels: &SharedKernels) -> Result<TrenchMarch, AnyError> {
+    let TrenchSetting { elements: counts, step, welded } = setting;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "hundreds")]
-    let [steps, every] = [DURATION / step, SAMPLE / step].map(|count| count.round() as usize);
-    let second = |t: f64| {
+    let steps = (PULSE_DURATION / step).round() as usize;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "hundreds")]
+    let sample_stride = (SAMPLE_INTERVAL / step).round() as usize;
+    // The second derivative of a Ricker pulse.
+    let record = Record::from_fn(0.02, 40.0, |t| {
         let x = 0.6 * (t - 9.0);
         0.36 * (-6.0 + x * x * (24.0 - 8.0 * x * x)) * (-x * x).exp()
-    };
-    let record = Record::from_fn(0.02, 40.0, second)?;
+    })?;
     let begin = ProcessTime::try_now()?;
     let ground = TrenchGround::new(Soil::new(1.0, 1.0 / 3.0, 1.0)?, elements(counts)?)?
         .with_pressure_at_rest(0.5)?
@@ -61,7 +65,7 @@ fn march(setting: Setting, kernels: &SharedKernels) -> Result<Found, AnyError> {
         .structure(WithWalls::new(RigidBlock::new(2.0, 3.0, 1.0)?, 1.0)?)
         .ground(ground)
         .motion(motion)
-        .gravity(PEAK / STRENGTH)
+        .gravity(PEAK_ACCELERATION / PEAK_OVER_GRAVITY)
         .expected_steps(steps);
     let builder = if welded {
         builder.interface(Bonded)
@@ -69,59 +73,61 @@ fn march(setting: Setting, kernels: &SharedKernels) -> Result<Found, AnyError> {
         builder.interfaces(elements(counts)?.interfaces(Coulomb::new(0.5)?, Coulomb::new(0.3)?))
     };
     let mut simulation = builder.build()?;
-    let built = begin.try_elapsed()?.as_secs_f64();
+    let build_seconds = begin.try_elapsed()?.as_secs_f64();
     let begin = ProcessTime::try_now()?;
     let mut series = [const { vec![] }; 3];
     let mut count = 0;
     let run = simulation.run(steps, |state| {
         count += 1;
-        if count % every == 0 {
-            let moved = state.absolute_displacement()[0];
-            let thrust = state.face(Face::LeftWall).thrust;
-            let values = [moved, state.base_rotation, thrust];
-            series.iter_mut().zip(values).for_each(|(own, value)| own.push(value));
+        if count % sample_stride == 0 {
+            series[0].push(state.absolute_displacement()[0]);
+            series[1].push(state.base_rotation);
+            series[2].push(state.face(Face::LeftWall).thrust);
         }
     })?;
     if run.energy_error >= 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
-    Ok(Found { series, seconds: [built, begin.try_elapsed()?.as_secs_f64()] })
+    let step_seconds = begin.try_elapsed()?.as_secs_f64();
+    Ok(TrenchMarch { series, build_seconds, step_seconds })
 }
 
 /// Largest differences relative to the largest changes, %.
-fn errors(found: &Found, wanted: &Found) -> [f64; 3] {
+fn errors(computed: &TrenchMarch, reference: &TrenchMarch) -> [f64; 3] {
     std::array::from_fn(|k| {
-        let [found, wanted] = [&found.series[k], &wanted.series[k]];
-        let rest = wanted.first().copied().unwrap_or(0.0);
-        let largest = wanted.iter().fold(0.0_f64, |most, own| most.max((own - rest).abs()));
-        let apart = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs());
-        100.0 * apart.fold(0.0, f64::max) / largest
+        let computed = &computed.series[k];
+        let reference = &reference.series[k];
+        let at_rest = reference.first().copied().unwrap_or(0.0);
+        let changes = reference.iter().map(|value| (value - at_rest).abs());
+        let differences = computed.iter().zip(reference).map(|(a, b)| (a - b).abs());
+        100.0 * differences.fold(0.0, f64::max) / changes.fold(0.0, f64::max)
     })
 }
 
-/// Lines of the settings, against the last one.
+/// Adds lines of the settings, with errors relative to the last setting.
 fn lines(settings: &[([usize; 2], f64)], text: &mut String) -> Result<(), AnyError> {
     let kernels: Vec<SharedKernels> = settings.iter().map(|_| SharedKernels::default()).collect();
     for welded in [true, false] {
-        let march =
-            |(&(elements, step), kernels)| march(Setting { elements, step, welded }, kernels);
-        let all = settings.iter().zip(&kernels).map(march).collect::<Result<Vec<_>, _>>()?;
-        let Some((last, _)) = all.split_last() else { continue };
-        for (([base, wall], step), found) in settings.iter().zip(&all) {
+        let mut marches = Vec::new();
+        for (&(elements, step), kernels) in settings.iter().zip(&kernels) {
+            marches.push(march(TrenchSetting { elements, step, welded }, kernels)?);
+        }
+        let Some(last) = marches.last() else { continue };
+        for (([base, wall], step), computed) in settings.iter().zip(&marches) {
             let law = if welded { "welded" } else { "contact" };
             write!(text, "| {law} | {} | {step} |", base + 2 * wall)?;
-            let is_last = std::ptr::eq(found, last);
-            for error in errors(found, last) {
+            let is_last = std::ptr::eq(computed, last);
+            for error in errors(computed, last) {
                 if is_last {
                     write!(text, " – |")?;
                 } else {
                     write!(text, " {error:.2} |")?;
                 }
             }
-            // Weights are those of the welded block.
-            let [built, steps] = found.seconds;
-            let built = if welded { format!("{built:.1}") } else { "the same".into() };
-            writeln!(text, " {built} | {:.0} |", 1e3 * steps)?;
+            // The convolution weights of the welded block are used again.
+            let build_seconds =
+                if welded { format!("{:.1}", computed.build_seconds) } else { "the same".into() };
+            writeln!(text, " {build_seconds} | {:.0} |", 1e3 * computed.step_seconds)?;
         }
     }
     Ok(())

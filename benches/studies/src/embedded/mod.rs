@@ -15,7 +15,7 @@ use crate::document::splice;
 
 /// Structures in a trench: accuracy against work, kinematic interaction, pressures on walls.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct EmbeddedOptions {
     /// Few elements, steps and scenes, to see that all works.
     #[arg(long)]
     short: bool,
@@ -31,18 +31,18 @@ pub(crate) struct Options {
 }
 
 /// Function that makes the tables of a part; `true` makes it short.
-type Part = fn(bool) -> Result<String, AnyError>;
+type EmbeddedPart = fn(bool) -> Result<String, AnyError>;
 
 /// Runs the study.
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
-    let parts: [(&str, Part); 3] = [
+pub(crate) fn run(options: &EmbeddedOptions) -> Result<(), AnyError> {
+    let parts: [(&str, EmbeddedPart); 3] = [
         ("accuracy", accuracy::tables),
         ("kinematics", kinematics::tables),
         ("pressures", pressures::tables),
     ];
     std::fs::create_dir_all(&options.out)?;
     for (name, part) in parts {
-        if options.part.as_ref().is_some_and(|wanted| wanted != name) {
+        if options.part.as_ref().is_some_and(|selected| selected != name) {
             continue;
         }
         let text = part(options.short)?;

@@ -18,12 +18,12 @@ pub(crate) struct Stripe {
 
 /// A lognormal curve; a step where the dispersion is zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Curve {
+pub(crate) struct FragilityCurve {
     pub(crate) median: f64,
     pub(crate) dispersion: f64,
 }
 
-impl Curve {
+impl FragilityCurve {
     /// Probability that the limit is exceeded at this level.
     pub(crate) fn probability(&self, level: f64) -> f64 {
         if level == self.median {
@@ -33,12 +33,14 @@ impl Curve {
     }
 }
 
-/// A fitted curve with standard errors of ln θ and β from the Fisher information, which takes all runs
-/// as independent.
+/// A fitted curve with standard errors of ln θ and β.
+///
+/// The Fisher information assumes that all runs are independent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fit {
-    pub(crate) curve: Curve,
-    pub(crate) errors: [f64; 2],
+    pub(crate) curve: FragilityCurve,
+    pub(crate) median_error: f64,
+    pub(crate) dispersion_error: f64,
 }
 
 /// Φ(z).
@@ -48,7 +50,7 @@ pub(crate) fn normal(z: f64) -> f64 {
 
 /// φ(z)/Φ(z).
 fn mills(z: f64) -> f64 {
-    // Far left Φ underflows: the first terms of its asymptotic series.
+    // Φ underflows here: the first terms of its asymptotic series.
     if z < -30.0 {
         return -z - 1.0 / z;
     }
@@ -63,89 +65,130 @@ fn log_normal(z: f64) -> f64 {
     normal(z).ln()
 }
 
-/// The curve of the largest likelihood; none unless runs within the limit reach above runs beyond
-/// it, and none if fewer exceed it at higher levels.
+/// Logarithm of a level from their mean, and the runs there beyond and within the limit.
+struct Point {
+    y: f64,
+    exceeded: f64,
+    within: f64,
+}
+
+/// ln L of the coefficients a and b.
+fn log_likelihood(points: &[Point], [a, b]: [f64; 2]) -> f64 {
+    let term = |count: f64, x: f64| if count > 0.0 { count * log_normal(x) } else { 0.0 };
+    let mut sum = 0.0;
+    for point in points {
+        let x = a + b * point.y;
+        sum += term(point.exceeded, x) + term(point.within, -x);
+    }
+    sum
+}
+
+/// Coefficients a and b of the largest likelihood, by Newton's method.
+fn newton(points: &[Point]) -> [f64; 2] {
+    let mut coefficients = [0.0, 1.0];
+    let mut value = log_likelihood(points, coefficients);
+    for _ in 0..100 {
+        let Derivatives { ga, gb, haa, hab, hbb } = derivatives(points, coefficients);
+        let determinant = haa * hbb - hab * hab;
+        let step = [(hbb * ga - hab * gb) / determinant, (haa * gb - hab * ga) / determinant];
+        // ln L is concave, so that a step that is short enough increases it.
+        let mut fraction = 1.0;
+        loop {
+            let next = [coefficients[0] + fraction * step[0], coefficients[1] + fraction * step[1]];
+            let next_value = log_likelihood(points, next);
+            if next_value >= value || fraction < 1e-10 {
+                coefficients = next;
+                value = next_value;
+                break;
+            }
+            fraction *= 0.5;
+        }
+        let change = fraction * step[0].abs().max(step[1].abs());
+        if change <= 1e-12 * (1.0 + coefficients[0].abs().max(coefficients[1].abs())) {
+            break;
+        }
+    }
+    coefficients
+}
+
+/// The curve of the largest likelihood.
+///
+/// None unless some level within the limit is above a level beyond it, and none if fewer runs exceed it at higher levels.
 pub(crate) fn fit(stripes: &[Stripe]) -> Option<Fit> {
-    let [within, beyond] = ends(stripes);
-    if within <= beyond {
+    if highest_level_within(stripes) <= lowest_level_beyond(stripes) {
         return None;
     }
     // Centred logarithms, so that both coefficients are of order one.
     let runs: f64 = stripes.iter().map(|stripe| stripe.runs).sum();
-    let center = stripes.iter().map(|s| s.runs * s.level.ln()).sum::<f64>() / runs;
-    let points: Vec<_> =
-        stripes.iter().map(|s| (s.level.ln() - center, s.exceeded, s.runs - s.exceeded)).collect();
-    let likelihood = |[a, b]: [f64; 2]| -> f64 {
-        let term = |&(y, z, rest): &(f64, f64, f64)| {
-            let x = a + b * y;
-            let part = |count: f64, x: f64| if count > 0.0 { count * log_normal(x) } else { 0.0 };
-            part(z, x) + part(rest, -x)
-        };
-        points.iter().map(term).sum()
-    };
-    let mut at = [0.0, 1.0];
-    let mut value = likelihood(at);
-    for _ in 0..100 {
-        let ([ga, gb], [haa, hab, hbb]) = derivatives(&points, at);
-        let determinant = haa * hbb - hab * hab;
-        let step = [(hbb * ga - hab * gb) / determinant, (haa * gb - hab * ga) / determinant];
-        // ln L is concave: a step that is short enough rises.
-        let mut share = 1.0;
-        let (next, higher) = loop {
-            let next = [at[0] + share * step[0], at[1] + share * step[1]];
-            let higher = likelihood(next);
-            if higher >= value || share < 1e-10 {
-                break (next, higher);
-            }
-            share *= 0.5;
-        };
-        let moved = share * step[0].abs().max(step[1].abs());
-        (at, value) = (next, higher);
-        if moved <= 1e-12 * (1.0 + at[0].abs().max(at[1].abs())) {
-            break;
-        }
-    }
-    let [a, b] = at;
+    let center = stripes.iter().map(|stripe| stripe.runs * stripe.level.ln()).sum::<f64>() / runs;
+    let points: Vec<Point> = stripes
+        .iter()
+        .map(|stripe| Point {
+            y: stripe.level.ln() - center,
+            exceeded: stripe.exceeded,
+            within: stripe.runs - stripe.exceeded,
+        })
+        .collect();
+    let [a, b] = newton(&points);
     if !(a.is_finite() && b > 0.0) {
         return None;
     }
-    let curve = Curve { median: (center - a / b).exp(), dispersion: 1.0 / b };
+    let curve = FragilityCurve { median: (center - a / b).exp(), dispersion: 1.0 / b };
     // Inverse information, and the delta method for center − a/b and 1/b.
-    let (_, [haa, hab, hbb]) = derivatives(&points, at);
+    let Derivatives { haa, hab, hbb, .. } = derivatives(&points, [a, b]);
     let determinant = haa * hbb - hab * hab;
-    let [vaa, vab, vbb] = [hbb / determinant, -hab / determinant, haa / determinant];
-    let (da, db) = (-1.0 / b, a / (b * b));
-    let median = (da * da * vaa + 2.0 * da * db * vab + db * db * vbb).sqrt();
-    Some(Fit { curve, errors: [median, vbb.sqrt() / (b * b)] })
+    let vaa = hbb / determinant;
+    let vab = -hab / determinant;
+    let vbb = haa / determinant;
+    let da = -1.0 / b;
+    let db = a / (b * b);
+    let median_error = (da * da * vaa + 2.0 * da * db * vab + db * db * vbb).sqrt();
+    Some(Fit { curve, median_error, dispersion_error: vbb.sqrt() / (b * b) })
 }
 
-/// Gradient of ln L, and its negative second derivatives aa, ab, bb.
-fn derivatives(points: &[(f64, f64, f64)], [a, b]: [f64; 2]) -> ([f64; 2], [f64; 3]) {
-    let (mut gradient, mut curvature) = ([0.0; 2], [0.0; 3]);
-    for &(y, z, rest) in points {
+/// Gradient of ln L by a and b, and its negative second derivatives.
+#[derive(Default)]
+struct Derivatives {
+    ga: f64,
+    gb: f64,
+    haa: f64,
+    hab: f64,
+    hbb: f64,
+}
+
+fn derivatives(points: &[Point], [a, b]: [f64; 2]) -> Derivatives {
+    let mut sums = Derivatives::default();
+    for &Point { y, exceeded, within } in points {
         let x = a + b * y;
-        let (up, down) = (mills(x), mills(-x));
-        let slope = z * up - rest * down;
-        let bend = z * up * (up + x) + rest * down * (down - x);
-        gradient = [gradient[0] + slope, gradient[1] + slope * y];
-        curvature = [curvature[0] + bend, curvature[1] + bend * y, curvature[2] + bend * y * y];
+        let up = mills(x);
+        let down = mills(-x);
+        let slope = exceeded * up - within * down;
+        let curvature = exceeded * up * (up + x) + within * down * (down - x);
+        sums.ga += slope;
+        sums.gb += slope * y;
+        sums.haa += curvature;
+        sums.hab += curvature * y;
+        sums.hbb += curvature * y * y;
     }
-    (gradient, curvature)
+    sums
 }
 
-/// Highest level with a run within the limit, lowest with one beyond it.
-fn ends(stripes: &[Stripe]) -> [f64; 2] {
-    let levels = |counts: fn(&Stripe) -> f64| {
-        stripes.iter().filter(move |s| counts(s) > 0.0).map(|s| s.level)
-    };
-    let within = levels(|s| s.runs - s.exceeded).fold(0.0, f64::max);
-    [within, levels(|s| s.exceeded).fold(f64::INFINITY, f64::min)]
+fn highest_level_within(stripes: &[Stripe]) -> f64 {
+    let within = stripes.iter().filter(|stripe| stripe.runs - stripe.exceeded > 0.0);
+    within.map(|stripe| stripe.level).fold(0.0, f64::max)
 }
 
-/// The curve that [`fit`] finds, or the step that the likelihood tends to where one level parts the
-/// runs within the limit from those beyond it; none if fewer exceed it at higher levels.
-pub(crate) fn curve(stripes: &[Stripe]) -> Option<Curve> {
-    let [within, beyond] = ends(stripes);
+fn lowest_level_beyond(stripes: &[Stripe]) -> f64 {
+    let beyond = stripes.iter().filter(|stripe| stripe.exceeded > 0.0);
+    beyond.map(|stripe| stripe.level).fold(f64::INFINITY, f64::min)
+}
+
+/// The curve by [`fit`], or a step where one level separates runs within the limit from runs beyond it.
+///
+/// The likelihood tends to this step. None if fewer runs exceed the limit at higher levels.
+pub(crate) fn curve(stripes: &[Stripe]) -> Option<FragilityCurve> {
+    let within = highest_level_within(stripes);
+    let beyond = lowest_level_beyond(stripes);
     if within > beyond {
         return fit(stripes).map(|fit| fit.curve);
     }
@@ -155,7 +198,7 @@ pub(crate) fn curve(stripes: &[Stripe]) -> Option<Curve> {
     } else {
         (within * beyond).sqrt()
     };
-    Some(Curve { median, dispersion: 0.0 })
+    Some(FragilityCurve { median, dispersion: 0.0 })
 }
 
 /// Whether each record, row by row, exceeds the limit at each level; `None` for a run that failed.
@@ -166,8 +209,8 @@ pub(crate) fn stripes<'a>(
     levels: &[f64],
     records: impl Iterator<Item = &'a Vec<Option<bool>>>,
 ) -> Vec<Stripe> {
-    let empty = |&level: &f64| Stripe { level, runs: 0.0, exceeded: 0.0 };
-    let mut stripes: Vec<_> = levels.iter().map(empty).collect();
+    let mut stripes: Vec<_> =
+        levels.iter().map(|&level| Stripe { level, runs: 0.0, exceeded: 0.0 }).collect();
     for record in records {
         for (stripe, exceeds) in stripes.iter_mut().zip(record) {
             stripe.runs += f64::from(u8::from(exceeds.is_some()));
@@ -184,43 +227,44 @@ pub(crate) fn resampled(
     outcomes: &Outcomes,
     count: usize,
     mut random: impl FnMut() -> u64,
-) -> Vec<Curve> {
-    let mut draw = || {
+) -> Vec<FragilityCurve> {
+    let mut curves = Vec::new();
+    for _ in 0..count {
         let sample = (0..outcomes.len()).map(|_| {
-            let at = random() % (outcomes.len() as u64);
-            &outcomes[usize::try_from(at).unwrap_or(0)]
+            let record = random() % (outcomes.len() as u64);
+            &outcomes[usize::try_from(record).unwrap_or(0)]
         });
-        curve(&stripes(levels, sample))
-    };
-    (0..count).filter_map(|_| draw()).collect()
+        curves.extend(curve(&stripes(levels, sample)));
+    }
+    curves
 }
 
-/// Value below which `share` of the values lie; NaN of none.
-pub(crate) fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+/// Value below which this fraction of the values lies; NaN without values.
+pub(crate) fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
-    let place = share * values.len().saturating_sub(1) as f64;
+    let index = fraction * values.len().saturating_sub(1) as f64;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-    values.get(place.round() as usize).copied().unwrap_or(f64::NAN)
+    values.get(index.round() as usize).copied().unwrap_or(f64::NAN)
 }
 
-/// Share of the bootstrap's curves within a band.
-const BAND: f64 = 0.9;
+/// Fraction of the bootstrap's curves within a band.
+const BAND_FRACTION: f64 = 0.9;
 
 /// The curve of a friction coefficient and a width.
-pub(crate) struct Group {
+pub(crate) struct FragilityGroup {
     pub(crate) friction: f64,
     pub(crate) width: f64,
     pub(crate) stripes: Vec<Stripe>,
     pub(crate) fit: Option<Fit>,
     /// Of the bootstrap.
-    pub(crate) samples: Vec<Curve>,
+    pub(crate) samples: Vec<FragilityCurve>,
 }
 
-impl Group {
-    /// Bounds of the band: quantiles of a number that the curves of the bootstrap have.
-    pub(crate) fn band(&self, of: impl Fn(&Curve) -> f64) -> [f64; 2] {
-        let tail = 0.5 * (1.0 - BAND);
-        let values: Vec<_> = self.samples.iter().map(of).collect();
-        [tail, 1.0 - tail].map(|share| quantile(values.clone(), share))
+impl FragilityGroup {
+    /// Bounds of the band: quantiles of a value of the bootstrap's curves.
+    pub(crate) fn band(&self, value: impl Fn(&FragilityCurve) -> f64) -> [f64; 2] {
+        let tail = 0.5 * (1.0 - BAND_FRACTION);
+        let values: Vec<_> = self.samples.iter().map(value).collect();
+        [tail, 1.0 - tail].map(|fraction| quantile(values.clone(), fraction))
     }
 }

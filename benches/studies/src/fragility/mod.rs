@@ -12,8 +12,8 @@
 //! of the curves of a bootstrap over the motions: the motions at one level are the same as at the next, so that runs
 //! are not independent.
 //!
-//! Cases are rows of one table. Those that fail are rows that say why, and are left out of the counts.
-//! A run that is killed goes on where it was; `docs/guide.md`, Sweeps, spreads it over a cluster.
+//! Cases are rows of one table. The row of a case that fails states the reason; it is not counted.
+//! A run that is stopped continues from its table; `docs/guide.md`, Sweeps, distributes it over a cluster.
 
 mod lognormal;
 pub(crate) mod motions;
@@ -34,18 +34,18 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::AnyError;
 use crate::document::write_csv;
-use lognormal::{Fit, Group, Outcomes};
-use motions::Motion;
+use lognormal::{FragilityGroup, Outcomes};
+use motions::EnsembleMotion;
 
 /// Curves of the bootstrap.
-const SAMPLES: usize = 1000;
+const BOOTSTRAP_SAMPLES: usize = 1000;
 
 /// Fragility of a shear building that may uplift and slide: friction × width × motions × intensities.
 ///
 /// Writes the table of all cases, the fitted curves and a picture. A shard writes its part of the table
 /// only, and goes on where it was if it is started again.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct FragilityOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/fragility")]
     pub(crate) out: PathBuf,
@@ -72,56 +72,56 @@ pub(crate) struct Options {
     pub(crate) table: bool,
 }
 
-/// A share of the cases.
+/// A part of the cases.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shard {
     pub(crate) index: usize,
-    pub(crate) of: usize,
+    pub(crate) count: usize,
 }
 
 impl Shard {
     pub(crate) fn file(self) -> String {
-        format!("shard_{}_of_{}.csv", self.index, self.of)
+        format!("shard_{}_of_{}.csv", self.index, self.count)
     }
 }
 
 fn shard(text: &str) -> Result<Shard, String> {
-    let numbers = text
-        .split_once('/')
-        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
-    numbers.ok_or_else(|| "must be like 3/16".to_owned())
+    let shard = text.split_once('/').and_then(|(index, count)| {
+        Some(Shard { index: index.parse().ok()?, count: count.parse().ok()? })
+    });
+    shard.ok_or_else(|| "must be like 3/16".to_owned())
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &FragilityOptions) -> Result<(), AnyError> {
     threads(options.threads)?;
-    let motions = motions::list(scene::STEP, options.short)?;
-    let (frictions, widths, levels): (&[f64], &[f64], &[f64]) = if options.short {
-        (&[0.2, 0.4], &[8.0], &[0.2, 0.5, 1.0, 1.6])
-    } else {
-        let levels = &[0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0];
-        (&[0.2, 0.3, 0.4], &[6.0, 9.0, 12.0], levels)
-    };
-    let sweep = || {
-        Sweep::grid([
-            Parameter::numbers("friction", frictions.iter().copied()),
-            Parameter::numbers("width_m", widths.iter().copied()),
-            Parameter::texts("motion", motions.iter().map(|(name, _)| name)),
-            Parameter::numbers("peak_velocity_m_per_s", levels.iter().copied()),
-        ])
-    };
+    let motions = motions::list(scene::TIME_STEP, options.short)?;
+    let mut frictions: &[f64] = &[0.2, 0.3, 0.4];
+    let mut widths: &[f64] = &[6.0, 9.0, 12.0];
+    let mut levels: &[f64] = &[0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0];
+    if options.short {
+        frictions = &[0.2, 0.4];
+        widths = &[8.0];
+        levels = &[0.2, 0.5, 1.0, 1.6];
+    }
+    let sweep = Sweep::grid([
+        Parameter::numbers("friction", frictions.iter().copied()),
+        Parameter::numbers("width_m", widths.iter().copied()),
+        Parameter::texts("motion", motions.iter().map(|(name, _)| name)),
+        Parameter::numbers("peak_velocity_m_per_s", levels.iter().copied()),
+    ])?;
     std::fs::create_dir_all(&options.out)?;
     if let Some(shard) = options.shard {
         let path = options.out.join(shard.file());
-        compute(sweep()?.shard(shard.index, shard.of)?, &path, &motions)?;
+        compute(sweep.shard(shard.index, shard.count)?, &path, &motions)?;
         return Ok(());
     }
     let cases = options.out.join("cases.csv");
     let table = if options.merge {
-        let table = sweep()?.merge(shards(&options.out)?)?;
+        let table = sweep.merge(shards(&options.out)?)?;
         table.csv().save(&cases)?;
         table
     } else {
-        compute(sweep()?, &cases, &motions)?
+        compute(sweep, &cases, &motions)?
     };
     if options.table {
         println!("{table}\n");
@@ -153,23 +153,33 @@ fn threads(count: Option<usize>) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// Runs the cases that the file does not have yet, and tells what they cost.
-fn compute(sweep: Sweep<'_>, path: &Path, motions: &[Motion]) -> Result<CaseTable, AnyError> {
+/// Runs the cases that the file does not have yet, and prints their times.
+fn compute(
+    sweep: Sweep<'_>,
+    path: &Path,
+    motions: &[EnsembleMotion],
+) -> Result<CaseTable, AnyError> {
     let bar = ProgressBar::new(sweep.cases().len() as u64);
     bar.set_style(ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left")?);
-    let (begin, before) = (Instant::now(), ProcessTime::try_now()?);
-    let (kernels, runs) = (SharedKernels::default(), AtomicUsize::new(0));
-    let table = sweep.on_progress(|_, _| bar.inc(1)).table_in(path, scene::COLUMNS, |case| {
-        runs.fetch_add(1, Ordering::Relaxed);
-        let (friction, width) = (case.value("friction")?, case.value("width_m")?);
-        let motion = &motions[case.place("motion")?].1;
-        scene::shake(friction, width, motion, case.value("peak_velocity_m_per_s")?, &kernels)
-    })?;
+    let begin = Instant::now();
+    let before = ProcessTime::try_now()?;
+    let kernels = SharedKernels::default();
+    let runs = AtomicUsize::new(0);
+    let table =
+        sweep.on_progress(|_, _| bar.inc(1)).table_in(path, scene::RESULT_COLUMNS, |case| {
+            runs.fetch_add(1, Ordering::Relaxed);
+            let friction = case.value("friction")?;
+            let width = case.value("width_m")?;
+            let motion = &motions[case.place("motion")?].1;
+            scene::shake(friction, width, motion, case.value("peak_velocity_m_per_s")?, &kernels)
+        })?;
     bar.finish_and_clear();
-    let (wall, processors) = (begin.elapsed(), before.try_elapsed()?);
-    let (runs, failed) = (runs.into_inner(), failures(&table));
-    let there = table.rows().len() - runs;
-    println!("{}: {runs} cases run, {there} already there, {failed} failed", path.display());
+    let wall = begin.elapsed();
+    let processors = before.try_elapsed()?;
+    let runs = runs.into_inner();
+    let failed = failures(&table);
+    let existing = table.rows().len() - runs;
+    println!("{}: {runs} cases run, {existing} already there, {failed} failed", path.display());
     if runs > 0 {
         let thousands = 1e-3 * runs as f64;
         println!(
@@ -208,26 +218,27 @@ fn group(
     width: f64,
     levels: &[f64],
     motions: usize,
-    options: &Options,
-) -> Result<Group, AnyError> {
+    options: &FragilityOptions,
+) -> Result<FragilityGroup, AnyError> {
     let mut outcomes: Outcomes = vec![vec![None; levels.len()]; motions];
     for row in table.rows() {
         if row.value("friction")? == friction && row.value("width_m")? == width {
-            let place = [row.place("motion")?, row.place("peak_velocity_m_per_s")?];
+            let motion = row.place("motion")?;
+            let level = row.place("peak_velocity_m_per_s")?;
             if row.results.is_ok() {
                 let demand = row.value(&options.demand)?;
-                outcomes[place[0]][place[1]] = (!demand.is_nan()).then_some(demand > options.limit);
+                outcomes[motion][level] = (!demand.is_nan()).then_some(demand > options.limit);
             }
         }
     }
     let stripes = lognormal::stripes(levels, outcomes.iter());
     // The same samples in every run.
     let mut random = Random(1);
-    let samples = lognormal::resampled(levels, &outcomes, SAMPLES, || random.bits());
-    Ok(Group { friction, width, fit: lognormal::fit(&stripes), stripes, samples })
+    let samples = lognormal::resampled(levels, &outcomes, BOOTSTRAP_SAMPLES, || random.bits());
+    Ok(FragilityGroup { friction, width, fit: lognormal::fit(&stripes), stripes, samples })
 }
 
-fn report(groups: &[Group], options: &Options) {
+fn report(groups: &[FragilityGroup], options: &FragilityOptions) {
     println!(
         "\nPeak ground velocity at which {} exceeds {}, m/s: median and dispersion of the lognormal\n\
          curve, 90 % of a bootstrap over the motions, standard errors if all runs were independent\n",
@@ -243,15 +254,19 @@ fn report(groups: &[Group], options: &Options) {
                 let beyond: f64 = group.stripes.iter().map(|stripe| stripe.exceeded).sum();
                 println!(" no curve: {beyond} beyond the limit | | | | |");
             }
-            Some(Fit { curve, errors }) => {
-                let [low, high] = group.band(|curve| curve.median);
-                let [least, most] = group.band(|curve| curve.dispersion);
+            Some(fit) => {
+                let median = group.band(|curve| curve.median);
+                let dispersion = group.band(|curve| curve.dispersion);
                 println!(
-                    " {:.3} | {low:.3} to {high:.3} | {:.2} | {least:.2} to {most:.2} | {:.3}, {:.2} |",
-                    curve.median,
-                    curve.dispersion,
-                    curve.median * errors[0],
-                    errors[1]
+                    " {:.3} | {:.3} to {:.3} | {:.2} | {:.2} to {:.2} | {:.3}, {:.2} |",
+                    fit.curve.median,
+                    median[0],
+                    median[1],
+                    fit.curve.dispersion,
+                    dispersion[0],
+                    dispersion[1],
+                    fit.curve.median * fit.median_error,
+                    fit.dispersion_error
                 );
             }
         }
@@ -259,16 +274,24 @@ fn report(groups: &[Group], options: &Options) {
     println!();
 }
 
-/// The fits as CSV.
-fn write(path: &Path, groups: &[Group]) -> Result<(), AnyError> {
-    let row = |group: &Group| {
-        let fit = group.fit.map(|fit| [fit.curve.median, fit.curve.dispersion]);
-        let [median, dispersion] = fit.unwrap_or([f64::NAN; 2]);
-        let [low, high] = group.band(|curve| curve.median);
-        let [least, most] = group.band(|curve| curve.dispersion);
-        [group.friction, group.width, median, low, high, dispersion, least, most]
-            .map(|value| value.to_string())
-    };
+/// Writes the fits as CSV.
+fn write(path: &Path, groups: &[FragilityGroup]) -> Result<(), AnyError> {
+    let mut rows = Vec::new();
+    for group in groups {
+        let medians = group.band(|curve| curve.median);
+        let dispersions = group.band(|curve| curve.dispersion);
+        let values = [
+            group.friction,
+            group.width,
+            group.fit.map_or(f64::NAN, |fit| fit.curve.median),
+            medians[0],
+            medians[1],
+            group.fit.map_or(f64::NAN, |fit| fit.curve.dispersion),
+            dispersions[0],
+            dispersions[1],
+        ];
+        rows.push(values.map(|value| value.to_string()));
+    }
     let columns = [
         "friction",
         "width_m",
@@ -279,5 +302,5 @@ fn write(path: &Path, groups: &[Group]) -> Result<(), AnyError> {
         "dispersion_low",
         "dispersion_high",
     ];
-    write_csv(path, columns, groups.iter().map(row))
+    write_csv(path, columns, rows)
 }

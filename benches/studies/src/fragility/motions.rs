@@ -1,4 +1,4 @@
-//! The ensemble: El Centro, as it is and with other lengths, and near-fault pulses.
+//! The ensemble: El Centro with several durations, and near-fault pulses.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,24 +28,26 @@ impl Pulse {
     /// Velocity at `time` for A = 1 m/s.
     #[cfg_attr(not(test), allow(dead_code, reason = "tests differentiate it"))]
     pub(crate) fn velocity(&self, time: f64) -> f64 {
-        let (slow, fast) = self.angles(time);
+        let angle = self.angle(time);
+        let slow = angle / self.oscillations;
+        let fast = angle + self.phase.to_radians();
         0.5 * (1.0 + slow.cos()) * fast.cos()
     }
 
     /// Its derivative, m/s².
     pub(crate) fn acceleration(&self, time: f64) -> f64 {
-        let (slow, fast) = self.angles(time);
-        let share = slow.sin() * fast.cos() / self.oscillations;
-        -PI / self.period * (share + (1.0 + slow.cos()) * fast.sin())
+        let angle = self.angle(time);
+        let slow = angle / self.oscillations;
+        let fast = angle + self.phase.to_radians();
+        let envelope_term = slow.sin() * fast.cos() / self.oscillations;
+        -PI / self.period * (envelope_term + (1.0 + slow.cos()) * fast.sin())
     }
 
-    /// Angles of the envelope and of the oscillation.
-    fn angles(&self, time: f64) -> (f64, f64) {
+    /// 2πf(t − t₀), constant outside the pulse, which ends at rest.
+    fn angle(&self, time: f64) -> f64 {
         let angle = TAU * (time - 0.5 * self.duration()) / self.period;
-        // The pulse ends at rest: nothing outside.
         let end = PI * self.oscillations;
-        let angle = angle.clamp(-end, end);
-        (angle / self.oscillations, angle + self.phase.to_radians())
+        angle.clamp(-end, end)
     }
 
     fn record(&self, step: f64) -> Result<Record> {
@@ -55,17 +57,17 @@ impl Pulse {
 }
 
 /// A motion with the name of its cases.
-pub(crate) type Motion = (String, Record);
+pub(crate) type EnsembleMotion = (String, Record);
 
 /// The motions, sampled every `step` (s); fewer if `short`.
-pub(crate) fn list(step: f64, short: bool) -> Result<Vec<Motion>> {
+pub(crate) fn list(step: f64, short: bool) -> Result<Vec<EnsembleMotion>> {
     let record = el_centro_1940();
-    let lengths: &[f64] = if short { &[1.0] } else { &[0.7, 1.0, 1.4] };
+    let factors: &[f64] = if short { &[1.0] } else { &[0.7, 1.0, 1.4] };
     let mut motions = Vec::new();
-    for &factor in lengths {
-        let own = Record::new(factor * record.time_step(), record.accelerations().to_vec())?;
+    for &factor in factors {
+        let stretched = Record::new(factor * record.time_step(), record.accelerations().to_vec())?;
         let name = if factor == 1.0 { String::new() } else { format!(", {factor} × as long") };
-        motions.push((format!("El Centro 1940{name}"), own));
+        motions.push((format!("El Centro 1940{name}"), stretched));
     }
     let periods: &[f64] = if short { &[0.6, 1.6] } else { &[0.4, 0.6, 1.0, 1.6, 2.5] };
     let shapes: &[(f64, f64)] =

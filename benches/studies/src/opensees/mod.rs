@@ -1,5 +1,6 @@
-//! The crate's half of a comparison with OpenSees: a rigid block on soil under a vertically
-//! incident SV pulse, bonded, or with its weight, uplift and friction.
+//! The crate's half of a comparison with OpenSees.
+//!
+//! The scene is a rigid block on soil under a vertically incident SV pulse, bonded, or with weight, uplift and friction.
 //!
 //! ```text
 //! cargo study opensees --elements 16 --step 0.002            # bonded
@@ -22,7 +23,7 @@ use crate::document::peak_memory;
 
 /// A rigid block on soil under an SV pulse: the crate's half of a comparison with OpenSees.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct OpenseesOptions {
     /// Elements of the base, graded towards its edges.
     #[arg(long)]
     elements: usize,
@@ -34,10 +35,31 @@ pub(crate) struct Options {
     friction: bool,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+/// Writes the row of a state.
+fn write_row(out: &mut dyn Write, state: &State) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
+        state.time,
+        state.probes[0],
+        state.probes[1],
+        state.base_rotation,
+        state.probes[2],
+        state.mean_slip,
+        gap(state.contact.first()),
+        gap(state.contact.last()),
+    )
+}
+
+fn gap(element: Option<&ContactState>) -> f64 {
+    element.map_or(0.0, |element| element.gap)
+}
+
+pub(crate) fn run(options: &OpenseesOptions) -> Result<(), AnyError> {
     let scene: Value = serde_json::from_str(include_str!("scene.json"))?;
     let number = |name: &str| scene[name].as_f64().ok_or(format!("scene.json: no number {name}"));
-    let (height, width) = (number("height")?, number("width")?);
+    let height = number("height")?;
+    let width = number("width")?;
     let soil = Soil::from_shear_wave_speed(
         number("shear_wave_speed")?,
         number("poisson")?,
@@ -69,25 +91,12 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     // The acceleration of a step is its mean: it belongs to the middle of the step.
     writeln!(out, "time,roof,acceleration,rotation,vertical,slip,left_gap,right_gap")?;
-    let write = |out: &mut dyn Write, state: &State| {
-        let gap = |contact: Option<&ContactState>| contact.map_or(0.0, |contact| contact.gap);
-        writeln!(
-            out,
-            "{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
-            state.time,
-            state.probes[0],
-            state.probes[1],
-            state.base_rotation,
-            state.probes[2],
-            state.mean_slip,
-            gap(state.contact.first()),
-            gap(state.contact.last()),
-        )
-    };
-    write(&mut out, simulation.state())?;
+    write_row(&mut out, simulation.state())?;
     let steps = simulation.steps_for(number("duration")?);
-    let told = |error: std::io::Error| basemat::Error::part("output", error.to_string());
-    simulation.run(steps, |state| write(&mut out, state).map_err(told))?;
+    simulation.run(steps, |state| {
+        write_row(&mut out, state)
+            .map_err(|error| basemat::Error::part("output", error.to_string()))
+    })?;
     out.flush()?;
     // The system's own figure for a child would include the memory of the program that started it.
     if let Some(megabytes) = peak_memory() {

@@ -1,6 +1,6 @@
 //! Evidence for and against readings: geometries.
 
-use super::options::{Law, Reading, Scheme};
+use super::options::{InterfaceReading, PaperReading, SchemeReading};
 use super::run::root_mean_square;
 use basemat_problems::containment::PAPER_SHEARS;
 
@@ -13,129 +13,141 @@ struct Sizes {
 impl Sizes {
     /// 14 widths by 17 heights, or 3 by 3.
     fn new(short: bool) -> Self {
-        let spread = |first: f64, last: f64, count: usize| {
-            (0..count).map(|k| first + (last - first) * k as f64 / (count - 1) as f64).collect()
-        };
-        let [widths, heights] = if short { [3, 3] } else { [14, 17] };
-        Self { widths: spread(15.0, 120.0, widths), heights: spread(20.0, 200.0, heights) }
+        Self {
+            widths: evenly_spaced(15.0, 120.0, if short { 3 } else { 14 }),
+            heights: evenly_spaced(20.0, 200.0, if short { 3 } else { 17 }),
+        }
     }
 
     fn pairs(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.widths.iter().flat_map(|w| self.heights.iter().map(|h| [*w, *h]))
+        self.widths.iter().flat_map(|width| self.heights.iter().map(|height| [*width, *height]))
     }
 }
 
-/// Hard contact and the midpoint rule: a table of peaks for the crate's own scheme.
-fn own(reading: &Reading) -> Reading {
-    Reading { law: Law::Hard, scheme: Scheme::Midpoint, ..reading.clone() }
+fn evenly_spaced(first: f64, last: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| first + (last - first) * k as f64 / (count - 1) as f64).collect()
 }
 
-/// Least ratio of the row at 0.4 over the uplift-only row, friction as printed, over geometries,
-/// then over soil densities.
-pub(crate) fn print_geometries(reading: &Reading, short: bool) {
-    let ratio = |reading: &Reading| {
-        let [uplift, sliding] = [1, 2].map(|row| reading.run(row).map(|r| r.shear[0]));
-        Some(sliding.ok()? / uplift.ok()?)
-    };
+/// The reading with hard contact and the midpoint rule, the crate's scheme.
+fn with_crate_scheme(reading: &PaperReading) -> PaperReading {
+    PaperReading { law: InterfaceReading::Hard, scheme: SchemeReading::Midpoint, ..reading.clone() }
+}
+
+/// Peak shear with friction 0.4, as printed, over the peak with uplift only.
+fn sliding_ratio(reading: &PaperReading) -> Option<f64> {
+    let uplift = reading.run(1).ok()?.shear[0];
+    let sliding = reading.run(2).ok()?.shear[0];
+    Some(sliding / uplift)
+}
+
+/// Prints the smallest sliding ratio over geometries, then over soil densities.
+pub(crate) fn print_geometries(reading: &PaperReading, short: bool) {
     let sizes = Sizes::new(short);
-    let (mut least, mut tried, mut failed) = ([f64::INFINITY, 0.0, 0.0], 0, 0);
+    let mut smallest = [f64::INFINITY, 0.0, 0.0];
+    let mut tried = 0;
+    let mut failed = 0;
     for [width, height] in sizes.pairs() {
         tried += 1;
-        match ratio(&Reading { width, height, ..own(reading) }) {
-            Some(found) if found < least[0] => least = [found, width, height],
+        match sliding_ratio(&PaperReading { width, height, ..with_crate_scheme(reading) }) {
+            Some(ratio) if ratio < smallest[0] => smallest = [ratio, width, height],
             Some(_) => {}
             None => failed += 1,
         }
     }
     println!(
         "\nfriction 0.4 over uplift only, {tried} geometries ({failed} do not stand or end early): \
-         never below {:.2} (at {:.0} x {:.0} ft); Table 1 has {:.2}",
-        least[0],
-        least[1],
-        least[2],
+         never below {:.2} (at {:.0} x {:.0} ft); ReadingsTable 1 has {:.2}",
+        smallest[0],
+        smallest[1],
+        smallest[2],
         PAPER_SHEARS[2] / PAPER_SHEARS[1]
     );
     let densities: &[f64] = if short { &[2.8, 4.2] } else { &[2.0, 2.8, 3.5, 4.2, 5.0] };
     let sizes = Sizes { widths: vec![20.0, 34.0, 60.0, 100.0], heights: vec![40.0, 80.0, 120.0] };
     let sizes = if short { Sizes { widths: vec![34.0], heights: vec![80.0] } } else { sizes };
-    let mut least = [f64::INFINITY, 0.0, 0.0, 0.0];
+    let mut smallest = [f64::INFINITY, 0.0, 0.0, 0.0];
     for &soil_density in densities {
         for [width, height] in sizes.pairs() {
-            let reading = Reading { width, height, soil_density, ..own(reading) };
-            if let Some(found) = ratio(&reading).filter(|found| *found < least[0]) {
-                least = [found, soil_density, width, height];
+            let reading =
+                PaperReading { width, height, soil_density, ..with_crate_scheme(reading) };
+            if let Some(ratio) = sliding_ratio(&reading).filter(|ratio| *ratio < smallest[0]) {
+                smallest = [ratio, soil_density, width, height];
             }
         }
     }
     println!(
         "the same over soil densities: never below {:.2} (at {} slug/ft³, {:.0} x {:.0} ft)",
-        least[0], least[1], least[2], least[3]
+        smallest[0], smallest[1], smallest[2], smallest[3]
     );
 }
 
 /// Root mean square of the log ratios of some rows to the paper's.
-fn misfit(reading: &Reading, rows: &[usize]) -> f64 {
+fn misfit(reading: &PaperReading, rows: &[usize]) -> f64 {
     let logarithms: Result<Vec<f64>, _> = rows
         .iter()
-        .map(|&row| reading.run(row).map(|found| (found.shear[0] / PAPER_SHEARS[row]).ln()))
+        .map(|&row| reading.run(row).map(|results| (results.shear[0] / PAPER_SHEARS[row]).ln()))
         .collect();
     logarithms.map_or(f64::INFINITY, |logarithms| root_mean_square(&logarithms))
 }
 
-/// Width and height of least `misfit` near `start`, by smaller and smaller steps; with `short`
-/// one step.
-fn refine(
-    misfit: &impl Fn([f64; 2]) -> f64,
-    start: ([f64; 2], f64),
-    short: bool,
-) -> ([f64; 2], f64) {
+/// Width and height (ft), and the misfit there.
+#[derive(Clone, Copy)]
+struct Geometry {
+    sizes: [f64; 2],
+    misfit: f64,
+}
+
+/// Geometry of the smallest `misfit` near `start`, by smaller and smaller steps; with `short` one step.
+fn refine(misfit: &impl Fn([f64; 2]) -> f64, start: Geometry, short: bool) -> Geometry {
     let mut best = start;
     let mut step = 0.16;
     for _ in 0..if short { 1 } else { usize::MAX } {
         if step <= 0.008 {
             break;
         }
-        let before = best.1;
+        let before = best.misfit;
         for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            let mut trial = best.0;
-            trial[axis] *= 1.0 + sign * step;
-            let found = misfit(trial);
-            if found < best.1 {
-                best = (trial, found);
+            let mut sizes = best.sizes;
+            sizes[axis] *= 1.0 + sign * step;
+            let trial = Geometry { sizes, misfit: misfit(sizes) };
+            if trial.misfit < best.misfit {
+                best = trial;
             }
         }
-        if best.1 == before {
+        if best.misfit == before {
             step *= 0.5;
         }
     }
     best
 }
 
-/// Geometries that meet the bonded and the uplift-only row, by searches from several heights, and how
-/// far the sliding rows are from Table 1 there.
-pub(crate) fn print_calibration(reading: &Reading, short: bool) {
-    let own = own(reading);
-    let at = |[width, height]: [f64; 2], rows: &[usize]| {
-        misfit(&Reading { width, height, ..own.clone() }, rows)
+/// Prints geometries that fit the bonded and the uplift-only row, and the misfit of the sliding rows there.
+///
+/// They are found by searches from several heights.
+pub(crate) fn print_calibration(reading: &PaperReading, short: bool) {
+    let reading = with_crate_scheme(reading);
+    let misfit_of = |[width, height]: [f64; 2], rows: &[usize]| {
+        misfit(&PaperReading { width, height, ..reading.clone() }, rows)
     };
-    let first = |place: [f64; 2]| at(place, &[0, 1]);
-    println!("\ngeometries that meet the bonded and the uplift-only row of Table 1 best:");
+    let first_rows = |sizes: [f64; 2]| misfit_of(sizes, &[0, 1]);
+    println!("\ngeometries that meet the bonded and the uplift-only row of ReadingsTable 1 best:");
     let heights: &[f64] = if short { &[80.0] } else { &[50.0, 80.0, 110.0, 140.0, 170.0, 200.0] };
     for &height in heights {
-        let start = [34.0, height];
-        let (place, found) = refine(&first, (start, first(start)), short);
+        let sizes = [34.0, height];
+        let start = Geometry { sizes, misfit: first_rows(sizes) };
+        let Geometry { sizes, misfit } = refine(&first_rows, start, short);
         println!(
-            "from {height:.0} ft: {:.1} x {:.1} ft, rms of log ratios {found:.3}; sliding rows {:.2}",
-            place[0],
-            place[1],
-            at(place, &[2, 3, 4])
+            "from {height:.0} ft: {:.1} x {:.1} ft, rms of log ratios {misfit:.3}; sliding rows {:.2}",
+            sizes[0],
+            sizes[1],
+            misfit_of(sizes, &[2, 3, 4])
         );
     }
 }
 
-/// Searches width and height that fit Table 1 best: a coarse grid, then smaller and smaller steps.
-pub(crate) fn print_search(reading: &Reading, short: bool) {
-    let own = own(reading);
+/// Prints width and height that fit Table 1 best, by a coarse grid, then smaller and smaller steps.
+pub(crate) fn print_search(reading: &PaperReading, short: bool) {
+    let reading = with_crate_scheme(reading);
     println!();
     let count = if short { 2 } else { 7 };
     let sizes = Sizes {
@@ -144,23 +156,23 @@ pub(crate) fn print_search(reading: &Reading, short: bool) {
     };
     for length_left_out in [false, true] {
         for rows in [&[0, 1, 2, 3, 4][..], &[2, 3, 4]] {
-            let at = |[width, height]: [f64; 2]| {
-                misfit(&Reading { length_left_out, width, height, ..own.clone() }, rows)
+            let misfit_of = |[width, height]: [f64; 2]| {
+                misfit(&PaperReading { length_left_out, width, height, ..reading.clone() }, rows)
             };
-            let best = sizes
+            let coarse = sizes
                 .pairs()
-                .map(|place| (place, at(place)))
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-                .unwrap_or(([f64::NAN; 2], f64::INFINITY));
-            let best = refine(&at, best, short);
+                .map(|sizes| Geometry { sizes, misfit: misfit_of(sizes) })
+                .min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+                .unwrap_or(Geometry { sizes: [f64::NAN; 2], misfit: f64::INFINITY });
+            let best = refine(&misfit_of, coarse, short);
             println!(
-                "best geometry for {} of Table 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
+                "best geometry for {} of ReadingsTable 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
                  {:.3}",
                 if rows.len() == 5 { "all rows" } else { "the sliding rows" },
                 if length_left_out { "without the element's length" } else { "as printed" },
-                best.0[0],
-                best.0[1],
-                best.1
+                best.sizes[0],
+                best.sizes[1],
+                best.misfit
             );
         }
     }

@@ -3,7 +3,7 @@
 use basemat::motion::Record;
 use basemat::structure::{Base, FemModel, Structure, Triplets};
 
-/// A model on which the free field also acts through the structure's own stiffness.
+/// A model on which the free field also acts through the stiffness of the structure.
 pub(crate) struct PrintedForcing {
     model: FemModel,
     record: Record,
@@ -17,13 +17,13 @@ impl PrintedForcing {
         model.stiffness(&mut stiffness)?;
         let mut contact = vec![0.0; model.dofs()];
         for node in model.base().nodes() {
-            for &(unknown, weight) in &node.horizontal {
-                contact[unknown] += weight;
+            for &(dof, weight) in &node.horizontal {
+                contact[dof] += weight;
             }
         }
         let mut column = vec![0.0; model.dofs()];
-        for &(row, unknown, value) in stiffness.entries() {
-            column[row] += value * contact[unknown];
+        for &(row, dof, value) in stiffness.entries() {
+            column[row] += value * contact[dof];
         }
         Ok(Self { model, record, column })
     }
@@ -51,8 +51,8 @@ impl Structure for PrintedForcing {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        let moved = self.record.at(time).displacement;
-        load.iter_mut().zip(&self.column).for_each(|(load, column)| *load += column * moved);
+        let free_field = self.record.at(time).displacement;
+        load.iter_mut().zip(&self.column).for_each(|(load, column)| *load += column * free_field);
         Ok(())
     }
 }

@@ -6,10 +6,10 @@ use basemat::interface::{
     PreviousContact, SlipSense, ThinLayer, Tolerance,
 };
 
-use super::options::{Law, Limit, Reading, Sense};
+use super::options::{InterfaceReading, LimitReading, PaperReading, SlipSenseReading};
 use basemat_problems::containment::Glue;
 
-impl Reading {
+impl PaperReading {
     /// The law of an element under a base with that mean pressure.
     pub(crate) fn law(
         &self,
@@ -17,26 +17,26 @@ impl Reading {
         soil: &Soil,
         mean_pressure: f64,
     ) -> basemat::Result<Box<dyn InterfaceLaw>> {
-        if self.law == Law::Hard {
-            let still = Coulomb::new(friction)?;
+        if self.law == InterfaceReading::Hard {
+            let static_friction = Coulomb::new(friction)?;
             if self.kinetic != 1.0 && friction.is_finite() {
-                return Ok(Box::new(InPlane(Kinetic {
-                    still,
-                    moving: Coulomb::new(self.kinetic * friction)?,
+                return Ok(Box::new(InPlane(KineticFriction {
+                    static_friction,
+                    kinetic_friction: Coulomb::new(self.kinetic * friction)?,
                 })));
             }
-            return Ok(Box::new(still));
+            return Ok(Box::new(static_friction));
         }
         let limit = match self.limit {
-            Limit::Total => FrictionLimit::Total,
-            Limit::Lagged | Limit::Compression => FrictionLimit::Lagged,
-            Limit::Static | Limit::Weight => FrictionLimit::Static,
-            Limit::Dynamic => FrictionLimit::Dynamic,
+            LimitReading::Total => FrictionLimit::Total,
+            LimitReading::Lagged | LimitReading::Compression => FrictionLimit::Lagged,
+            LimitReading::Static | LimitReading::Weight => FrictionLimit::Static,
+            LimitReading::Dynamic => FrictionLimit::Dynamic,
         };
         let sense = match self.sense {
-            Sense::Inelastic => SlipSense::Inelastic,
-            Sense::Velocity => SlipSense::Velocity,
-            Sense::LastVelocity => SlipSense::LastVelocity,
+            SlipSenseReading::Inelastic => SlipSense::Inelastic,
+            SlipSenseReading::Velocity => SlipSense::Velocity,
+            SlipSenseReading::LastVelocity => SlipSense::LastVelocity,
         };
         let layer = ThinLayer::new(*soil, self.neighbour_height(), friction)?
             .with_thickness_ratio(self.ratio)?
@@ -44,7 +44,7 @@ impl Reading {
             .with_friction_limit(limit)
             .with_slip_sense(sense)
             .with_slip_stiffness_ratio(self.slip_shear)?;
-        Ok(Box::new(InPlane(Read {
+        Ok(Box::new(InPlane(ReadLayer {
             layer,
             limit: self.limit,
             slip_normal: self.slip_normal,
@@ -54,29 +54,29 @@ impl Reading {
         })))
     }
 
-    /// A layer that never lets go.
+    /// A layer that stays bonded.
     pub(crate) fn glue(&self, soil: &Soil) -> basemat::Result<Box<dyn InterfaceLaw>> {
         let layer = ThinLayer::new(*soil, self.neighbour_height(), f64::INFINITY)?;
         Ok(Box::new(InPlane(Glue(layer.with_thickness_ratio(self.ratio)?))))
     }
 }
 
-/// Hard contact with another friction in slip than that which slip must overcome.
-struct Kinetic {
-    still: Coulomb,
-    moving: Coulomb,
+/// Hard contact with different coefficients of static and of kinetic friction.
+struct KineticFriction {
+    static_friction: Coulomb,
+    kinetic_friction: Coulomb,
 }
 
-impl PlaneLaw for Kinetic {
+impl PlaneLaw for KineticFriction {
     fn modes(&self) -> &[Mode] {
-        self.still.modes()
+        self.static_friction.modes()
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         if mode.is_slip() {
-            return self.moving.conditions(mode, start);
+            return self.kinetic_friction.conditions(mode, start);
         }
-        self.still.conditions(mode, start)
+        self.static_friction.conditions(mode, start)
     }
 
     fn next_mode(
@@ -86,31 +86,33 @@ impl PlaneLaw for Kinetic {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        // Once an element slides, the friction of slip acts.
-        let law = if start.mode.is_slip() && !mode.is_slip() { &self.moving } else { &self.still };
+        // While an element slides, kinetic friction acts.
+        let slides = start.mode.is_slip() && !mode.is_slip();
+        let law = if slides { &self.kinetic_friction } else { &self.static_friction };
         law.next_mode(mode, start, trial, tolerance)
     }
 }
 
-/// A thin layer with what the library's does not offer.
-struct Read {
+/// A thin layer with options that the library's layer does not have.
+struct ReadLayer {
     layer: ThinLayer,
-    limit: Limit,
+    limit: LimitReading,
     slip_normal: f64,
     mean_pressure: f64,
     static_share: f64,
     lag_modes: bool,
 }
 
-impl Read {
-    fn seen<'a>(&self, start: &PreviousContact<'a>) -> PreviousContact<'a> {
+impl ReadLayer {
+    /// The start of the step with the pressure that limits friction.
+    fn limiting_start<'a>(&self, start: &PreviousContact<'a>) -> PreviousContact<'a> {
         let mut start = *start;
         match self.limit {
-            Limit::Compression => start.state.pressure -= start.static_pressure,
-            Limit::Lagged => {
+            LimitReading::Compression => start.state.pressure -= start.static_pressure,
+            LimitReading::Lagged => {
                 start.state.pressure -= (1.0 - self.static_share) * start.static_pressure;
             }
-            Limit::Weight => start.static_pressure = self.mean_pressure,
+            LimitReading::Weight => start.static_pressure = self.mean_pressure,
             _ => {}
         }
         start
@@ -118,21 +120,21 @@ impl Read {
 
     /// The mode that follows from the end of the step before.
     fn lagged_mode(&self, start: &PreviousContact) -> Mode {
-        let mut before = self.seen(start);
+        let mut before = self.limiting_start(start);
         before.state.slip -= start.slip_rate * start.time_step;
         let tolerance = Tolerance::new(1e-12, 1e-6);
         self.layer.next_mode(start.mode, &before, &start.state, tolerance)
     }
 }
 
-impl PlaneLaw for Read {
+impl PlaneLaw for ReadLayer {
     fn modes(&self) -> &[Mode] {
         self.layer.modes()
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let mode = if self.lag_modes { self.lagged_mode(start) } else { mode };
-        let mut conditions = self.layer.conditions(mode, &self.seen(start));
+        let mut conditions = self.layer.conditions(mode, &self.limiting_start(start));
         if mode.is_slip() {
             conditions[0].gap *= self.slip_normal;
         }
@@ -149,12 +151,15 @@ impl PlaneLaw for Read {
         if self.lag_modes {
             return self.lagged_mode(start);
         }
-        self.layer.next_mode(mode, &self.seen(start), trial, tolerance)
+        self.layer.next_mode(mode, &self.limiting_start(start), trial, tolerance)
     }
 
     fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
-        let [normal, shear] = self.layer.compliance(mode, start);
-        [if mode.is_slip() { normal / self.slip_normal } else { normal }, shear]
+        let mut compliance = self.layer.compliance(mode, start);
+        if mode.is_slip() {
+            compliance[0] /= self.slip_normal;
+        }
+        compliance
     }
 
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {

@@ -1,8 +1,7 @@
-//! Readings of the paper by Patel & Spyrakos, one at a time: which of them gives its peak base
-//! shears, and what speaks for and against?
+//! Readings of the paper by Patel & Spyrakos, compared with its peak base shears.
 //!
 //! ```text
-//! cargo study paper-readings                     # those of docs/paper.md
+//! cargo study paper-readings                     # the readings of docs/paper.md
 //! cargo study paper-readings --all            # all, then geometries: minutes
 //! cargo study paper-readings --limit lagged   # one
 //! ```
@@ -23,11 +22,11 @@ use clap::Parser;
 
 use crate::AnyError;
 
-use options::Reading;
-use table::Table;
+use options::PaperReading;
+use table::ReadingsTable;
 
 /// The readings of docs/paper.md, as command lines.
-const READINGS: &[&str] = &[
+const PAPER_READINGS: &[&str] = &[
     "",
     "--law hard --scheme midpoint",
     "--debonded 0",
@@ -45,8 +44,8 @@ const READINGS: &[&str] = &[
     "--printed-forcing",
 ];
 
-/// The others, with `--all`.
-const OTHERS: &[&str] = &[
+/// The other readings, with `--all`.
+const OTHER_READINGS: &[&str] = &[
     "--law hard",
     "--law hard --scheme hht",
     "--scheme midpoint",
@@ -95,15 +94,15 @@ const OTHERS: &[&str] = &[
     "--width 40 --height 79.2 --law hard --scheme midpoint",
 ];
 
-/// Processor time of a run over the time that it covers, on a core of these years.
-const COST: f64 = 0.009;
+/// Processor time of a run over the duration of its record, on a core of 2024.
+const COST_RATIO: f64 = 0.009;
 
 /// Runs of the geometries and searches.
 const EVIDENCE_RUNS: f64 = 1900.0;
 
 /// One reading, the readings of docs/paper.md, or all that were tried.
 #[derive(Debug, Clone, Parser)]
-pub(crate) struct Options {
+pub(crate) struct PaperReadingsOptions {
     /// All readings, then geometries and searches.
     #[arg(long)]
     all: bool,
@@ -114,41 +113,42 @@ pub(crate) struct Options {
     #[arg(long, default_value = "target/study/paper_readings")]
     out: PathBuf,
     #[command(flatten)]
-    reading: Reading,
+    reading: PaperReading,
 }
 
-pub(crate) fn run(mut options: Options) -> Result<(), AnyError> {
+pub(crate) fn run(mut options: PaperReadingsOptions) -> Result<(), AnyError> {
     if options.short {
         options.reading.duration = 3.0;
     }
     let duration = options.reading.duration;
-    let mut lines: Vec<&str> = READINGS.to_vec();
+    let mut lines: Vec<&str> = PAPER_READINGS.to_vec();
     if options.short {
         lines.truncate(2);
     } else if options.all {
-        lines.extend(OTHERS);
+        lines.extend(OTHER_READINGS);
     }
     let mut readings = Vec::new();
     for line in lines {
         let words = line.split(' ').filter(|word| !word.is_empty());
-        let reading = Options::try_parse_from(std::iter::once("").chain(words))?.reading;
-        readings.push((line.to_owned(), Reading { duration, ..reading }));
+        let reading =
+            PaperReadingsOptions::try_parse_from(std::iter::once("").chain(words))?.reading;
+        readings.push((line.to_owned(), PaperReading { duration, ..reading }));
     }
-    let plain = Reading { duration, ..readings[0].1.clone() };
-    if options.reading != plain {
+    let default_reading = PaperReading { duration, ..readings[0].1.clone() };
+    if options.reading != default_reading {
         let words: Vec<_> = std::env::args().skip(2).collect();
         readings = vec![(words.join(" "), options.reading.clone())];
     }
 
     let runs = readings.iter().map(|(_, reading)| reading.rows.len()).sum::<usize>() as f64;
     let evidence = options.all && !options.short;
-    let all = runs + if evidence { EVIDENCE_RUNS } else { 0.0 };
+    let total_runs = runs + if evidence { EVIDENCE_RUNS } else { 0.0 };
     println!(
         "{runs} runs over {duration} s of the record{}: about {:.0} s of processor time\n",
         if evidence { ", then some 1900 for geometries and searches" } else { "" },
-        (COST * duration * all).max(1.0)
+        (COST_RATIO * duration * total_runs).max(1.0)
     );
-    let mut table = Table::new(&options.out)?;
+    let mut table = ReadingsTable::new(&options.out)?;
     for (line, reading) in &readings {
         table.add(line, reading)?;
     }

@@ -8,19 +8,19 @@ use basemat_problems::containment::{Containment, FOOT};
 /// One reading.
 #[derive(Debug, Clone, PartialEq, Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
-pub(crate) struct Reading {
+pub(crate) struct PaperReading {
     /// Interface.
     #[arg(long, value_enum, default_value = "layer")]
-    pub(crate) law: Law,
+    pub(crate) law: InterfaceReading,
     /// Time scheme of the structure.
     #[arg(long, value_enum, default_value = "newmark")]
-    pub(crate) scheme: Scheme,
+    pub(crate) scheme: SchemeReading,
     /// Pressure that limits friction.
     #[arg(long, value_enum, default_value = "total")]
-    pub(crate) limit: Limit,
+    pub(crate) limit: LimitReading,
     /// Rule for the sense of slip.
     #[arg(long, value_enum, default_value = "inelastic")]
-    pub(crate) sense: Sense,
+    pub(crate) sense: SlipSenseReading,
     /// Share of the shear stiffness left in slip.
     #[arg(long, default_value_t = 0.0)]
     pub(crate) slip_shear: f64,
@@ -96,7 +96,7 @@ pub(crate) struct Reading {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(crate) enum Law {
+pub(crate) enum InterfaceReading {
     /// Thin layer.
     Layer,
     /// Hard contact.
@@ -104,14 +104,14 @@ pub(crate) enum Law {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(crate) enum Scheme {
+pub(crate) enum SchemeReading {
     Newmark,
     Hht,
     Midpoint,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(crate) enum Limit {
+pub(crate) enum LimitReading {
     Total,
     Lagged,
     Static,
@@ -124,13 +124,13 @@ pub(crate) enum Limit {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-pub(crate) enum Sense {
+pub(crate) enum SlipSenseReading {
     Inelastic,
     Velocity,
     LastVelocity,
 }
 
-impl Reading {
+impl PaperReading {
     /// The model to be built.
     pub(crate) fn containment(&self) -> Containment {
         let paper = Containment::default();
@@ -151,7 +151,7 @@ impl Reading {
     }
 
     /// Factor on the coefficients of friction.
-    pub(crate) fn friction_share(&self) -> f64 {
+    pub(crate) fn friction_ratio(&self) -> f64 {
         let length = if self.length_left_out { self.width / self.elements as f64 } else { 1.0 };
         self.friction_factor / length
     }

@@ -8,11 +8,11 @@ use basemat::interface::{Bonded, InterfaceLaw};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 
 use super::forcing::PrintedForcing;
-use super::options::{Law, Reading, Scheme};
+use super::options::{InterfaceReading, PaperReading, SchemeReading};
 use basemat_problems::containment::{FOOT, ROWS, pounds_per_foot};
 
 /// Results of a case.
-pub(crate) struct Row {
+pub(crate) struct ReadingResults {
     /// Peak shears between foundation and superstructure, and under the base, lb/ft.
     pub(crate) shear: [f64; 2],
     /// Largest uplifted fraction.
@@ -25,10 +25,11 @@ pub(crate) struct Row {
     pub(crate) cycles: usize,
 }
 
-impl Reading {
-    pub(crate) fn run(&self, row: usize) -> basemat::Result<Row> {
+impl PaperReading {
+    pub(crate) fn run(&self, row: usize) -> basemat::Result<ReadingResults> {
         let scene = self.containment();
-        let (soil, model) = (scene.soil()?, scene.structure()?);
+        let soil = scene.soil()?;
+        let model = scene.structure()?;
         let probes = scene.probes(&model)?;
         let time_step = scene.time_step(0.5);
         let record = el_centro_1940();
@@ -44,24 +45,26 @@ impl Reading {
             .motion(record)
             .gravity(self.gravity * STANDARD_GRAVITY)
             .probes(probes);
-        let friction = ROWS[row].1.unwrap_or(f64::NAN) * self.friction_share();
+        let friction = ROWS[row].1.unwrap_or(f64::NAN) * self.friction_ratio();
         let mean_pressure = STANDARD_GRAVITY * scene.mass() / (scene.width * FOOT);
-        let law = |_| match row {
-            0 => self.glue(&soil),
-            _ => self.law(friction, &soil, mean_pressure),
-        };
-        let builder = if row == 0 && self.law == Law::Hard {
+        let builder = if row == 0 && self.law == InterfaceReading::Hard {
             builder.interface(Bonded)
         } else {
-            let laws = (0..scene.elements).map(law);
-            builder.interfaces(laws.collect::<basemat::Result<Vec<Box<dyn InterfaceLaw>>>>()?)
+            let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
+            for _ in 0..scene.elements {
+                laws.push(match row {
+                    0 => self.glue(&soil)?,
+                    _ => self.law(friction, &soil, mean_pressure)?,
+                });
+            }
+            builder.interfaces(laws)
         };
         let mut simulation = self.with_scheme(builder)?.build()?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
-        let probe = run.probe("base shear")?.largest().value;
-        Ok(Row {
-            shear: [probe, run.whole.base_shear.largest().value]
+        let superstructure_shear = run.probe("base shear")?.largest().value;
+        Ok(ReadingResults {
+            shear: [superstructure_shear, run.whole.base_shear.largest().value]
                 .map(|force| pounds_per_foot(force.abs())),
             uplift: run.whole.uplifted_fraction.largest().value,
             slip: run.whole.largest_slip.largest().value,
@@ -72,12 +75,12 @@ impl Reading {
 
     fn with_scheme(&self, builder: SimulationBuilder) -> basemat::Result<SimulationBuilder> {
         let builder = match self.scheme {
-            Scheme::Newmark => {
+            SchemeReading::Newmark => {
                 let beta = 0.25 * (self.gamma + 0.5).powi(2);
                 builder.scheme(Newmark::new(self.gamma, beta)?)
             }
-            Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
-            Scheme::Midpoint => builder.scheme(Midpoint),
+            SchemeReading::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
+            SchemeReading::Midpoint => builder.scheme(Midpoint),
         };
         Ok(if self.flow_chart {
             builder.contact_search(ContactSearch::FlowChart { iterations: 100 })

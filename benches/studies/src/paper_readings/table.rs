@@ -7,17 +7,17 @@ use basemat::Error;
 use basemat::coupled::StepError;
 use csv::Writer;
 
-use super::options::Reading;
+use super::options::PaperReading;
 use super::run::root_mean_square;
 use crate::AnyError;
 use basemat_problems::containment::{PAPER_SHEARS, ROWS};
 
 /// A line per reading; in the file, a line per run.
-pub(crate) struct Table {
+pub(crate) struct ReadingsTable {
     writer: Writer<File>,
 }
 
-impl Table {
+impl ReadingsTable {
     /// Prints the heading and makes readings.csv in `folder`.
     pub(crate) fn new(folder: &Path) -> Result<Self, AnyError> {
         std::fs::create_dir_all(folder)?;
@@ -34,9 +34,9 @@ impl Table {
             "error",
         ])?;
         println!(
-            "peak shear between foundation and superstructure, lb/ft (against Table 1; shear under the \
+            "peak shear between foundation and superstructure, lb/ft (against ReadingsTable 1; shear under the \
              base; uplift; slip; A to a side, A up; steps in which the flow chart cycles); root mean \
-             square of ln(peak/Table 1) over all rows, and over those that slide\n\n\
+             square of ln(peak/ReadingsTable 1) over all rows, and over those that slide\n\n\
              | reading | bonded | uplift only | 0.4 | 0.3 | 0.2 | rms, all | rms, sliding |\n\
              |---|---|---|---|---|---|---|---|"
         );
@@ -44,30 +44,36 @@ impl Table {
     }
 
     /// Runs the requested rows.
-    pub(crate) fn add(&mut self, name: &str, reading: &Reading) -> Result<(), AnyError> {
+    pub(crate) fn add(&mut self, name: &str, reading: &PaperReading) -> Result<(), AnyError> {
         let name = if name.is_empty() { "the paper's layer, Newmark" } else { name };
         print!("| {name} |");
         let mut logarithms = Vec::new();
         for &row in &reading.rows {
             let row = row.min(4);
             let cells = match reading.run(row) {
-                Ok(r) => {
-                    let ratio = r.shear[0] / PAPER_SHEARS[row];
+                Ok(results) => {
+                    let ratio = results.shear[0] / PAPER_SHEARS[row];
                     logarithms.push((row, ratio.ln()));
                     print!(
                         " {:.0} ({:+.0} %; {:.0}; {:.0} %; {:.0} mm; {:.0}, {:.1} mm; {}) |",
-                        r.shear[0],
+                        results.shear[0],
                         100.0 * (ratio - 1.0),
-                        r.shear[1],
-                        100.0 * r.uplift,
-                        1e3 * r.slip.abs(),
-                        1e3 * r.roof[0],
-                        1e3 * r.roof[1],
-                        r.cycles
+                        results.shear[1],
+                        100.0 * results.uplift,
+                        1e3 * results.slip.abs(),
+                        1e3 * results.roof[0],
+                        1e3 * results.roof[1],
+                        results.cycles
                     );
-                    let numbers = [r.shear[0], r.slip, r.uplift, r.roof[0], r.roof[1]];
-                    let mut cells = numbers.map(|x| x.to_string()).to_vec();
-                    cells.extend([r.cycles.to_string(), String::new()]);
+                    let numbers = [
+                        results.shear[0],
+                        results.slip,
+                        results.uplift,
+                        results.roof[0],
+                        results.roof[1],
+                    ];
+                    let mut cells = numbers.map(|number| number.to_string()).to_vec();
+                    cells.extend([results.cycles.to_string(), String::new()]);
                     cells
                 }
                 Err(error) => {
@@ -86,12 +92,12 @@ impl Table {
             self.writer.write_record(names.iter().chain(&cells))?;
         }
         for first in [0, 2] {
-            let wanted = reading.rows.iter().filter(|row| **row >= first).count();
-            let found = logarithms.iter().filter(|(row, _)| *row >= first).map(|(_, l)| *l);
-            let found: Vec<f64> = found.collect();
-            // A reading that some row does not survive has none.
-            if found.len() == wanted && wanted > 0 {
-                print!(" {:.2} |", root_mean_square(&found));
+            let row_count = reading.rows.iter().filter(|row| **row >= first).count();
+            let counted = logarithms.iter().filter(|(row, _)| *row >= first);
+            let counted: Vec<f64> = counted.map(|(_, logarithm)| *logarithm).collect();
+            // Without a mean if a row of the reading failed.
+            if counted.len() == row_count && row_count > 0 {
+                print!(" {:.2} |", root_mean_square(&counted));
             } else {
                 print!(" – |");
             }

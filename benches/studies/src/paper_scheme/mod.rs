@@ -1,11 +1,12 @@
-//! The containment of Patel & Spyrakos four times, on one mesh and record: with the paper's own
-//! scheme as far as it marches, with convolution quadrature in its soil, with the half-plane's
-//! soil under the rest of it, and with the crate's.
+//! The containment of Patel & Spyrakos by four schemes, on one mesh and record.
+//!
+//! The schemes are the paper's as far as it marches, the paper's with convolution quadrature in its soil, the paper's
+//! with the soil of the half-plane, and the crate's.
 //!
 //! ```text
 //! cargo study paper-scheme               # tables of docs/paper.md, CSV, plots
 //! cargo study paper-scheme --stability
-//! cargo study paper-scheme --limits       # steps and dampings that last
+//! cargo study paper-scheme --limits       # steps and dampings that reach the end
 //! cargo study paper-scheme --help
 //! ```
 //!
@@ -32,13 +33,13 @@ use basemat::motion::el_centro_1940;
 
 use crate::AnyError;
 use basemat_problems::containment::{Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS};
-use case::{Row, march};
-use scheme::{SCHEMES, Scene, Scheme};
+use case::{SchemeRow, march};
+use scheme::{COMPARED_SCHEMES, PaperScene};
 
 /// The paper's scheme, its soil by convolution quadrature, and this crate's, side by side.
 #[derive(Debug, Clone, clap::Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
-pub(crate) struct Options {
+pub(crate) struct PaperSchemeOptions {
     /// Folder for summary.csv and plots.
     #[arg(long, default_value = "target/study/paper_scheme")]
     out: PathBuf,
@@ -78,15 +79,15 @@ pub(crate) struct Options {
     stability: bool,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &PaperSchemeOptions) -> Result<(), AnyError> {
     if options.stability {
         return stability::print_table();
     }
     std::fs::create_dir_all(&options.out)?;
     let containment = Containment::default();
     let record = el_centro_1940();
-    let whole = record.duration();
-    let scene = Scene {
+    let record_duration = record.duration();
+    let scene = PaperScene {
         time_step: containment.time_step(options.beta),
         containment,
         record,
@@ -100,7 +101,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
             ContactSearch::FlowChart { iterations: 100 }
         },
     };
-    let duration = if options.short { 3.0 } else { options.duration.unwrap_or(whole) };
+    let duration = if options.short { 3.0 } else { options.duration.unwrap_or(record_duration) };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "zero if not")]
     let steps = (duration / scene.time_step).round() as usize;
     if options.limits {
@@ -111,14 +112,14 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     report::print_assessments(&scene, steps)?;
     let limit = 1e6 * PAPER_SHEARS[0] * POUND_FORCE_PER_FOOT;
     let mut rows = Vec::new();
-    for ((name, friction), printed) in ROWS.into_iter().zip(PAPER_SHEARS) {
-        let run = |scheme: Scheme| {
+    for ((name, friction), paper_peak) in ROWS.into_iter().zip(PAPER_SHEARS) {
+        let mut outcomes = Vec::new();
+        for scheme in COMPARED_SCHEMES {
             let outcome = march(|| scheme.build(&scene, friction), steps, limit)
                 .map_err(|error| format!("{name}, {}: {error}", scheme.name()))?;
-            Ok::<_, AnyError>((scheme, outcome))
-        };
-        let outcomes = SCHEMES.into_iter().map(run).collect::<Result<_, _>>()?;
-        rows.push(Row { name, printed, outcomes });
+            outcomes.push((scheme, outcome));
+        }
+        rows.push(SchemeRow { name, paper_peak, outcomes });
     }
     report::print_peaks(&rows);
     report::print_marches(&rows);

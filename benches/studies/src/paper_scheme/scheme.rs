@@ -15,7 +15,7 @@ use basemat_problems::containment::Glue;
 
 /// Soil, interface, time integration and contact iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scheme {
+pub(crate) enum ComparedScheme {
     /// All of them the paper's.
     Paper,
     /// The paper's soil by convolution quadrature, and contact found where the flow chart cycles.
@@ -23,14 +23,18 @@ pub(crate) enum Scheme {
     /// The half-plane's soil under the paper's interface and structure.
     HalfPlane,
     /// All of them the crate's.
-    Own,
+    Basemat,
 }
 
-pub(crate) const SCHEMES: [Scheme; 4] =
-    [Scheme::Paper, Scheme::Quadrature, Scheme::HalfPlane, Scheme::Own];
+pub(crate) const COMPARED_SCHEMES: [ComparedScheme; 4] = [
+    ComparedScheme::Paper,
+    ComparedScheme::Quadrature,
+    ComparedScheme::HalfPlane,
+    ComparedScheme::Basemat,
+];
 
 /// Scene that all schemes compute.
-pub(crate) struct Scene {
+pub(crate) struct PaperScene {
     pub(crate) containment: Containment,
     pub(crate) record: Record,
     pub(crate) time_step: f64,
@@ -46,18 +50,22 @@ pub(crate) struct Scene {
     pub(crate) search: ContactSearch,
 }
 
-impl Scheme {
+impl ComparedScheme {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Quadrature => "BDF2",
             Self::HalfPlane => "half-plane",
-            Self::Own => "basemat",
+            Self::Basemat => "basemat",
         }
     }
 
     /// The simulation on a row.
-    pub(crate) fn build(self, scene: &Scene, friction: Option<f64>) -> basemat::Result<Simulation> {
+    pub(crate) fn build(
+        self,
+        scene: &PaperScene,
+        friction: Option<f64>,
+    ) -> basemat::Result<Simulation> {
         let model = scene.containment.structure()?;
         let builder = Simulation::builder(scene.time_step)
             .probe(scene.containment.base_shear(&model)?)
@@ -65,19 +73,20 @@ impl Scheme {
             .motion(scene.record.clone())
             .gravity(STANDARD_GRAVITY);
         let builder = match self {
-            // Assessed once, for all rows, in the report.
+            // The report assesses it once for all rows.
             Self::Paper => {
                 builder.ground(self.full_plane(scene)?.allow_growth()).contact_search(scene.search)
             }
             Self::Quadrature => builder.ground(self.full_plane(scene)?.allow_growth()),
-            Self::HalfPlane | Self::Own => {
+            Self::HalfPlane | Self::Basemat => {
                 let Containment { elements, .. } = scene.containment;
-                let (soil, base) = (scene.containment.soil()?, scene.containment.base());
+                let soil = scene.containment.soil()?;
+                let base = scene.containment.base();
                 builder.ground(ElasticGround::new(soil, Strip::uniform(base, elements)?)?)
             }
         };
-        if self == Self::Own {
-            own_interface(builder, friction)?.build()
+        if self == Self::Basemat {
+            coulomb_interface(builder, friction)?.build()
         } else {
             let newmark = Newmark::new(scene.gamma, 0.25 * (scene.gamma + 0.5).powi(2))?;
             paper_interface(builder.scheme(newmark), scene, friction)?.build()
@@ -85,9 +94,10 @@ impl Scheme {
     }
 
     /// The paper's boundary elements, with its coefficients or those by convolution quadrature.
-    pub(crate) fn full_plane(self, scene: &Scene) -> basemat::Result<FullPlaneGround> {
+    pub(crate) fn full_plane(self, scene: &PaperScene) -> basemat::Result<FullPlaneGround> {
         let Containment { elements, .. } = scene.containment;
-        let (soil, base) = (scene.containment.soil()?, scene.containment.base());
+        let soil = scene.containment.soil()?;
+        let base = scene.containment.base();
         let ground = FullPlaneGround::strip(soil, base, elements, scene.free)?;
         let subelements = scene.subelements;
         Ok(ground.with_kernel(move |segments, soil, time_step| {
@@ -104,7 +114,7 @@ impl Scheme {
     }
 }
 
-fn own_interface(
+fn coulomb_interface(
     builder: SimulationBuilder,
     friction: Option<f64>,
 ) -> basemat::Result<SimulationBuilder> {
@@ -116,16 +126,19 @@ fn own_interface(
 
 fn paper_interface(
     builder: SimulationBuilder,
-    scene: &Scene,
+    scene: &PaperScene,
     friction: Option<f64>,
 ) -> basemat::Result<SimulationBuilder> {
-    let (soil, height) = (scene.containment.soil()?, scene.containment.layer_height());
-    let layer =
-        |friction| ThinLayer::new(soil, height, friction)?.with_thickness_ratio(scene.ratio);
-    let Some(friction) = friction else {
-        let layer = layer(f64::INFINITY)?;
-        let glue = |_| Box::new(InPlane(Glue(layer))) as Box<dyn InterfaceLaw>;
-        return Ok(builder.interfaces((0..scene.containment.elements).map(glue).collect()));
-    };
-    Ok(builder.interface(layer(friction)?))
+    let soil = scene.containment.soil()?;
+    let height = scene.containment.layer_height();
+    let layer = ThinLayer::new(soil, height, friction.unwrap_or(f64::INFINITY))?
+        .with_thickness_ratio(scene.ratio)?;
+    if friction.is_some() {
+        return Ok(builder.interface(layer));
+    }
+    let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
+    for _ in 0..scene.containment.elements {
+        laws.push(Box::new(InPlane(Glue(layer))));
+    }
+    Ok(builder.interfaces(laws))
 }

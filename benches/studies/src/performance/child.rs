@@ -1,4 +1,4 @@
-//! Whole runs in processes of their own, whose peak resident memory the system tells.
+//! Whole runs in separate processes, whose peak resident memory the system reports.
 
 use std::process::Command;
 use std::time::Instant;
@@ -14,17 +14,16 @@ use crate::AnyError;
 use crate::document::peak_memory;
 use basemat_problems::headline::{COUNT, ELEMENT, headline, soil, time_step, without_end};
 
-/// Cases of the sweep.
-const CASES: usize = 8;
+const SWEEP_CASES: usize = 8;
 
 /// A whole run.
 #[derive(Debug, Clone, Copy, PartialEq, clap::ValueEnum)]
-pub(crate) enum Scene {
+pub(crate) enum RunScene {
     Bonded,
     Friction,
     /// Friction, ten graded elements.
     Graded,
-    /// Friction, under a record that goes on as long as the run.
+    /// Friction, under a record that lasts as long as the run.
     Long,
     /// 200 elements under a rigid block, bonded.
     Wide,
@@ -34,68 +33,85 @@ pub(crate) enum Scene {
 
 /// Time and memory of a run.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Taken {
+pub(crate) struct RunCost {
     /// Processor time of all threads, s.
     pub(crate) seconds: f64,
-    /// Of this the steps, s.
+    /// Processor time of the steps, s.
     pub(crate) march: f64,
-    /// By the clock, s.
+    /// Wall time, s.
     pub(crate) wall: f64,
-    /// Largest resident memory, MB; NaN where the system does not tell.
+    /// Largest resident memory, MB; NaN where the system does not report it.
     pub(crate) peak: f64,
-    /// Slowest step by the clock, s.
+    /// Wall time of the slowest step, s.
     pub(crate) slowest: f64,
 }
 
 /// Runs `scene` here, and prints what [`measure`] reads.
-pub(crate) fn run(scene: Scene, steps: usize) -> std::result::Result<(), AnyError> {
+pub(crate) fn run(scene: RunScene, steps: usize) -> std::result::Result<(), AnyError> {
     let begin = Instant::now();
-    let [slowest, march] = if scene == Scene::Sweep { sweep(steps)? } else { march(scene, steps)? };
+    // A sweep does not measure its steps.
+    let time = if scene == RunScene::Sweep {
+        sweep(steps)?;
+        StepTimes::default()
+    } else {
+        march(scene, steps)?
+    };
     let seconds = cpu_time::ProcessTime::try_now()?.as_duration().as_secs_f64();
     let peak = peak_memory().unwrap_or(f64::NAN);
-    println!("{seconds} {march} {} {peak} {slowest}", begin.elapsed().as_secs_f64());
+    let wall = begin.elapsed().as_secs_f64();
+    println!("{seconds} {} {wall} {peak} {}", time.total, time.slowest_step);
     Ok(())
 }
 
-/// The slowest step, but for the first, and what all steps take.
-fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
-    let (builder, ground) = headline(if scene == Scene::Wide { 200 } else { COUNT })?;
+/// Times of a march, s.
+#[derive(Default)]
+struct StepTimes {
+    total: f64,
+    /// Without the first step.
+    slowest_step: f64,
+}
+
+fn march(scene: RunScene, steps: usize) -> Result<StepTimes> {
+    let (builder, ground) = headline(if scene == RunScene::Wide { 200 } else { COUNT })?;
     let mut simulation = match scene {
-        Scene::Wide => {
+        RunScene::Wide => {
             let block = RigidBlock::new(200.0 * ELEMENT, 20.0, 500.0)?;
             builder.ground(ground).structure(block).interface(Bonded)
         }
-        Scene::Bonded => builder.ground(ground).interface(Bonded),
-        Scene::Graded => {
-            let half = 0.5 * ELEMENT * COUNT as f64;
-            let strip = Strip::new(-half..half, COUNT, Grading::Cosine)?;
+        RunScene::Bonded => builder.ground(ground).interface(Bonded),
+        RunScene::Graded => {
+            let half_width = 0.5 * ELEMENT * COUNT as f64;
+            let strip = Strip::new(-half_width..half_width, COUNT, Grading::Cosine)?;
             let ground = ElasticGround::new(soil()?, strip)?;
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
-        Scene::Long => {
+        RunScene::Long => {
             let record = without_end(steps as f64 * time_step())?;
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }
-        Scene::Friction | Scene::Sweep => builder.ground(ground).interface(Coulomb::new(0.4)?),
+        RunScene::Friction | RunScene::Sweep => {
+            builder.ground(ground).interface(Coulomb::new(0.4)?)
+        }
     }
     .expected_steps(steps)
     .build()?;
-    let (mut last, mut slowest) = (Instant::now(), 0.0_f64);
-    let (run, seconds) = timed(|| {
+    let mut last = Instant::now();
+    let mut slowest_step = 0.0_f64;
+    let timed_run = timed(|| {
         simulation.run(steps, |state| {
             if state.step > 1 {
-                slowest = slowest.max(last.elapsed().as_secs_f64());
+                slowest_step = slowest_step.max(last.elapsed().as_secs_f64());
             }
             last = Instant::now();
         })
     });
-    run.map(|_| [slowest, seconds])
+    timed_run.result.map(|_| StepTimes { total: timed_run.seconds, slowest_step })
 }
 
-fn sweep(steps: usize) -> Result<[f64; 2]> {
+fn sweep(steps: usize) -> Result<()> {
     let kernels = SharedKernels::default();
-    let mut outcome = Ok([0.0; 2]);
-    Sweep::new(CASES).run(
+    let mut outcome = Ok(());
+    Sweep::new(SWEEP_CASES).run(
         |case| {
             let (builder, ground) = headline(COUNT)?;
             let builder = builder
@@ -112,12 +128,12 @@ fn sweep(steps: usize) -> Result<[f64; 2]> {
     outcome
 }
 
-/// Runs `scene` in a process of its own, on `threads` threads.
+/// Runs `scene` in a separate process, on `threads` threads.
 pub(crate) fn measure(
-    scene: Scene,
+    scene: RunScene,
     steps: usize,
     threads: usize,
-) -> std::result::Result<Taken, AnyError> {
+) -> std::result::Result<RunCost, AnyError> {
     let name = format!("{scene:?}").to_lowercase();
     let output = Command::new(std::env::current_exe()?)
         .args(["performance", "--child", &name, "--steps", &steps.to_string()])
@@ -127,27 +143,23 @@ pub(crate) fn measure(
         return Err(format!("{name}: {}", String::from_utf8_lossy(&output.stderr)).into());
     }
     let text = String::from_utf8(output.stdout)?;
-    let mut numbers = text.split_whitespace().map(str::parse::<f64>);
-    let mut next = || numbers.next().ok_or("a number is missing");
-    Ok(Taken {
-        seconds: next()??,
-        march: next()??,
-        wall: next()??,
-        peak: next()??,
-        slowest: next()??,
-    })
+    let numbers: Vec<f64> =
+        text.split_whitespace().map(str::parse).collect::<std::result::Result<_, _>>()?;
+    let [seconds, march, wall, peak, slowest] = numbers[..] else {
+        return Err(format!("{name}: {} numbers, not 5", numbers.len()).into());
+    };
+    Ok(RunCost { seconds, march, wall, peak, slowest })
 }
 
-/// The example `containment` as it is by default, files and plots included: processor time of all
-/// its threads and time by the clock, s.
+/// Processor time of all threads and wall time of the example `containment`, files and plots included, s.
 pub(crate) fn containment() -> std::result::Result<[f64; 2], AnyError> {
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let mut build = Command::new(cargo);
     build.current_dir(root);
     build.args(["build", "--quiet", "--release", "--example", "containment"]);
-    let folder = std::env::current_exe()?;
-    let folder = folder.parent().ok_or("this program is nowhere")?;
+    let program = std::env::current_exe()?;
+    let folder = program.parent().ok_or("this program is in no folder")?;
     if !build.status()?.success() {
         return Err("the example containment does not compile".into());
     }
@@ -160,7 +172,7 @@ pub(crate) fn containment() -> std::result::Result<[f64; 2], AnyError> {
     Ok([children_time() - before, begin.elapsed().as_secs_f64()])
 }
 
-/// Processor time of all children that have ended, s; NaN where the system does not tell.
+/// Processor time of all children that have ended, s; NaN where the system does not report it.
 fn children_time() -> f64 {
     let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields = text.rsplit(") ").next().unwrap_or_default().split_whitespace();

@@ -1,4 +1,4 @@
-//! Convolutions and coefficients by themselves.
+//! Times of convolutions and of their weights.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,29 +16,37 @@ fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {
     Ok(Arc::new(PatchKernel::new(soil()?, strip(count)?.elements(), time_step())?))
 }
 
-/// Seconds of a march, and of its slowest step.
-fn march(history: &mut dyn ConvolutionHistory, size: usize, steps: usize) -> Result<[f64; 2]> {
-    let (mut displacement, mut traction) = (vec![0.0; size], vec![0.0; size]);
-    let mut slowest = 0.0_f64;
-    let (done, seconds) = timed(|| {
+/// Times of a history, s.
+pub(crate) struct HistoryCost {
+    pub(crate) setup: f64,
+    pub(crate) march: f64,
+    pub(crate) slowest_step: f64,
+}
+
+/// Marches a prepared history.
+fn march(history: &mut dyn ConvolutionHistory, size: usize, steps: usize) -> Result<HistoryCost> {
+    let mut displacement = vec![0.0; size];
+    let mut traction = vec![0.0; size];
+    let mut slowest_step = 0.0_f64;
+    let timed_march = timed(|| {
         for step in 0..steps {
             let begin = Instant::now();
             history.evaluate(&mut displacement)?;
             crate::history::traction(step, &mut traction);
             history.push(&traction);
-            slowest = slowest.max(begin.elapsed().as_secs_f64());
+            slowest_step = slowest_step.max(begin.elapsed().as_secs_f64());
         }
         Ok(())
     });
-    done.map(|()| [seconds, slowest])
+    let march = timed_march.seconds;
+    timed_march.result.map(|()| HistoryCost { setup: 0.0, march, slowest_step })
 }
 
 /// Seconds of the direct sum over `steps` steps.
 pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
     let mut direct = DirectHistory::new(patch(count)?);
     direct.prepare(steps, &mut unobserved)?;
-    let [seconds, _] = march(&mut direct, 2 * count, steps)?;
-    Ok(seconds)
+    Ok(march(&mut direct, 2 * count, steps)?.march)
 }
 
 /// Transforms of all past steps.
@@ -59,53 +67,69 @@ pub(crate) fn bounded(
     Ok(Box::new(ExponentialHistory::new(kernel, 1e-12)?))
 }
 
-/// Makes a history for so many steps.
-pub(crate) type Make =
+/// Prepares a history for this number of steps.
+pub(crate) type PrepareHistory =
     fn(Arc<dyn ConvolutionWeights>, usize) -> Result<Box<dyn ConvolutionHistory>>;
 
-/// Setup, march and slowest step of a history, s: the least of `repeats`.
-pub(crate) fn alone(make: Make, count: usize, steps: usize, repeats: usize) -> Result<[f64; 3]> {
-    let mut least = [f64::INFINITY; 3];
+/// Smallest times of a history in `repeats` marches.
+pub(crate) fn history_cost(
+    prepare: PrepareHistory,
+    count: usize,
+    steps: usize,
+    repeats: usize,
+) -> Result<HistoryCost> {
+    let infinite = f64::INFINITY;
+    let mut best = HistoryCost { setup: infinite, march: infinite, slowest_step: infinite };
     for _ in 0..repeats {
-        // Of one kernel, only the first would make spectra.
+        // A new kernel each time, because a kernel keeps its spectra.
         let kernel = patch(count)?;
-        let (history, setup) = timed(|| make(kernel, steps));
-        let [total, slowest] = march(&mut *history?, 2 * count, steps)?;
-        for (least, found) in least.iter_mut().zip([setup, total, slowest]) {
-            *least = least.min(found);
-        }
+        let history = timed(|| prepare(kernel, steps));
+        let cost = march(&mut *history.result?, 2 * count, steps)?;
+        best.setup = best.setup.min(history.seconds);
+        best.march = best.march.min(cost.march);
+        best.slowest_step = best.slowest_step.min(cost.slowest_step);
     }
-    Ok(least)
+    Ok(best)
 }
 
 /// Seconds for all coefficients of a patch over `lags`.
 pub(crate) fn coefficients(count: usize, lags: usize) -> Result<f64> {
     let kernel = patch(count)?;
-    let mut values = [(); 3].map(|()| vec![0.0; lags]);
-    let [normal, tangential, coupling] = &mut values;
-    let (done, seconds) = timed(|| {
+    let mut normal = vec![0.0; lags];
+    let mut tangential = vec![0.0; lags];
+    let mut coupling = vec![0.0; lags];
+    let evaluation = timed(|| {
         (0..kernel.classes().count()).try_for_each(|class| {
-            kernel.coefficients(class, 1, &mut [normal, tangential, coupling])
+            kernel.coefficients(class, 1, &mut [&mut normal, &mut tangential, &mut coupling])
         })
     });
-    done.map(|()| seconds)
+    evaluation.result.map(|()| evaluation.seconds)
 }
 
-/// Time per step over the number of steps, and the exponent of growth of the whole: the slope of
-/// the least squares in logarithms.
+/// Times over the number of steps, and the exponent of their growth.
+///
+/// The exponent is the slope of least squares in logarithms.
 pub(crate) struct Growth {
-    /// Steps, seconds of all, slowest step.
-    pub(crate) points: Vec<(usize, f64, f64)>,
+    pub(crate) points: Vec<GrowthPoint>,
     pub(crate) exponent: f64,
 }
 
+/// Times (s) of a march of so many steps.
+pub(crate) struct GrowthPoint {
+    pub(crate) steps: usize,
+    pub(crate) march: f64,
+    pub(crate) slowest_step: f64,
+}
+
 /// The growth of a history's marching time from 10³ steps to `longest`.
-pub(crate) fn growth(make: Make, longest: usize) -> Result<Growth> {
+pub(crate) fn growth(prepare: PrepareHistory, longest: usize) -> Result<Growth> {
     let mut points = Vec::new();
     for steps in [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000] {
         if steps <= longest {
-            let [_, total, slowest] = alone(make, 10, steps, (300_000 / steps).clamp(3, 100))?;
-            points.push((steps, total, slowest));
+            let repeats = (300_000 / steps).clamp(3, 100);
+            let HistoryCost { march, slowest_step, .. } =
+                history_cost(prepare, 10, steps, repeats)?;
+            points.push(GrowthPoint { steps, march, slowest_step });
         }
     }
     let exponent = exponent(&points);
@@ -113,12 +137,12 @@ pub(crate) fn growth(make: Make, longest: usize) -> Result<Growth> {
 }
 
 /// Slope of the least squares in logarithms of seconds over steps.
-pub(crate) fn exponent(points: &[(usize, f64, f64)]) -> f64 {
+pub(crate) fn exponent(points: &[GrowthPoint]) -> f64 {
     let logarithms: Vec<_> =
-        points.iter().map(|&(steps, total, _)| [(steps as f64).ln(), total.ln()]).collect();
+        points.iter().map(|point| [(point.steps as f64).ln(), point.march.ln()]).collect();
     let count = logarithms.len() as f64;
-    let mean = |k: usize| logarithms.iter().map(|p| p[k]).sum::<f64>() / count;
-    let (x, y) = (mean(0), mean(1));
-    logarithms.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
-        / logarithms.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>()
+    let x = logarithms.iter().map(|point| point[0]).sum::<f64>() / count;
+    let y = logarithms.iter().map(|point| point[1]).sum::<f64>() / count;
+    logarithms.iter().map(|point| (point[0] - x) * (point[1] - y)).sum::<f64>()
+        / logarithms.iter().map(|point| (point[0] - x).powi(2)).sum::<f64>()
 }

@@ -1,5 +1,6 @@
-//! The crate's performance targets, measured: histories, coefficients, whole runs, growth, memory,
-//! scenes, reduced coordinates, sweeps.
+//! The crate's performance targets, measured.
+//!
+//! They concern histories, convolution weights, whole runs, growth, memory, scenes, reduced coordinates and sweeps.
 //!
 //! ```text
 //! cargo study performance                # a minute or two
@@ -26,21 +27,21 @@ use report::Report;
 
 /// The crate's performance targets, measured.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct PerformanceOptions {
     /// Shorter runs: to see that all works, not to be quoted.
     #[arg(long)]
     short: bool,
     /// Folder of the documentation: given, the tables go to benches/studies/tables/performance.md.
     #[arg(long)]
     docs: Option<PathBuf>,
-    /// Run one scene in this process and print what it took.
+    /// Run one scene in this process and print its times and memory.
     #[arg(long, hide = true)]
-    child: Option<child::Scene>,
+    child: Option<child::RunScene>,
     #[arg(long, hide = true, default_value_t = STEPS)]
     steps: usize,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &PerformanceOptions) -> Result<(), AnyError> {
     if let Some(scene) = options.child {
         return child::run(scene, options.steps);
     }

@@ -11,14 +11,14 @@ use basemat::{Result, Simulation, Soil};
 use super::report::{Report, timed};
 use crate::AnyError;
 
-const STEPS: usize = 1000;
-/// Steps of the whole runs that the table tells of.
-const WHOLE: f64 = 4000.0;
+const STEP_COUNT: usize = 1000;
+/// Steps of the runs that the table estimates.
+const ESTIMATED_STEPS: f64 = 4000.0;
 
-/// A tower of 8 × 24 m on ten elements, 2.5 Hz with its base held.
+/// A tower of 8 × 24 m on ten elements, 2.5 Hz on a fixed base.
 #[derive(Clone, Copy)]
-struct Tower {
-    /// Of quadrilaterals.
+struct ReducedTower {
+    /// Columns and rows of quadrilaterals.
     columns: usize,
     rows: usize,
     /// Damping ratio at 1 and 10 Hz.
@@ -28,16 +28,15 @@ struct Tower {
     acceleration: bool,
 }
 
-/// A run of it.
-struct Run {
+/// Times (s) and results of a tower.
+struct ReducedRun {
     build: f64,
-    /// Of a step.
     step: f64,
     /// Base shear and probes of every step.
     history: Vec<Vec<f64>>,
 }
 
-impl Tower {
+impl ReducedTower {
     fn model(self) -> Result<FemModel> {
         let material = Material::new(6e8, 0.2, 1500.0)?;
         let layer = Layer::new(24.0, self.rows, material);
@@ -50,8 +49,8 @@ impl Tower {
 
     fn build(self, coordinates: Coordinates) -> Result<Simulation> {
         let model = self.model()?;
-        let row = |y| model.row(model.mesh().node_at(-4.0, y)?, Direction::X);
-        let (base, roof) = (row(0.0)?, row(24.0)?);
+        let base = model.row(model.mesh().node_at(-4.0, 0.0)?, Direction::X)?;
+        let roof = model.row(model.mesh().node_at(-4.0, 24.0)?, Direction::X)?;
         let ground =
             ElasticGround::new(Soil::new(80e6, 0.33, 1900.0)?, Strip::uniform(-4.0..4.0, 10)?)?;
         let mut builder = Simulation::builder(5e-3)
@@ -63,72 +62,69 @@ impl Tower {
         if self.acceleration {
             builder = builder.probe(Probe::acceleration("acceleration", roof));
         }
-        let builder = builder.coordinates(coordinates).expected_steps(STEPS);
+        let builder = builder.coordinates(coordinates).expected_steps(STEP_COUNT);
         if self.bonded { builder.interface(Bonded) } else { builder.interface(Coulomb::new(0.4)?) }
             .build()
     }
 
-    /// The least times of a few runs.
-    fn run(self, coordinates: Coordinates, repeats: usize) -> Result<Run> {
-        let mut run = Run { build: f64::INFINITY, step: f64::INFINITY, history: Vec::new() };
+    /// The smallest times of a few runs.
+    fn run(self, coordinates: Coordinates, repeats: usize) -> Result<ReducedRun> {
+        let mut run = ReducedRun { build: f64::INFINITY, step: f64::INFINITY, history: Vec::new() };
         for _ in 0..repeats {
-            let (simulation, build) = timed(|| self.build(coordinates));
-            let mut simulation = simulation?;
+            let build = timed(|| self.build(coordinates));
+            let mut simulation = build.result?;
             run.history.clear();
-            let (marched, seconds) = timed(|| {
-                for _ in 0..STEPS {
+            let march = timed(|| {
+                for _ in 0..STEP_COUNT {
                     let state = simulation.step()?;
                     let shear = std::iter::once(state.base_shear);
                     run.history.push(shear.chain(state.probes.iter().copied()).collect());
                 }
                 Ok::<(), basemat::Error>(())
             });
-            marched?;
-            run.build = run.build.min(build);
-            run.step = run.step.min(seconds / STEPS as f64);
+            march.result?;
+            run.build = run.build.min(build.seconds);
+            run.step = run.step.min(march.seconds / STEP_COUNT as f64);
         }
         Ok(run)
     }
 }
 
-impl Run {
-    fn whole(&self) -> f64 {
-        self.build + WHOLE * self.step
+impl ReducedRun {
+    fn estimated_time(&self) -> f64 {
+        self.build + ESTIMATED_STEPS * self.step
     }
 
     /// Largest error of a quantity relative to its largest value.
-    fn error(&self, exact: &Self, quantity: usize) -> Option<f64> {
-        let (mut top, mut apart) = (0.0_f64, 0.0_f64);
-        for (own, exact) in self.history.iter().zip(&exact.history) {
-            let (own, exact) = (own.get(quantity)?, exact.get(quantity)?);
-            top = top.max(exact.abs());
-            apart = apart.max((own - exact).abs());
+    fn error(&self, reference: &Self, quantity: usize) -> Option<f64> {
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
+        for (values, references) in self.history.iter().zip(&reference.history) {
+            let expected = references.get(quantity)?;
+            largest = largest.max(expected.abs());
+            difference = difference.max((values.get(quantity)? - expected).abs());
         }
-        Some(apart / top)
+        Some(difference / largest)
     }
 }
 
-/// Times and errors.
+/// Adds the table of times and errors.
 pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(), AnyError> {
-    let tower = |columns, rows, damping, bonded, acceleration| Tower {
-        columns,
-        rows,
-        damping,
-        bonded,
-        acceleration,
-    };
+    let small =
+        ReducedTower { columns: 20, rows: 26, damping: 0.05, bonded: false, acceleration: true };
+    let medium = ReducedTower { columns: 40, rows: 40, ..small };
     let mut towers = vec![
-        tower(20, 26, 0.05, true, true),
-        tower(20, 26, 0.05, false, true),
-        tower(20, 26, 0.02, false, true),
-        tower(20, 26, 0.0, false, true),
+        ReducedTower { bonded: true, ..small },
+        small,
+        ReducedTower { damping: 0.02, ..small },
+        ReducedTower { damping: 0.0, ..small },
     ];
     if !short {
         towers.extend([
-            tower(40, 40, 0.05, false, false),
-            tower(40, 40, 0.05, false, true),
-            tower(40, 40, 0.02, false, true),
-            tower(80, 80, 0.05, false, false),
+            ReducedTower { acceleration: false, ..medium },
+            medium,
+            ReducedTower { damping: 0.02, ..medium },
+            ReducedTower { columns: 80, rows: 80, acceleration: false, ..small },
         ]);
     }
     let mut rows = Vec::new();
@@ -144,15 +140,16 @@ pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(),
                 format!("{tolerance:.0e}"),
             ];
             match tower.run(Coordinates::Reduced { tolerance }, repeats) {
-                Ok(few) => {
+                Ok(reduced) => {
                     row.extend([
-                        format!("{:.2} / {:.2}", full.build, few.build),
-                        format!("{:.0} / {:.0}", 1e6 * full.step, 1e6 * few.step),
-                        format!("{:.0}", full.step / few.step),
-                        format!("{:.1}", full.whole() / few.whole()),
+                        format!("{:.2} / {:.2}", full.build, reduced.build),
+                        format!("{:.0} / {:.0}", 1e6 * full.step, 1e6 * reduced.step),
+                        format!("{:.0}", full.step / reduced.step),
+                        format!("{:.1}", full.estimated_time() / reduced.estimated_time()),
                     ]);
                     row.extend((0..4).map(|quantity| {
-                        few.error(&full, quantity)
+                        reduced
+                            .error(&full, quantity)
                             .map_or("–".into(), |error| format!("{error:.0e}"))
                     }));
                 }

@@ -1,16 +1,21 @@
 //! Times, and tables of them in Markdown.
 
-use crate::document::{processor, threads, told_by};
+use crate::document::{command_output, processor, threads};
 use std::fmt::Write as _;
 
-/// Result of `work`, and the seconds that this thread was on a processor for it.
-pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let begin = cpu_time::ThreadTime::now();
-    let result = work();
-    (result, begin.elapsed().as_secs_f64())
+/// A result, and its processor time on this thread, s.
+pub(crate) struct Timed<T> {
+    pub(crate) result: T,
+    pub(crate) seconds: f64,
 }
 
-/// The table of targets, and those that follow.
+pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> Timed<T> {
+    let begin = cpu_time::ThreadTime::now();
+    let result = work();
+    Timed { result, seconds: begin.elapsed().as_secs_f64() }
+}
+
+/// The table of targets, and the other tables.
 pub(crate) struct Report {
     targets: String,
     rest: String,
@@ -23,31 +28,30 @@ impl Report {
     }
 
     /// A row of the targets.
-    pub(crate) fn target(&mut self, what: &str, target: &str, measured: &str, met: bool) {
-        eprintln!("{what}: {measured} ({target})");
+    pub(crate) fn target(&mut self, quantity: &str, target: &str, measured: &str, met: bool) {
+        eprintln!("{quantity}: {measured} ({target})");
         let met = if met { "yes" } else { "**no**" };
         // Writing to a string does not fail.
-        let _ = writeln!(self.targets, "| {what} | {target} | {measured} | {met} |");
+        let _ = writeln!(self.targets, "| {quantity} | {target} | {measured} | {met} |");
     }
 
     /// Another table.
     pub(crate) fn table(&mut self, title: &str, head: &[&str], rows: &[Vec<String>]) {
-        let line = |cells: &[&str]| format!("| {} |\n", cells.join(" | "));
-        let mut table = format!("\n### {title}\n\n{}", line(head));
-        table += &line(&vec!["---"; head.len()]);
+        let mut table = format!("\n### {title}\n\n| {} |\n", head.join(" | "));
+        table += &format!("| {} |\n", vec!["---"; head.len()].join(" | "));
         for row in rows {
-            table += &line(&row.iter().map(String::as_str).collect::<Vec<_>>());
+            table += &format!("| {} |\n", row.join(" | "));
         }
         eprintln!("{table}");
         self.rest += &table;
     }
 
-    /// All of it, with the machine it was measured on.
+    /// All tables, with the machine on which they were measured.
     pub(crate) fn text(&self) -> String {
         let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
         let load = load.split_whitespace().next().unwrap_or("unknown").to_owned();
-        let rustc = told_by("rustc", &["--version"]);
-        let sources = told_by("git", &["describe", "--always", "--dirty", "--tags"]);
+        let rustc = command_output("rustc", &["--version"]);
+        let sources = command_output("git", &["describe", "--always", "--dirty", "--tags"]);
         format!(
             "{}, {} processors, {} cache, load {load} at the end; {rustc}, no target \
              features beyond the default; basemat {}, sources {sources}.\n\n{}{}",

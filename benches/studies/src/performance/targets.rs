@@ -1,118 +1,127 @@
 //! Measured quantities and their targets.
 
-use super::child::{Scene, Taken, containment, measure};
-use super::histories::{alone, bounded, coefficients, direct, exponent, growth, relaxed};
+use super::child::{RunCost, RunScene, containment, measure};
+use super::histories::{
+    GrowthPoint, bounded, coefficients, direct, exponent, growth, history_cost, relaxed,
+};
 use super::report::{Report, timed};
 use crate::AnyError;
 use basemat_problems::headline::{ROWS, STEPS};
 
-/// The least processor time of `repeats` runs, and the least of all else.
-fn best(scene: Scene, steps: usize, threads: usize, repeats: usize) -> Result<Taken, AnyError> {
+/// The smallest times and memory of `repeats` runs.
+fn best(
+    scene: RunScene,
+    steps: usize,
+    threads: usize,
+    repeats: usize,
+) -> Result<RunCost, AnyError> {
     let mut best = measure(scene, steps, threads)?;
     for _ in 1..repeats {
-        let taken = measure(scene, steps, threads)?;
-        best = Taken {
-            seconds: best.seconds.min(taken.seconds),
-            march: best.march.min(taken.march),
-            wall: best.wall.min(taken.wall),
-            peak: best.peak.min(taken.peak),
-            slowest: best.slowest.min(taken.slowest),
+        let cost = measure(scene, steps, threads)?;
+        best = RunCost {
+            seconds: best.seconds.min(cost.seconds),
+            march: best.march.min(cost.march),
+            wall: best.wall.min(cost.wall),
+            peak: best.peak.min(cost.peak),
+            slowest: best.slowest.min(cost.slowest),
         };
     }
     Ok(best)
 }
 
-/// Unknown is not a miss.
+/// Whether the memory is below the limit, or unknown.
 fn within(peak: f64, limit: f64) -> bool {
     peak.is_nan() || peak < limit
 }
 
-/// Whole runs.
+/// Measures whole runs.
 pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
     let repeats = if short { 1 } else { 3 };
     for (name, scene) in [
-        ("bonded", Scene::Bonded),
-        ("friction 0.4", Scene::Friction),
-        ("friction 0.4, graded elements", Scene::Graded),
+        ("bonded", RunScene::Bonded),
+        ("friction 0.4", RunScene::Friction),
+        ("friction 0.4, graded elements", RunScene::Graded),
     ] {
-        let taken = best(scene, STEPS, 1, repeats)?;
+        let cost = best(scene, STEPS, 1, repeats)?;
         report.target(
             &format!("headline run, {name}: whole, setup included"),
             "< 0.7 s",
             &format!(
                 "{:.2} s ({:.1} µs per step; slowest step {:.2} ms)",
-                taken.seconds,
-                1e6 * taken.seconds / STEPS as f64,
-                1e3 * taken.slowest
+                cost.seconds,
+                1e6 * cost.seconds / STEPS as f64,
+                1e3 * cost.slowest
             ),
-            taken.seconds < 0.7,
+            cost.seconds < 0.7,
         );
         report.target(
             "its peak resident memory",
             "< 15 MB",
-            &format!("{:.1} MB", taken.peak),
-            within(taken.peak, 15.0),
+            &format!("{:.1} MB", cost.peak),
+            within(cost.peak, 15.0),
         );
     }
     let steps = if short { 100_000 } else { 1_000_000 };
-    let taken = best(Scene::Long, steps, 1, 1)?;
+    let cost = best(RunScene::Long, steps, 1, 1)?;
     report.target(
         &format!("{steps} steps, 10 elements, friction 0.4, the record repeated"),
         "< 10 s",
         &format!(
             "{:.1} s ({:.1} µs per step; {:.1} MB)",
-            taken.seconds,
-            1e6 * taken.seconds / steps as f64,
-            taken.peak
+            cost.seconds,
+            1e6 * cost.seconds / steps as f64,
+            cost.peak
         ),
-        taken.seconds < 10.0 && within(taken.peak, 15.0),
+        cost.seconds < 10.0 && within(cost.peak, 15.0),
     );
     let steps = if short { 4_000 } else { STEPS };
-    let taken = measure(Scene::Wide, steps, 1)?;
-    let whole = taken.seconds * STEPS as f64 / steps as f64;
-    let [_, march, _] = alone(relaxed, 200, steps, 1)?;
+    let cost = measure(RunScene::Wide, steps, 1)?;
+    let scaled = cost.seconds * STEPS as f64 / steps as f64;
+    let march = history_cost(relaxed, 200, steps, 1)?.march;
     report.target(
         "200 contact elements, rigid block, bonded, 54 000 steps: whole run",
         "< 20 s",
         &format!(
-            "{whole:.1} s{} ({:.0} µs per step, {:.0} of them history; slowest step {:.0} ms; {:.0} MB)",
+            "{scaled:.1} s{} ({:.0} µs per step, {:.0} of them history; slowest step {:.0} ms; {:.0} MB)",
             if short { format!(", scaled from {steps} steps") } else { String::new() },
-            1e6 * taken.seconds / steps as f64,
+            1e6 * cost.seconds / steps as f64,
             1e6 * march / steps as f64,
-            1e3 * taken.slowest,
-            taken.peak,
+            1e3 * cost.slowest,
+            cost.peak,
         ),
-        whole < 20.0,
+        scaled < 20.0,
     );
-    let [seconds, wall] = containment()?;
+    let example = containment()?;
     report.target(
         "example `containment` as it is: five cases, 34 × 80 ft, full record, files and plots",
         "< 4 s",
-        &format!("{wall:.2} s by the clock, {seconds:.2} s of processors"),
-        wall < 4.0,
+        &format!("{:.2} s by the clock, {:.2} s of processors", example[1], example[0]),
+        example[1] < 4.0,
     );
     Ok(())
 }
 
-/// Convolutions and coefficients by themselves.
+/// Measures convolutions and their weights.
 pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError> {
     // The direct sum costs its N² multiply–adds at a rate that is constant from here on.
     let steps: usize = if short { 3_000 } else { 8_000 };
     let seconds = direct(10, steps)?;
     let rate = 100.0 * (steps as f64).powi(2) / seconds;
-    let whole = seconds * (STEPS as f64 / steps as f64).powi(2);
-    let [setup, total, slowest] = alone(bounded, 10, STEPS, 3)?;
+    let scaled = seconds * (STEPS as f64 / steps as f64).powi(2);
+    let exponentials = history_cost(bounded, 10, STEPS, 3)?;
     report.target(
         "history alone, 10 elements, 54 000 steps: direct over exponentials at 1e-12",
         "≥ 200",
         &format!(
-            "{:.0} ({total:.3} s, setup {setup:.3} s, slowest step {:.1} ms; direct {whole:.0} s \
+            "{:.0} ({:.3} s, setup {:.3} s, slowest step {:.1} ms; direct {scaled:.0} s \
              at {:.2} G multiply–adds/s, scaled by N² from {steps} steps)",
-            whole / total,
-            1e3 * slowest,
+            scaled / exponentials.march,
+            exponentials.march,
+            exponentials.setup,
+            1e3 * exponentials.slowest_step,
             1e-9 * rate,
         ),
-        whole / total >= 200.0,
+        scaled / exponentials.march >= 200.0,
     );
     let longest = if short { 100_000 } else { 1_000_000 };
     let growths = [growth(relaxed, longest)?, growth(bounded, longest)?];
@@ -135,11 +144,11 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         .points
         .iter()
         .zip(&growths[1].points)
-        .map(|(one, two)| {
-            let mut row = vec![one.0.to_string()];
-            for (steps, total, slowest) in [one, two] {
-                row.push(format!("{:.2}", 1e6 * total / *steps as f64));
-                row.push(format!("{:.2}", 1e3 * slowest));
+        .map(|(transforms, exponentials)| {
+            let mut row = vec![transforms.steps.to_string()];
+            for point in [transforms, exponentials] {
+                row.push(format!("{:.2}", 1e6 * point.march / point.steps as f64));
+                row.push(format!("{:.2}", 1e3 * point.slowest_step));
             }
             row
         })
@@ -160,17 +169,18 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     );
     let head = ["steps", "µs per step", "slowest step, ms"];
     let mut points = Vec::new();
-    // Fewer steps would be made in degrees of freedom, not in modes.
+    // With fewer steps, the simulation would use degrees of freedom instead of modes.
     for steps in [10_000, 100_000, 1_000_000, 10_000_000].into_iter().filter(|n| *n <= 10 * longest)
     {
-        let taken = best(Scene::Long, steps, 1, if steps > 10_000 { 1 } else { 3 })?;
-        points.push((steps, taken.march, taken.slowest));
+        let cost = best(RunScene::Long, steps, 1, if steps > 10_000 { 1 } else { 3 })?;
+        points.push(GrowthPoint { steps, march: cost.march, slowest_step: cost.slowest });
     }
     let rows: Vec<_> = points
         .iter()
-        .map(|&(steps, total, slowest)| {
-            let each = 1e6 * total / steps as f64;
-            vec![steps.to_string(), format!("{each:.2}"), format!("{:.1}", 1e3 * slowest)]
+        .map(|point| {
+            let step_time = 1e6 * point.march / point.steps as f64;
+            let slowest_step = 1e3 * point.slowest_step;
+            vec![point.steps.to_string(), format!("{step_time:.2}"), format!("{slowest_step:.1}")]
         })
         .collect();
     let exponent = exponent(&points);
@@ -182,9 +192,9 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     let mut rows = Vec::new();
     for count in if short { &[10, 40][..] } else { &[10, 20, 40, 80, 200] } {
         let mut row = vec![count.to_string()];
-        for make in [relaxed, bounded] {
-            let [setup, total, _] = alone(make, *count, 10_000, 2)?;
-            row.extend([format!("{setup:.3}"), format!("{:.2}", 100.0 * total)]);
+        for prepare in [relaxed, bounded] {
+            let cost = history_cost(prepare, *count, 10_000, 2)?;
+            row.extend([format!("{:.3}", cost.setup), format!("{:.2}", 100.0 * cost.march)]);
         }
         rows.push(row);
     }
@@ -199,23 +209,25 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     Ok(())
 }
 
-/// Time per step of each scene.
+/// Measures the time per step of each scene.
 pub(crate) fn scenes(report: &mut Report, short: bool) -> Result<(), AnyError> {
-    let (steps, repeats) = if short { (2_000, 1) } else { (10_000, 3) };
+    let steps = if short { 2_000 } else { 10_000 };
+    let repeats = if short { 1 } else { 3 };
     let mut rows = Vec::new();
     for scene in &ROWS {
-        let [mut least, mut build] = [f64::INFINITY; 2];
+        let mut march = f64::INFINITY;
+        let mut build = f64::INFINITY;
         for _ in 0..repeats {
-            let (simulation, seconds) = timed(|| scene.build(steps));
-            build = build.min(seconds);
-            let mut simulation = simulation?;
-            let (sum, seconds) = timed(|| scene.march(&mut simulation, steps));
-            std::hint::black_box(sum?);
-            least = least.min(seconds);
+            let timed_build = timed(|| scene.build(steps));
+            build = build.min(timed_build.seconds);
+            let mut simulation = timed_build.result?;
+            let timed_march = timed(|| scene.march(&mut simulation, steps));
+            std::hint::black_box(timed_march.result?);
+            march = march.min(timed_march.seconds);
         }
         rows.push(vec![
             scene.name.into(),
-            format!("{:.1}", 1e6 * least / steps as f64),
+            format!("{:.1}", 1e6 * march / steps as f64),
             format!("{:.0}", 1e3 * build),
             scene.left_out.into(),
         ]);
@@ -228,24 +240,25 @@ pub(crate) fn scenes(report: &mut Report, short: bool) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// One and two threads.
+/// Measures a sweep on one and on two threads.
 pub(crate) fn sweep(report: &mut Report, short: bool) -> Result<(), AnyError> {
     if cfg!(not(feature = "rayon")) {
         return Ok(());
     }
-    let (steps, repeats) = if short { (4_000, 1) } else { (20_000, 3) };
-    let [one, two] = [1, 2].map(|threads| best(Scene::Sweep, steps, threads, repeats));
-    let (one, two) = (one?, two?);
-    let rows: Vec<_> = [("1", one), ("2", two)]
+    let steps = if short { 4_000 } else { 20_000 };
+    let repeats = if short { 1 } else { 3 };
+    let one_thread = best(RunScene::Sweep, steps, 1, repeats)?;
+    let two_threads = best(RunScene::Sweep, steps, 2, repeats)?;
+    let rows: Vec<_> = [("1", one_thread), ("2", two_threads)]
         .iter()
-        .map(|(threads, taken)| {
+        .map(|(threads, cost)| {
             vec![
                 (*threads).into(),
-                format!("{:.2}", taken.wall),
-                format!("{:.2}", taken.seconds),
-                format!("{:.2}", one.wall / taken.wall),
-                format!("{:.2}", taken.seconds / one.seconds),
-                format!("{:.0}", taken.peak),
+                format!("{:.2}", cost.wall),
+                format!("{:.2}", cost.seconds),
+                format!("{:.2}", one_thread.wall / cost.wall),
+                format!("{:.2}", cost.seconds / one_thread.seconds),
+                format!("{:.0}", cost.peak),
             ]
         })
         .collect();

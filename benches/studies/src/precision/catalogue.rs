@@ -1,4 +1,4 @@
-//! The scenes that are computed.
+//! The scenes of the study.
 
 use basemat::Soil;
 use basemat::coupled::SimulationBuilder;
@@ -9,115 +9,117 @@ use basemat::structure::RigidBlock;
 use basemat_problems::containment::{Containment, FOOT};
 use basemat_problems::tabled_structures::three_storeys;
 
-use super::force::Force;
-use super::scene::Scene;
+use super::force::ForceSeries;
+use super::scene::PrecisionScene;
 use crate::AnyError;
 
 /// A block of a reference table: base from −1 to 1, μ = ρ = c_S = 1, bonded, under a Ricker pulse.
-pub(crate) struct Table {
+pub(crate) struct BlockTable {
     name: &'static str,
     /// After `td_`.
     file: &'static str,
     poisson: f64,
-    structure: Structure,
+    structure: TableStructure,
 }
 
 #[derive(Clone, Copy)]
-enum Structure {
+enum TableStructure {
     /// Height and density.
     Block(f64, f64),
     Building,
 }
 
 /// The scenes with tables; the first is swept.
-pub(crate) const TABLES: [Table; 7] = [
-    Table {
+pub(crate) const BLOCK_TABLES: [BlockTable; 7] = [
+    BlockTable {
         name: "block, ν = 1/3",
         file: "block_SV_nu0333_h2_rho1",
         poisson: 1.0 / 3.0,
-        structure: Structure::Block(2.0, 1.0),
+        structure: TableStructure::Block(2.0, 1.0),
     },
-    Table {
+    BlockTable {
         name: "block, ν = 1/4",
         file: "block_SV_nu025_h2_rho1",
         poisson: 0.25,
-        structure: Structure::Block(2.0, 1.0),
+        structure: TableStructure::Block(2.0, 1.0),
     },
-    Table {
+    BlockTable {
         name: "squat block",
         file: "block_SV_nu0333_h1_rho1",
         poisson: 1.0 / 3.0,
-        structure: Structure::Block(1.0, 1.0),
+        structure: TableStructure::Block(1.0, 1.0),
     },
-    Table {
+    BlockTable {
         name: "squat, ν = 1/4",
         file: "block_SV_nu025_h1_rho1",
         poisson: 0.25,
-        structure: Structure::Block(1.0, 1.0),
+        structure: TableStructure::Block(1.0, 1.0),
     },
-    Table {
+    BlockTable {
         name: "slender block",
         file: "block_SV_nu0333_h4_rho0.5",
         poisson: 1.0 / 3.0,
-        structure: Structure::Block(4.0, 0.5),
+        structure: TableStructure::Block(4.0, 0.5),
     },
-    Table {
+    BlockTable {
         name: "slender, ν = 1/4",
         file: "block_SV_nu025_h4_rho0.5",
         poisson: 0.25,
-        structure: Structure::Block(4.0, 0.5),
+        structure: TableStructure::Block(4.0, 0.5),
     },
-    Table {
+    BlockTable {
         name: "shear building",
         file: "shearbuilding3_SV_nu0333_sig1",
         poisson: 1.0 / 3.0,
-        structure: Structure::Building,
+        structure: TableStructure::Building,
     },
 ];
 
-impl Table {
-    /// The scene and its base shear.
-    pub(crate) fn open(&self) -> Result<(Scene, Force), AnyError> {
-        let force = Force::from_table(&format!("td_{}.csv", self.file), "V");
+impl BlockTable {
+    /// The tabled base shear.
+    pub(crate) fn force(&self) -> ForceSeries {
+        ForceSeries::from_table(&format!("td_{}.csv", self.file), "V")
+    }
+
+    pub(crate) fn scene(&self) -> Result<PrecisionScene, AnyError> {
         let structure = self.structure;
-        let scene = Scene {
+        Ok(PrecisionScene {
             name: self.name,
             soil: Soil::new(1.0, self.poisson, 1.0)?,
             width: 2.0,
-            duration: force.duration(),
+            duration: self.force().duration(),
             parts: Box::new(move |builder| {
                 let builder = match structure {
-                    Structure::Block(height, density) => {
+                    TableStructure::Block(height, density) => {
                         builder.structure(RigidBlock::new(2.0, height, density)?)
                     }
-                    Structure::Building => builder.structure(three_storeys()?),
+                    TableStructure::Building => builder.structure(three_storeys()?),
                 };
                 let pulse = RickerDisplacement::new(1.0, 1.0, 5.0)?;
                 // Without dimensions, and without weight.
                 Ok(builder.interface(Bonded).motion(pulse).gravity(0.0))
             }),
-        };
-        Ok((scene, force))
+        })
     }
 }
 
-/// The containment of the example of that name, 15 ft wide and 35 ft high, under the first
-/// `duration` seconds of El Centro; bonded, or with friction. Ten columns of finite elements,
-/// whatever the ground's mesh.
+/// The example's containment, 15 ft wide and 35 ft high, under the first `duration` seconds of El Centro.
+///
+/// It is bonded or has friction. It has ten columns of finite elements for all meshes of the ground.
 pub(crate) fn containment(
     name: &'static str,
     friction: Option<f64>,
     duration: f64,
-) -> Result<Scene, AnyError> {
-    let small = Containment { width: 15.0, height: 35.0, ..Containment::default() };
-    Ok(Scene {
+) -> Result<PrecisionScene, AnyError> {
+    let containment = Containment { width: 15.0, height: 35.0, ..Containment::default() };
+    Ok(PrecisionScene {
         name,
-        soil: small.soil()?,
-        width: small.width * FOOT,
+        soil: containment.soil()?,
+        width: containment.width * FOOT,
         duration,
         parts: Box::new(move |builder| {
             let builder = builder
-                .structure(small.structure()?)
+                .structure(containment.structure()?)
                 .motion(el_centro_1940())
                 .gravity(STANDARD_GRAVITY);
             with_friction(builder, friction)

@@ -1,15 +1,16 @@
-//! Time series of the base shear, and how far one is from another.
+//! Time series of the base shear, and their errors.
 
 use basemat_problems::series::{Series, whole};
 use basemat_problems::table;
 
-/// Parts into which an interval of a table is cut.
-const PARTS: usize = 32;
+/// Short steps in an interval of a table.
+const INTERVAL_PARTS: usize = 32;
 
-/// A force that is constant in each of many short steps: the mean force of the step, as a run gives
-/// it, or as it follows from a table of instantaneous values.
+/// A force that is constant in each of many short steps, the mean force of the step.
+///
+/// It comes from a run, or from a table of instantaneous values.
 #[derive(Debug, Clone)]
-pub(crate) struct Force {
+pub(crate) struct ForceSeries {
     step: f64,
     means: Vec<f64>,
     /// ∫ force dt at the ends of the steps, from 0.
@@ -19,13 +20,13 @@ pub(crate) struct Force {
 /// Errors of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Errors {
-    /// Of the peak, relative to the peak.
+    /// Error of the peak, relative to the peak.
     pub(crate) peak: f64,
     /// Root of the summed squares over the history, relative to the history's.
     pub(crate) history: f64,
 }
 
-impl Force {
+impl ForceSeries {
     /// Means over steps of `step` seconds.
     pub(crate) fn new(step: f64, means: Vec<f64>) -> Self {
         let mut impulse = Vec::with_capacity(means.len() + 1);
@@ -41,8 +42,8 @@ impl Force {
     /// A column of a reference table from t = 0 on: cubics through the values, averaged over short steps.
     pub(crate) fn from_table(file: &str, column: &str) -> Self {
         let series = Series::new(&table(file), column);
-        let step = series.step() / PARTS as f64;
-        let count = PARTS * whole(series.duration() / series.step());
+        let step = series.step() / INTERVAL_PARTS as f64;
+        let count = INTERVAL_PARTS * whole(series.duration() / series.step());
         let means = (1..=count).map(|k| series.mean(k as f64 * step, step));
         Self::new(step, means.collect())
     }
@@ -54,30 +55,33 @@ impl Force {
 
     /// Largest magnitude.
     pub(crate) fn peak(&self) -> f64 {
-        self.means.iter().fold(0.0, |m, f| m.max(f.abs()))
+        self.means.iter().fold(0.0, |peak, force| peak.max(force.abs()))
     }
 
     /// ∫ force dt from 0 to `time`.
     fn impulse_at(&self, time: f64) -> f64 {
-        let place = (time / self.step).clamp(0.0, self.means.len() as f64);
+        let position = (time / self.step).clamp(0.0, self.means.len() as f64);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-        let index = (place as usize).min(self.means.len() - 1);
-        self.impulse[index] + (place - index as f64) * self.step * self.means[index]
+        let index = (position as usize).min(self.means.len() - 1);
+        self.impulse[index] + (position - index as f64) * self.step * self.means[index]
     }
 
-    /// Errors against a reference with shorter steps: the history is compared as means over this force's steps, the
-    /// peak as the largest of them against the reference's own.
+    /// Errors against a reference with shorter steps.
+    ///
+    /// Time series are compared as means over this force's steps, peaks as largest magnitudes.
     pub(crate) fn errors(&self, reference: &Self) -> Errors {
-        let (mut square, mut norm) = (0.0, 0.0);
-        for (k, found) in self.means.iter().enumerate() {
-            let [begin, end] = [k as f64 * self.step, (k + 1) as f64 * self.step];
-            // A step that only begins within the reference tells nothing.
+        let mut square = 0.0;
+        let mut norm = 0.0;
+        for (k, computed) in self.means.iter().enumerate() {
+            let begin = k as f64 * self.step;
+            let end = (k + 1) as f64 * self.step;
+            // A step that ends after the reference is not compared.
             if end > reference.duration() * (1.0 + 1e-9) {
                 break;
             }
-            let wanted = (reference.impulse_at(end) - reference.impulse_at(begin)) / self.step;
-            square += (found - wanted).powi(2);
-            norm += wanted * wanted;
+            let expected = (reference.impulse_at(end) - reference.impulse_at(begin)) / self.step;
+            square += (computed - expected).powi(2);
+            norm += expected * expected;
         }
         let peak = reference.peak();
         Errors { peak: (self.peak() - peak).abs() / peak, history: (square / norm).sqrt() }

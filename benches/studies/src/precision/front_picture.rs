@@ -1,19 +1,21 @@
-//! One picture and one table to read settings from.
+//! Picture and table of settings and their errors.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 use std::path::Path;
 
 use basemat::bem::Grading;
 use basemat::coupled::Coordinates;
 use plotters::prelude::*;
 
-use super::front::{Family, Line, Point};
+use super::front::{FrontLine, FrontPoint, LineFamily};
 use crate::AnyError;
-use crate::key::{self, Sample};
+use crate::key::{self, KeySample};
 
-const SIZE: (u32, u32) = (1200, 720);
+/// Width and height, pixels.
+const PICTURE_SIZE: (u32, u32) = (1200, 720);
 
-const COLORS: [RGBColor; 13] = [
+const LINE_COLORS: [RGBColor; 13] = [
     RGBColor(44, 160, 44),
     RGBColor(188, 189, 34),
     RGBColor(0, 100, 0),
@@ -29,24 +31,30 @@ const COLORS: [RGBColor; 13] = [
     RGBColor(255, 120, 120),
 ];
 
-/// Error downwards from left to right, processor time upwards, a line a family.
-pub(crate) fn draw(path: &Path, lines: &[Line]) -> Result<(), AnyError> {
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+/// Smallest and largest value of all points.
+fn range(lines: &[FrontLine], value: impl Fn(&FrontPoint) -> f64) -> Range<f64> {
+    let values = lines.iter().flat_map(|line| &line.points).map(value);
+    let empty = f64::INFINITY..0.0_f64;
+    values.fold(empty, |range, value| range.start.min(value)..range.end.max(value))
+}
+
+/// Draws processor time upwards over error, which decreases from left to right; a line for each family.
+pub(crate) fn draw(path: &Path, lines: &[FrontLine]) -> Result<(), AnyError> {
+    let root = SVGBackend::new(path, PICTURE_SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let title = "Which settings for which error: points are elements, time step in ms";
     let body = root.titled(title, ("sans-serif", 24))?;
-    let colors = || COLORS.into_iter().cycle();
+    let colors = LINE_COLORS.into_iter().cycle();
     let entries: Vec<_> = lines
         .iter()
-        .zip(colors())
-        .map(|(line, color)| (line.family.name.to_owned(), Sample::Line(color)))
+        .zip(colors.clone())
+        .map(|(line, color)| (line.family.name.to_owned(), KeySample::Line(color)))
         .collect();
     let body = key::draw(&body, 30, &entries)?;
-    let points = || lines.iter().flat_map(|line| &line.points);
-    let most = |value: fn(&Point) -> f64| points().map(value).fold(0.0, f64::max);
-    let least = |value: fn(&Point) -> f64| points().map(value).fold(f64::INFINITY, f64::min);
-    let errors = 1.6 * most(|p| p.error)..0.5 * least(|p| p.error);
-    let times = 0.6 * least(|p| p.seconds)..2.0 * most(|p| p.seconds);
+    let error_range = range(lines, |point| point.error);
+    let time_range = range(lines, |point| point.seconds);
+    let errors = 1.6 * error_range.end..0.5 * error_range.start;
+    let times = 0.6 * time_range.start..2.0 * time_range.end;
     let mut chart = ChartBuilder::on(&body)
         .margin(14)
         .x_label_area_size(48)
@@ -62,14 +70,15 @@ pub(crate) fn draw(path: &Path, lines: &[Line]) -> Result<(), AnyError> {
         .axis_desc_style(("sans-serif", 17))
         .light_line_style(WHITE)
         .draw()?;
-    for (line, color) in lines.iter().zip(colors()) {
-        let places = || line.points.iter().map(|p| (p.error, p.seconds));
-        chart.draw_series(LineSeries::new(places(), color.stroke_width(2)))?;
-        chart.draw_series(places().map(|at| Circle::new(at, 4, color.filled())))?;
+    for (line, color) in lines.iter().zip(colors) {
+        let positions = line.points.iter().map(|point| (point.error, point.seconds));
+        chart.draw_series(LineSeries::new(positions.clone(), color.stroke_width(2)))?;
+        chart.draw_series(positions.map(|at| Circle::new(at, 4, color.filled())))?;
         let style = ("sans-serif", 12).into_font().color(&color);
-        chart.draw_series(line.points.iter().map(|p| {
-            let label = format!("{}, {}", p.elements, 1e3 * p.time_step);
-            EmptyElement::at((p.error, p.seconds)) + Text::new(label, (5, -12), style.clone())
+        chart.draw_series(line.points.iter().map(|point| {
+            let label = format!("{}, {}", point.elements, 1e3 * point.time_step);
+            EmptyElement::at((point.error, point.seconds))
+                + Text::new(label, (5, -12), style.clone())
         }))?;
     }
     root.present()?;
@@ -77,7 +86,7 @@ pub(crate) fn draw(path: &Path, lines: &[Line]) -> Result<(), AnyError> {
 }
 
 /// The fastest settings of each scene within 5, 1 and 0.3 %.
-pub(crate) fn table(lines: &[Line]) -> Result<String, AnyError> {
+pub(crate) fn table(lines: &[FrontLine]) -> Result<String, AnyError> {
     let tolerances = [0.05, 0.01, 0.003];
     let mut text = "| scene: graded elements, Δt, coordinates: time | 5 % | 1 % | 0.3 % |\n|---|---|---|---|\n".to_owned();
     let mut groups: Vec<&str> = lines.iter().map(|line| line.family.group).collect();
@@ -85,8 +94,9 @@ pub(crate) fn table(lines: &[Line]) -> Result<String, AnyError> {
     for group in groups {
         write!(text, "| {group} |")?;
         for tolerance in tolerances {
-            let of_group = lines.iter().filter(|line| line.family.group == group);
-            let points = of_group.flat_map(|line| line.points.iter().map(|p| (&line.family, p)));
+            let group_lines = lines.iter().filter(|line| line.family.group == group);
+            let points =
+                group_lines.flat_map(|line| line.points.iter().map(|point| (&line.family, point)));
             let best = points
                 .filter(|(_, point)| point.error <= tolerance)
                 .min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
@@ -100,7 +110,7 @@ pub(crate) fn table(lines: &[Line]) -> Result<String, AnyError> {
     Ok(text)
 }
 
-fn cell(family: &Family, point: &Point) -> String {
+fn cell(family: &LineFamily, point: &FrontPoint) -> String {
     let grading = match family.grading {
         Grading::Uniform => " equal",
         _ => "",
@@ -111,6 +121,8 @@ fn cell(family: &Family, point: &Point) -> String {
         Coordinates::Reduced { tolerance } => format!("reduced {tolerance:.0e}"),
         _ => "automatic".to_owned(),
     };
-    let (elements, step, seconds) = (point.elements, 1e3 * point.time_step, point.seconds);
+    let elements = point.elements;
+    let step = 1e3 * point.time_step;
+    let seconds = point.seconds;
     format!("{elements}{grading}, {step} ms, {coordinates}: {seconds:.2} s")
 }

@@ -1,7 +1,7 @@
-//! Error of the base shear against processor time: a rigid block with a reference table, the
-//! containment of the example of that name cut to five seconds, and towers of 300 to 30 000 degrees of freedom.
+//! Error of the base shear against processor time.
 //!
-//! Swept are elements, grading, time step, history and time scheme, and coordinates of the towers. The content of
+//! Scenes are a rigid block with a reference table, five seconds of the containment of the example of that name, and
+//! towers of 300 to 30 000 degrees of freedom. The study varies elements, grading, time step, history and time scheme, and coordinates of the towers. The content of
 //! `benches/studies/tables/precision.md` comes from
 //!
 //! ```text
@@ -26,14 +26,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::AnyError;
 use crate::document::splice;
-use sweep::Sweep;
+use sweep::SettingsSweep;
 
 /// Error of the base shear against processor time, over meshes, time steps, histories and schemes.
 ///
 /// Prints tables, and writes points.csv, tables.md and SVG plots.
 #[derive(Debug, Clone, clap::Args)]
 #[allow(clippy::struct_excessive_bools, reason = "flags of a command")]
-pub(crate) struct Options {
+pub(crate) struct PrecisionOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/precision")]
     pub(crate) out: PathBuf,
@@ -58,7 +58,7 @@ pub(crate) struct Options {
     pub(crate) repeats: u8,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &PrecisionOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
     if options.space {
         return space::run(options.short, options.docs.is_some(), options.reference);
@@ -70,12 +70,12 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         front_picture::draw(&options.out.join("work_precision.svg"), &lines)?;
         return front::write(&options.out.join("front.csv"), &lines);
     }
-    let sweeps = Sweep::list(options.short)?;
+    let sweeps = SettingsSweep::list(options.short)?;
     let runs = sweeps.iter().map(|sweep| sweep.settings.len() as u64).sum();
     let bar = ProgressBar::new(runs);
     bar.set_style(ProgressStyle::with_template("{prefix:>26} {bar:40} {pos}/{len} runs")?);
 
-    // One run at a time: two would share caches and memory, and slow each other down.
+    // One run at a time: two runs would compete for caches and memory.
     let mut outcomes = Vec::with_capacity(sweeps.len());
     for sweep in sweeps {
         bar.set_prefix(sweep.scene.name);
@@ -112,7 +112,7 @@ fn file_stem(scene: &str) -> String {
     let name = scene.replace("ν = 1/", "nu_").replace("0.", "0_");
     let words: Vec<&str> = name
         .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
-        .filter(|w| !w.is_empty())
+        .filter(|word| !word.is_empty())
         .collect();
     format!("work_precision_{}", words.join("_"))
 }

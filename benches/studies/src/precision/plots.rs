@@ -1,19 +1,21 @@
 //! Error against time, in logarithms.
 
+use std::ops::Range;
 use std::path::Path;
 
 use basemat::bem::Grading;
 use plotters::prelude::*;
 
-use super::settings::{HISTORIES, Past, SCHEMES, Scheme};
-use super::sweep::{Outcome, Point};
+use super::settings::{HISTORY_METHODS, HistorySetting, OTHER_SCHEMES, TimeScheme};
+use super::sweep::{SweepOutcome, SweepPoint};
 use crate::AnyError;
-use crate::key::{self, Area, Sample};
+use crate::key::{self, KeySample, SheetArea};
 
-const SIZE: (u32, u32) = (1480, 620);
-const FRONT: RGBColor = RGBColor(214, 39, 40);
+/// Width and height, pixels.
+const PICTURE_SIZE: (u32, u32) = (1480, 620);
+const FRONT_COLOR: RGBColor = RGBColor(214, 39, 40);
 
-type Chart<'a, 'b> = ChartContext<
+type LogChart<'a, 'b> = ChartContext<
     'a,
     SVGBackend<'b>,
     Cartesian2d<
@@ -23,24 +25,24 @@ type Chart<'a, 'b> = ChartContext<
 >;
 
 /// A family of points with its name, colour and shape.
-struct Family {
+struct PointFamily {
     name: String,
     color: RGBColor,
-    shape: Shape,
+    shape: MarkerShape,
     grading: Grading,
-    history: Past,
-    scheme: Scheme,
+    history: HistorySetting,
+    scheme: TimeScheme,
 }
 
 #[derive(Clone, Copy)]
-enum Shape {
+enum MarkerShape {
     Circle,
     Triangle,
     Cross,
     Ring,
 }
 
-fn families() -> Vec<Family> {
+fn families() -> Vec<PointFamily> {
     let colors = [
         RGBColor(31, 119, 180),
         RGBColor(148, 103, 189),
@@ -51,63 +53,64 @@ fn families() -> Vec<Family> {
         RGBColor(140, 86, 75),
         RGBColor(227, 119, 194),
     ];
-    let kinds = HISTORIES
+    let kinds = HISTORY_METHODS
         .iter()
-        .map(|&history| (history.name.to_owned(), history, Scheme::Midpoint))
-        .chain(SCHEMES.iter().map(|&scheme| (scheme.name(), HISTORIES[0], scheme)));
+        .map(|&history| (history.name.to_owned(), history, TimeScheme::Midpoint))
+        .chain(OTHER_SCHEMES.iter().map(|&scheme| (scheme.name(), HISTORY_METHODS[0], scheme)));
     let mut list = Vec::new();
     for ((name, history, scheme), color) in kinds.zip(colors.iter().cycle()) {
         let shapes = match scheme {
-            Scheme::Midpoint => [Shape::Circle, Shape::Triangle],
-            _ => [Shape::Cross, Shape::Ring],
+            TimeScheme::Midpoint => [MarkerShape::Circle, MarkerShape::Triangle],
+            _ => [MarkerShape::Cross, MarkerShape::Ring],
         };
         let gradings = [(Grading::Uniform, "uniform"), (Grading::Cosine, "cosine")];
-        for ((grading, word), shape) in gradings.into_iter().zip(shapes) {
-            let name = format!("{word}, {name}");
-            list.push(Family { name, color: *color, shape, grading, history, scheme });
+        for ((grading, grading_name), shape) in gradings.into_iter().zip(shapes) {
+            let name = format!("{grading_name}, {name}");
+            list.push(PointFamily { name, color: *color, shape, grading, history, scheme });
         }
     }
     list
 }
 
-/// One file: the history's error on the left, the peak's on the right.
-pub(crate) fn draw(path: &Path, sweep: &Outcome) -> Result<(), AnyError> {
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+/// Draws the error of the history on the left, of the peak on the right.
+pub(crate) fn draw(path: &Path, sweep: &SweepOutcome) -> Result<(), AnyError> {
+    let root = SVGBackend::new(path, PICTURE_SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let title = format!("Base shear, {}: error against processor time", sweep.scene);
     let body = root.titled(&title, ("sans-serif", 24))?;
-    let mut entries = vec![("front: none faster and closer".to_owned(), Sample::Line(FRONT))];
+    let mut entries =
+        vec![("front: none faster and closer".to_owned(), KeySample::Line(FRONT_COLOR))];
     let families = families().into_iter();
-    let there = families.filter(|family| sweep.points.iter().any(|point| family.holds(point)));
-    entries.extend(there.map(|family| (family.name.clone(), family.sample())));
+    let used = families.filter(|family| sweep.points.iter().any(|point| family.contains(point)));
+    entries.extend(used.map(|family| (family.name.clone(), family.sample())));
     let body = key::draw(&body, 30, &entries)?;
     let halves = body.split_evenly((1, 2));
-    panel(&halves[0], "error of the history (relative L2)", sweep, true, |p| p.errors.history)?;
-    panel(&halves[1], "error of the peak (relative)", sweep, false, |p| p.errors.peak)?;
+    draw_panel(&halves[0], "error of the history (relative L2)", sweep, true, |point| {
+        point.errors.history
+    })?;
+    draw_panel(&halves[1], "error of the peak (relative)", sweep, false, |point| {
+        point.errors.peak
+    })?;
     root.present()?;
     Ok(())
 }
 
-fn panel(
-    area: &Area,
+fn draw_panel(
+    area: &SheetArea,
     label: &str,
-    sweep: &Outcome,
+    sweep: &SweepOutcome,
     front: bool,
-    value: impl Fn(&Point) -> f64,
+    value: impl Fn(&SweepPoint) -> f64,
 ) -> Result<(), AnyError> {
     // Peaks can agree by chance to any digit.
-    let place = |point: &Point| (point.seconds, value(point).max(1e-5));
-    let range = |pick: &dyn Fn(&Point) -> f64| {
-        let values = || sweep.points.iter().map(pick);
-        let low = values().fold(f64::INFINITY, f64::min);
-        0.6 * low..1.8 * values().fold(0.0, f64::max)
-    };
-    let errors = range(&|p| place(p).1);
-    let mut chart: Chart = ChartBuilder::on(area)
+    let position = |point: &SweepPoint| (point.seconds, value(point).max(1e-5));
+    let errors = axis_range(sweep.points.iter().map(|point| position(point).1));
+    let times = axis_range(sweep.points.iter().map(|point| point.seconds));
+    let mut chart: LogChart = ChartBuilder::on(area)
         .margin(14)
         .x_label_area_size(48)
         .y_label_area_size(76)
-        .build_cartesian_2d(range(&|p| place(p).0).log_scale(), errors.log_scale())?;
+        .build_cartesian_2d(times.log_scale(), errors.log_scale())?;
     chart
         .configure_mesh()
         .x_desc("processor time, s")
@@ -120,13 +123,14 @@ fn panel(
         .light_line_style(WHITE)
         .draw()?;
     if front {
-        let mut line: Vec<_> = sweep.points.iter().filter(|point| point.front).map(place).collect();
+        let front = sweep.points.iter().filter(|point| point.front);
+        let mut line: Vec<_> = front.map(position).collect();
         line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        chart.draw_series(LineSeries::new(line, FRONT.stroke_width(2)))?;
+        chart.draw_series(LineSeries::new(line, FRONT_COLOR.stroke_width(2)))?;
     }
     for family in families() {
         let points: Vec<_> =
-            sweep.points.iter().filter(|point| family.holds(point)).map(place).collect();
+            sweep.points.iter().filter(|point| family.contains(point)).map(position).collect();
         if !points.is_empty() {
             family.draw(&mut chart, points)?;
         }
@@ -134,31 +138,44 @@ fn panel(
     Ok(())
 }
 
-impl Family {
-    fn holds(&self, point: &Point) -> bool {
-        let s = &point.settings;
-        s.grading == self.grading && s.history == self.history && s.scheme == self.scheme
+/// Range of a logarithmic axis, with margins.
+fn axis_range(values: impl Iterator<Item = f64> + Clone) -> Range<f64> {
+    let low = values.clone().fold(f64::INFINITY, f64::min);
+    0.6 * low..1.8 * values.fold(0.0, f64::max)
+}
+
+impl PointFamily {
+    fn contains(&self, point: &SweepPoint) -> bool {
+        let settings = &point.settings;
+        settings.grading == self.grading
+            && settings.history == self.history
+            && settings.scheme == self.scheme
     }
 
-    fn sample(&self) -> Sample {
+    fn sample(&self) -> KeySample {
         match self.shape {
-            Shape::Circle => Sample::Circle(self.color),
-            Shape::Triangle => Sample::Triangle(self.color),
-            Shape::Cross => Sample::Cross(self.color),
-            Shape::Ring => Sample::Ring(self.color),
+            MarkerShape::Circle => KeySample::Circle(self.color),
+            MarkerShape::Triangle => KeySample::Triangle(self.color),
+            MarkerShape::Cross => KeySample::Cross(self.color),
+            MarkerShape::Ring => KeySample::Ring(self.color),
         }
     }
 
-    fn draw(&self, chart: &mut Chart, points: Vec<(f64, f64)>) -> Result<(), AnyError> {
-        let (points, style) = (points.into_iter(), self.color.filled());
-        // Each shape is a type of its own.
+    fn draw(&self, chart: &mut LogChart, points: Vec<(f64, f64)>) -> Result<(), AnyError> {
+        let points = points.into_iter();
+        let style = self.color.filled();
+        // Each shape has another type.
         match self.shape {
-            Shape::Circle => chart.draw_series(points.map(|at| Circle::new(at, 4, style)))?,
-            Shape::Triangle => {
+            MarkerShape::Circle => chart.draw_series(points.map(|at| Circle::new(at, 4, style)))?,
+            MarkerShape::Triangle => {
                 chart.draw_series(points.map(|at| TriangleMarker::new(at, 5, style)))?
             }
-            Shape::Cross => chart.draw_series(points.map(|at| Cross::new(at, 4, self.color)))?,
-            Shape::Ring => chart.draw_series(points.map(|at| Circle::new(at, 4, self.color)))?,
+            MarkerShape::Cross => {
+                chart.draw_series(points.map(|at| Cross::new(at, 4, self.color)))?
+            }
+            MarkerShape::Ring => {
+                chart.draw_series(points.map(|at| Circle::new(at, 4, self.color)))?
+            }
         };
         Ok(())
     }

@@ -3,16 +3,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::force::Errors;
-use super::sweep::{Outcome, Point};
+use super::sweep::{SweepOutcome, SweepPoint};
 use crate::AnyError;
-use crate::document::{processor, threads, told_by, write_csv};
+use crate::document::{command_output, processor, threads, write_csv};
 
 /// Tolerances of the summary.
-const TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
+const SUMMARY_TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
 
 /// Writes every point of every sweep.
-pub(crate) fn write_points(path: &Path, sweeps: &[Outcome]) -> Result<(), AnyError> {
+pub(crate) fn write_points(path: &Path, sweeps: &[SweepOutcome]) -> Result<(), AnyError> {
     let points =
         sweeps.iter().flat_map(|sweep| sweep.points.iter().map(move |point| (sweep, point)));
     let columns = [
@@ -28,27 +27,27 @@ pub(crate) fn write_points(path: &Path, sweeps: &[Outcome]) -> Result<(), AnyErr
         "processor_s",
         "front",
     ];
-    let row = |(sweep, point): (&Outcome, &Point)| {
-        let s = &point.settings;
+    let rows = points.map(|(sweep, point)| {
+        let settings = &point.settings;
         [
             sweep.scene.to_owned(),
-            s.elements.to_string(),
-            s.grading_name().to_owned(),
-            s.time_step.to_string(),
-            (sweep.crossing / s.time_step).to_string(),
-            s.history.name.to_owned(),
-            s.scheme.name(),
+            settings.elements.to_string(),
+            settings.grading_name().to_owned(),
+            settings.time_step.to_string(),
+            (sweep.crossing / settings.time_step).to_string(),
+            settings.history.name.to_owned(),
+            settings.scheme.name(),
             format!("{:.4e}", point.errors.history),
             format!("{:.4e}", point.errors.peak),
             format!("{:.4e}", point.seconds),
             point.front.to_string(),
         ]
-    };
-    write_csv(path, columns, points.map(row))
+    });
+    write_csv(path, columns, rows)
 }
 
-/// Everything: fastest settings, fronts, every proposal.
-pub(crate) fn tables(sweeps: &[Outcome]) -> Result<String, AnyError> {
+/// All tables: fastest settings, and fronts.
+pub(crate) fn tables(sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
     let mut text = fastest(sweeps)?;
     for sweep in sweeps {
         writeln!(text, "\n{}: the front\n", capitalised(sweep.scene))?;
@@ -56,7 +55,7 @@ pub(crate) fn tables(sweeps: &[Outcome]) -> Result<String, AnyError> {
             "| elements | Δt/crossing | history, scheme | error: history | peak | time |\n\
              |---|---|---|---|---|---|\n",
         );
-        let mut front: Vec<&Point> = sweep.points.iter().filter(|point| point.front).collect();
+        let mut front: Vec<&SweepPoint> = sweep.points.iter().filter(|point| point.front).collect();
         front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
         for point in front {
             writeln!(text, "{}", row(point, sweep.crossing))?;
@@ -66,14 +65,14 @@ pub(crate) fn tables(sweeps: &[Outcome]) -> Result<String, AnyError> {
 }
 
 /// Part shown in the document: settings to read, and the accuracy of the containment's references.
-pub(crate) fn summary(settings: &str, sweeps: &[Outcome]) -> Result<String, AnyError> {
+pub(crate) fn summary(settings: &str, sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
     let mut text = format!("{}\n\n{settings}", machine());
-    doubts(&mut text, sweeps)?;
+    add_reference_errors(&mut text, sweeps)?;
     Ok(text)
 }
 
 /// Machine, the fastest settings for each tolerance, and how good the references are.
-fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
+fn fastest(sweeps: &[SweepOutcome]) -> Result<String, AnyError> {
     let mut text = format!(
         "{}\n\nThe fastest settings with both errors within the tolerance:\n\n\
          | scene | tolerance | elements | Δt/crossing | history, scheme | error: history | peak | \
@@ -81,10 +80,12 @@ fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
         machine()
     );
     for sweep in sweeps {
-        for tolerance in TOLERANCES {
-            let good = |errors: &Errors| errors.history.max(errors.peak) <= tolerance;
-            let points = sweep.points.iter().filter(|point| good(&point.errors));
-            let best = points.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        for tolerance in SUMMARY_TOLERANCES {
+            let accurate = sweep
+                .points
+                .iter()
+                .filter(|point| point.errors.history.max(point.errors.peak) <= tolerance);
+            let best = accurate.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
             write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
             match best {
                 Some(point) => writeln!(text, "{}", row(point, sweep.crossing))?,
@@ -92,20 +93,21 @@ fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
             }
         }
     }
-    doubts(&mut text, sweeps)?;
+    add_reference_errors(&mut text, sweeps)?;
     Ok(text)
 }
 
-fn doubts(text: &mut String, sweeps: &[Outcome]) -> Result<(), AnyError> {
+/// Adds the differences of coarser runs from the references.
+fn add_reference_errors(text: &mut String, sweeps: &[SweepOutcome]) -> Result<(), AnyError> {
     for sweep in sweeps {
-        if let Some(doubt) = sweep.doubt {
+        if let Some(error) = sweep.reference_error {
             writeln!(
                 text,
                 "\n{}: half the elements and twice the step of the reference differ from it by \
                  {:.1e} (history) and {:.1e} (peak).",
                 capitalised(sweep.scene),
-                doubt.history,
-                doubt.peak
+                error.history,
+                error.peak
             )?;
         }
     }
@@ -113,15 +115,15 @@ fn doubts(text: &mut String, sweeps: &[Outcome]) -> Result<(), AnyError> {
 }
 
 /// A point as cells of a table.
-fn row(point: &Point, crossing: f64) -> String {
-    let s = &point.settings;
+fn row(point: &SweepPoint, crossing: f64) -> String {
+    let settings = &point.settings;
     format!(
         "| {} {} | 1/{:.0} | {}, {} | {:.1e} | {:.1e} | {} |",
-        s.grading_name(),
-        s.elements,
-        crossing / s.time_step,
-        s.history.name,
-        s.scheme.name(),
+        settings.grading_name(),
+        settings.elements,
+        crossing / settings.time_step,
+        settings.history.name,
+        settings.scheme.name(),
         point.errors.history,
         point.errors.peak,
         time(point.seconds)
@@ -139,7 +141,7 @@ fn capitalised(text: &str) -> String {
 
 /// Processor and compiler.
 pub(crate) fn machine() -> String {
-    let compiler = told_by("rustc", &["--version"]);
+    let compiler = command_output("rustc", &["--version"]);
     let compiler = compiler.split(" (").next().unwrap_or_default();
     format!("Machine: {}, one thread of {}; {compiler}.", processor("model name"), threads())
 }

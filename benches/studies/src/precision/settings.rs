@@ -5,27 +5,39 @@ use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::{Result, Soil};
 
-/// Method by which the past is summed.
+/// Method of the convolution history.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Past {
+pub(crate) struct HistorySetting {
     pub(crate) name: &'static str,
-    kind: HistoryMethod,
-    /// Of the coefficients, where they are approximate.
+    method: HistoryMethod,
+    /// Tolerance of approximate convolution weights.
     tolerance: Option<f64>,
 }
 
-/// Convolutions that are compared. A new kind of [`HistoryMethod`] is one more line.
-pub(crate) const HISTORIES: [Past; 5] = [
-    Past { name: "transforms", kind: HistoryMethod::RelaxedFft, tolerance: None },
-    Past { name: "direct", kind: HistoryMethod::Direct, tolerance: None },
-    Past { name: "exponentials 1e-10", kind: HistoryMethod::Exponentials, tolerance: Some(1e-10) },
-    Past { name: "exponentials 1e-6", kind: HistoryMethod::Exponentials, tolerance: Some(1e-6) },
-    Past { name: "exponentials 1e-3", kind: HistoryMethod::Exponentials, tolerance: Some(1e-3) },
+/// History methods that are compared.
+pub(crate) const HISTORY_METHODS: [HistorySetting; 5] = [
+    HistorySetting { name: "transforms", method: HistoryMethod::RelaxedFft, tolerance: None },
+    HistorySetting { name: "direct", method: HistoryMethod::Direct, tolerance: None },
+    HistorySetting {
+        name: "exponentials 1e-10",
+        method: HistoryMethod::Exponentials,
+        tolerance: Some(1e-10),
+    },
+    HistorySetting {
+        name: "exponentials 1e-6",
+        method: HistoryMethod::Exponentials,
+        tolerance: Some(1e-6),
+    },
+    HistorySetting {
+        name: "exponentials 1e-3",
+        method: HistoryMethod::Exponentials,
+        tolerance: Some(1e-3),
+    },
 ];
 
-/// A time scheme of the structure. A new one is one more variant and its arms below.
+/// A time scheme of the structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Scheme {
+pub(crate) enum TimeScheme {
     Midpoint,
     Theta(f64),
     /// γ and β.
@@ -34,10 +46,10 @@ pub(crate) enum Scheme {
 
 /// Schemes tried in addition to the midpoint rule: the damped rule, and the two common members of
 /// Newmark's family.
-pub(crate) const SCHEMES: [Scheme; 3] =
-    [Scheme::Theta(0.55), Scheme::Newmark(0.5, 0.25), Scheme::Newmark(0.6, 0.3025)];
+pub(crate) const OTHER_SCHEMES: [TimeScheme; 3] =
+    [TimeScheme::Theta(0.55), TimeScheme::Newmark(0.5, 0.25), TimeScheme::Newmark(0.6, 0.3025)];
 
-impl Scheme {
+impl TimeScheme {
     pub(crate) fn name(self) -> String {
         match self {
             Self::Midpoint => "midpoint".into(),
@@ -46,7 +58,7 @@ impl Scheme {
         }
     }
 
-    pub(crate) fn give(self, builder: SimulationBuilder) -> Result<SimulationBuilder> {
+    pub(crate) fn add_to(self, builder: SimulationBuilder) -> Result<SimulationBuilder> {
         Ok(match self {
             Self::Midpoint => builder.scheme(Midpoint),
             Self::Theta(theta) => builder.scheme(Theta::new(theta)?),
@@ -62,14 +74,15 @@ pub(crate) struct Settings {
     pub(crate) grading: Grading,
     /// s.
     pub(crate) time_step: f64,
-    pub(crate) history: Past,
-    pub(crate) scheme: Scheme,
+    pub(crate) history: HistorySetting,
+    pub(crate) scheme: TimeScheme,
 }
 
 impl Settings {
     /// With the default history and scheme.
     pub(crate) fn new(elements: usize, grading: Grading, time_step: f64) -> Self {
-        let (history, scheme) = (HISTORIES[0], Scheme::Midpoint);
+        let history = HISTORY_METHODS[0];
+        let scheme = TimeScheme::Midpoint;
         Self { elements, grading, time_step, history, scheme }
     }
 
@@ -81,11 +94,11 @@ impl Settings {
         }
     }
 
-    /// Half-plane under a base between −`half` and `half`.
-    pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<ElasticGround> {
-        let strip = Strip::new(-half..half, self.elements, self.grading)?;
+    /// Half-plane under a base between −`half_width` and `half_width`.
+    pub(crate) fn ground(&self, soil: Soil, half_width: f64) -> Result<ElasticGround> {
+        let strip = Strip::new(-half_width..half_width, self.elements, self.grading)?;
         let options =
-            HistoryOptions { tolerance: self.history.tolerance, ..self.history.kind.into() };
+            HistoryOptions { tolerance: self.history.tolerance, ..self.history.method.into() };
         ElasticGround::new(soil, strip)?.with_history(options)
     }
 }

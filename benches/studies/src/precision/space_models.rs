@@ -5,21 +5,26 @@ use std::collections::HashMap;
 use basemat::fem::{Direction, Material, Mesh, Shell};
 use basemat::structure::{FemModel, RayleighDamping};
 
-/// A core of walls under a heavy roof on a raft of 18 × 18 m: elements across, and rows of a wall in the side of one.
-pub(super) fn building([cells, each, ..]: [usize; 4]) -> basemat::Result<(FemModel, usize)> {
-    const SIDE: f64 = 18.0;
+/// A core of walls under a heavy roof on a raft of 18 × 18 m.
+///
+/// The numbers are elements across, and rows of a wall in the side of an element.
+pub(super) fn building(
+    [cells, rows_per_side, ..]: [usize; 4],
+) -> basemat::Result<(FemModel, usize)> {
+    const RAFT_SIDE: f64 = 18.0;
     let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
     let roof = Material::new(30.0e9, 0.2, 6000.0)?;
     let mut mesh = Mesh::in_space();
-    let mut known = HashMap::new();
-    let side = SIDE / cells as f64;
+    let mut nodes = HashMap::new();
+    let side = RAFT_SIDE / cells as f64;
     let mut node = |mesh: &mut Mesh, place: [usize; 3]| -> basemat::Result<usize> {
-        if let Some(node) = known.get(&place) {
+        if let Some(node) = nodes.get(&place) {
             return Ok(*node);
         }
         let [x, y, z] = place.map(|count| side * count as f64);
-        let node = mesh.add_node_at([x - 0.5 * SIDE, y - 0.5 * SIDE, z / each as f64])?;
-        known.insert(place, node);
+        let node =
+            mesh.add_node_at([x - 0.5 * RAFT_SIDE, y - 0.5 * RAFT_SIDE, z / rows_per_side as f64])?;
+        nodes.insert(place, node);
         Ok(node)
     };
     let mut add = |corners: [[usize; 3]; 4], material, thickness| -> basemat::Result<()> {
@@ -31,7 +36,9 @@ pub(super) fn building([cells, each, ..]: [usize; 4]) -> basemat::Result<(FemMod
     for place in 0..cells * cells {
         add(level(place % cells, place / cells, 0), concrete, 0.8)?;
     }
-    let (edge, core, rows) = (cells / 6, 2 * cells / 3, each * 2 * cells / 3);
+    let edge = cells / 6;
+    let core = 2 * cells / 3;
+    let rows = rows_per_side * 2 * cells / 3;
     for (along, row) in (0..core).flat_map(|along| (0..rows).map(move |row| (edge + along, row))) {
         for across in [edge, edge + core] {
             let wall = |place: fn(usize, usize, usize) -> [usize; 3]| {
@@ -45,43 +52,44 @@ pub(super) fn building([cells, each, ..]: [usize; 4]) -> basemat::Result<(FemMod
     for place in 0..core * core {
         add(level(edge + place % core, edge + place / core, rows), roof, 0.6)?;
     }
-    let top = known[&[cells / 2, cells / 2, rows]];
-    standing(mesh, top)
+    let top = nodes[&[cells / 2, cells / 2, rows]];
+    on_base(mesh, top)
 }
 
 /// The containment of the example of that name: sectors, and rows of elements in raft, wall and dome.
 ///
-/// The raft bends most near the wall: widths of its rows fall to zero towards it.
-pub(super) fn containment([sectors, rows @ ..]: [usize; 4]) -> basemat::Result<(FemModel, usize)> {
-    const RADIUS: f64 = 20.0;
-    const HEIGHT: f64 = 30.0;
+/// The raft bends most near the wall, so that the widths of its rows decrease to zero towards it.
+pub(super) fn containment(
+    [sectors, raft, wall, dome]: [usize; 4],
+) -> basemat::Result<(FemModel, usize)> {
+    const WALL_RADIUS: f64 = 20.0;
+    const WALL_HEIGHT: f64 = 30.0;
     let concrete = Material::new(32.0e9, 0.2, 2450.0)?;
-    let [raft, wall, dome] = rows;
-    let part = |index: usize, rows: usize| index as f64 / rows as f64;
-    let base = (0..raft).map(|i| [RADIUS * (1.0 - (1.0 - part(i, raft)).powi(2)), 0.0]);
-    let shaft = (0..wall).map(|i| [RADIUS, HEIGHT * part(i, wall)]);
+    let fraction = |row: usize, rows: usize| row as f64 / rows as f64;
+    let base = (0..raft).map(|i| [WALL_RADIUS * (1.0 - (1.0 - fraction(i, raft)).powi(2)), 0.0]);
+    let shaft = (0..wall).map(|i| [WALL_RADIUS, WALL_HEIGHT * fraction(i, wall)]);
     let roof = (0..=dome).map(|i| {
-        let angle = std::f64::consts::FRAC_PI_2 * part(i, dome);
-        let radius = if i == dome { 0.0 } else { RADIUS * angle.cos() };
-        [radius, HEIGHT + RADIUS * angle.sin()]
+        let angle = std::f64::consts::FRAC_PI_2 * fraction(i, dome);
+        let radius = if i == dome { 0.0 } else { WALL_RADIUS * angle.cos() };
+        [radius, WALL_HEIGHT + WALL_RADIUS * angle.sin()]
     });
     let meridian: Vec<_> = base.chain(shaft).chain(roof).collect();
     let mut mesh = Mesh::in_space();
     let surface = mesh.revolve([0.0; 2], &meridian, sectors)?;
-    let thickness = |row: usize| match row {
+    let shells = surface.shells(concrete, |row| match row {
         row if row < raft => 3.0,
         row if row < raft + wall => 1.2,
         _ => 1.0,
-    };
-    for shell in surface.shells(concrete, thickness)? {
+    })?;
+    for shell in shells {
         mesh.add(shell)?;
     }
     let pole = mesh.nodes().len() - 1;
-    standing(mesh, pole)
+    on_base(mesh, pole)
 }
 
 /// A mesh on its base with damping by stiffness alone, 5 % at 5 Hz; the degree of freedom of the node `top` along x.
-fn standing(mesh: Mesh, top: usize) -> basemat::Result<(FemModel, usize)> {
+fn on_base(mesh: Mesh, top: usize) -> basemat::Result<(FemModel, usize)> {
     let damping = RayleighDamping::new(0.0, 0.1 / (std::f64::consts::TAU * 5.0))?;
     let model = FemModel::on_base(mesh)?.with_rayleigh(damping);
     let dof =

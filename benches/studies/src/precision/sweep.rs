@@ -3,33 +3,33 @@
 use basemat::bem::Grading;
 use indicatif::ProgressBar;
 
-use super::catalogue::{CONTAINMENT_STEP, TABLES, containment};
-use super::force::{Errors, Force};
-use super::scene::Scene;
-use super::settings::{HISTORIES, SCHEMES, Settings};
+use super::catalogue::{BLOCK_TABLES, CONTAINMENT_STEP, containment};
+use super::force::{Errors, ForceSeries};
+use super::scene::PrecisionScene;
+use super::settings::{HISTORY_METHODS, OTHER_SCHEMES, Settings};
 use crate::AnyError;
 
-/// Runs longer than this are not repeated, s.
-const LONG: f64 = 1.0;
+/// Longest time of a run that is repeated, s.
+const MAX_REPEATED_TIME: f64 = 1.0;
 
-/// A scene, what is true of it, and the settings to try.
-pub(crate) struct Sweep {
-    pub(crate) scene: Scene,
-    pub(crate) reference: Reference,
+/// A scene, its reference, and its settings.
+pub(crate) struct SettingsSweep {
+    pub(crate) scene: PrecisionScene,
+    pub(crate) reference: SweepReference,
     pub(crate) settings: Vec<Settings>,
     /// Time in which an S wave crosses the base, s.
     pub(crate) crossing: f64,
 }
 
 /// Reference of a sweep.
-pub(crate) enum Reference {
-    Table(Force),
+pub(crate) enum SweepReference {
+    Table(ForceSeries),
     /// A run with these settings, beside it one with half the elements and twice the step.
     Run(Settings),
 }
 
-/// Settings, and what they gave.
-pub(crate) struct Point {
+/// Settings, their errors and time.
+pub(crate) struct SweepPoint {
     pub(crate) settings: Settings,
     pub(crate) errors: Errors,
     /// Processor time, s.
@@ -39,16 +39,16 @@ pub(crate) struct Point {
 }
 
 /// A sweep that has run.
-pub(crate) struct Outcome {
+pub(crate) struct SweepOutcome {
     pub(crate) scene: &'static str,
     pub(crate) crossing: f64,
-    pub(crate) points: Vec<Point>,
-    /// Distance of a neighbouring run from the reference.
-    pub(crate) doubt: Option<Errors>,
+    pub(crate) points: Vec<SweepPoint>,
+    /// Difference of a coarser run from the reference.
+    pub(crate) reference_error: Option<Errors>,
 }
 
-impl Sweep {
-    fn new(scene: Scene, reference: Reference, settings: Vec<Settings>) -> Self {
+impl SettingsSweep {
+    fn new(scene: PrecisionScene, reference: SweepReference, settings: Vec<Settings>) -> Self {
         let crossing = scene.width / scene.soil.shear_wave_speed();
         Self { scene, reference, settings, crossing }
     }
@@ -56,56 +56,64 @@ impl Sweep {
     /// All sweeps.
     pub(crate) fn list(short: bool) -> Result<Vec<Self>, AnyError> {
         let mut sweeps = Vec::new();
-        let (scene, force) = TABLES[0].open()?;
-        sweeps.push(Self::new(scene, Reference::Table(force), block_settings(short)));
+        let block = &BLOCK_TABLES[0];
+        let scene = block.scene()?;
+        let force = block.force();
+        sweeps.push(Self::new(scene, SweepReference::Table(force), block_settings(short)));
         let duration = if short { 0.5 } else { 5.0 };
-        let (elements, factor) = if short { (16, 1.0) } else { (40, 0.25) };
+        let elements = if short { 16 } else { 40 };
+        let factor = if short { 1.0 } else { 0.25 };
         let reference = Settings::new(elements, Grading::Cosine, factor * CONTAINMENT_STEP);
         sweeps.push(Self::new(
             containment("containment, friction 0.4", Some(0.4), duration)?,
-            Reference::Run(reference),
+            SweepReference::Run(reference),
             containment_settings(short),
         ));
         Ok(sweeps)
     }
 
-    /// Runs everything, the fastest of `repeats` counting.
-    pub(crate) fn run(self, repeats: u8, bar: &ProgressBar) -> Result<Outcome, AnyError> {
-        let (reference, doubt) = match self.reference {
-            Reference::Table(force) => (force, None),
-            Reference::Run(fine) => {
+    /// Runs all settings; the fastest of `repeats` runs counts.
+    pub(crate) fn run(self, repeats: u8, bar: &ProgressBar) -> Result<SweepOutcome, AnyError> {
+        let (reference, reference_error) = match self.reference {
+            SweepReference::Table(force) => (force, None),
+            SweepReference::Run(fine) => {
                 let reference = self.scene.run(&fine)?.force;
                 let coarse = Settings::new(fine.elements / 2, fine.grading, 2.0 * fine.time_step);
-                let doubt = self.scene.run(&coarse)?.force.errors(&reference);
-                (reference, Some(doubt))
+                let difference = self.scene.run(&coarse)?.force.errors(&reference);
+                (reference, Some(difference))
             }
         };
         let mut points = Vec::with_capacity(self.settings.len());
         for settings in self.settings {
-            let mut outcome = self.scene.run(&settings)?;
+            let mut run = self.scene.run(&settings)?;
             for _ in 1..repeats {
-                if outcome.seconds > LONG {
+                if run.seconds > MAX_REPEATED_TIME {
                     break;
                 }
-                outcome.seconds = outcome.seconds.min(self.scene.run(&settings)?.seconds);
+                run.seconds = run.seconds.min(self.scene.run(&settings)?.seconds);
             }
-            let errors = outcome.force.errors(&reference);
-            points.push(Point { settings, errors, seconds: outcome.seconds, front: false });
+            let errors = run.force.errors(&reference);
+            points.push(SweepPoint { settings, errors, seconds: run.seconds, front: false });
             bar.inc(1);
         }
         mark_front(&mut points);
-        Ok(Outcome { scene: self.scene.name, crossing: self.crossing, points, doubt })
+        Ok(SweepOutcome {
+            scene: self.scene.name,
+            crossing: self.crossing,
+            points,
+            reference_error,
+        })
     }
 }
 
 /// Pareto's front of time and history error.
-fn mark_front(points: &mut [Point]) {
+fn mark_front(points: &mut [SweepPoint]) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[a].seconds.total_cmp(&points[b].seconds));
     let mut best = f64::INFINITY;
     for index in order {
         let point = &mut points[index];
-        // By a percent at least: histories that are equal but for rounding would share the front.
+        // Better by a percent at least: results that differ by rounding would all be in the front.
         if point.errors.history < 0.99 * best {
             best = point.errors.history;
             point.front = true;
@@ -122,11 +130,11 @@ fn block_settings(short: bool) -> Vec<Settings> {
         for &step in steps {
             for grading in [Grading::Uniform, Grading::Cosine] {
                 let settings = Settings::new(count, grading, step);
-                list.extend(HISTORIES.map(|history| Settings { history, ..settings }));
+                list.extend(HISTORY_METHODS.map(|history| Settings { history, ..settings }));
             }
             if count < 64 {
                 let settings = Settings::new(count, Grading::Cosine, step);
-                list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
+                list.extend(OTHER_SCHEMES.map(|scheme| Settings { scheme, ..settings }));
             }
         }
     }
@@ -146,10 +154,12 @@ fn containment_settings(short: bool) -> Vec<Settings> {
                 list.push(settings);
                 if count == 10 {
                     // The direct sum of many steps takes minutes and gives the same force.
-                    let others = HISTORIES.iter().skip(1);
-                    let others = others.filter(|past| factor > 1.0 || past.name != "direct");
+                    let others = HISTORY_METHODS
+                        .iter()
+                        .skip(1)
+                        .filter(|history| factor > 1.0 || history.name != "direct");
                     list.extend(others.map(|&history| Settings { history, ..settings }));
-                    list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
+                    list.extend(OTHER_SCHEMES.map(|scheme| Settings { scheme, ..settings }));
                 }
             }
         }

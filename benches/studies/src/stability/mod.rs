@@ -1,6 +1,7 @@
-//! Maps of stability: where marches stay bounded, close their energy balance and find their
-//! contact modes, over pairs of parameters from one extreme to the other. The crate's own scheme,
-//! the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
+//! Maps of stability over pairs of parameters from one extreme to the other.
+//!
+//! They show where marches stay bounded, close their energy balance and find their contact modes. Compared are the
+//! crate's scheme, the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
 //!
 //! The content of `benches/studies/tables/stability.md` comes from
 //!
@@ -24,17 +25,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::AnyError;
 use crate::document::splice;
-use axes::Map;
-use run::Cell;
-use scene::Foretold;
+use axes::StabilityMap;
+use run::MapCell;
+use scene::Assessments;
 
 /// Where the crate stays bounded, closes its energy balance and finds its contact modes, and where
 /// it refuses.
 ///
 /// Prints tables, and writes cells.csv, tables.md and one SVG of heat maps per sweep. Ends with an
-/// error if a cell of the crate's own scheme is not as it is guaranteed to be.
+/// error if a cell of the crate's scheme is not as it is guaranteed to be.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct StabilityOptions {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/stability")]
     pub(crate) out: PathBuf,
@@ -65,7 +66,7 @@ pub(crate) struct Options {
     pub(crate) list: bool,
 }
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &StabilityOptions) -> Result<(), AnyError> {
     let mut maps = axes::maps(options.short);
     if options.list {
         for map in &maps {
@@ -74,7 +75,9 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         }
         return Ok(());
     }
-    if let Some(unknown) = options.maps.iter().find(|name| maps.iter().all(|m| m.name != **name)) {
+    if let Some(unknown) =
+        options.maps.iter().find(|name| maps.iter().all(|map| map.name != **name))
+    {
         return Err(format!("no sweep is called {unknown}; --list names them").into());
     }
     maps.retain(|map| options.maps.is_empty() || options.maps.iter().any(|name| name == map.name));
@@ -87,19 +90,19 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     std::fs::write(options.out.join("tables.md"), &tables)?;
     let mut folders = vec![options.out.clone()];
     if let Some(docs) = &options.docs {
-        let compared = |map: &Map| map.name == axes::SCHEME_MAP;
-        if maps.iter().any(compared) {
+        let compares_schemes = |map: &StabilityMap| map.name == axes::SCHEME_MAP;
+        if maps.iter().any(compares_schemes) {
             splice("stability.md", "time_schemes", &report::schemes(&maps, &cells))?;
         }
-        if !maps.iter().all(compared) {
+        if !maps.iter().all(compares_schemes) {
             splice("stability.md", "stability_map", &report::document(&maps, &cells))?;
         }
         folders.push(docs.join("images"));
     }
     for folder in folders {
         for (index, map) in maps.iter().enumerate().filter(|(_, map)| map.drawn) {
-            let own: Vec<&Cell> = cells.iter().filter(|cell| cell.map == index).collect();
-            plots::draw(&folder.join(format!("stability_{}.svg", map.name)), map, &own)?;
+            let map_cells: Vec<&MapCell> = cells.iter().filter(|cell| cell.map == index).collect();
+            plots::draw(&folder.join(format!("stability_{}.svg", map.name)), map, &map_cells)?;
         }
     }
     println!("files in {}", options.out.display());
@@ -107,17 +110,22 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     if broken.is_empty() { Ok(()) } else { Err(broken.into()) }
 }
 
-/// Runs all cells, several at a time if asked to.
-fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
-    let wanted = |labels: &[String], wish: &Option<String>| -> Vec<usize> {
-        (0..labels.len()).filter(|&k| wish.as_ref().is_none_or(|w| *w == labels[k])).collect()
-    };
+fn is_selected(label: &str, selection: &Option<String>) -> bool {
+    selection.as_ref().is_none_or(|selection| selection == label)
+}
+
+fn selected(labels: &[String], selection: &Option<String>) -> Vec<usize> {
+    (0..labels.len()).filter(|&k| is_selected(&labels[k], selection)).collect()
+}
+
+/// Runs all cells on the requested number of threads.
+fn compute(maps: &[StabilityMap], options: &StabilityOptions) -> Result<Vec<MapCell>, AnyError> {
     let mut todo = Vec::new();
     for (index, map) in maps.iter().enumerate() {
         let schemes = map.schemes.iter().copied();
-        for scheme in schemes.filter(|s| options.scheme.as_ref().is_none_or(|w| w == s.name())) {
-            for x in wanted(&map.x.labels, &options.x) {
-                for y in wanted(&map.y.labels, &options.y) {
+        for scheme in schemes.filter(|scheme| is_selected(scheme.name(), &options.scheme)) {
+            for x in selected(&map.x.labels, &options.x) {
+                for y in selected(&map.y.labels, &options.y) {
                     if map.scene(scheme, x, y).exists() {
                         todo.push((index, scheme, [x, y]));
                     }
@@ -131,8 +139,9 @@ fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
     let bar = ProgressBar::new(todo.len() as u64);
     let style = "{prefix:>22} {bar:30} {pos}/{len} cells, {elapsed} {msg}";
     bar.set_style(ProgressStyle::with_template(style)?);
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::with_capacity(todo.len())));
-    let foretold = Foretold::default();
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::with_capacity(todo.len()));
+    let assessments = Assessments::default();
     std::thread::scope(|scope| {
         for _ in 0..options.threads {
             scope.spawn(|| {
@@ -141,12 +150,13 @@ fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
                 {
                     bar.set_prefix(format!("{}, {}", maps[map].name, scheme.name()));
                     let scene = maps[map].scene(scheme, place[0], place[1]);
-                    let percent = |part: f64| bar.set_message(format!("({:.0} %)", 100.0 * part));
-                    let outcome = run::march(&scene, &foretold, &percent);
+                    let report_progress =
+                        |fraction: f64| bar.set_message(format!("({:.0} %)", 100.0 * fraction));
+                    let outcome = run::march(&scene, &assessments, &report_progress);
                     bar.set_message("");
                     bar.inc(1);
                     let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                    done.push(Cell { map, scheme, place, outcome });
+                    done.push(MapCell { map, scheme, place, outcome });
                 }
             });
         }

@@ -1,7 +1,7 @@
-//! Ground motions that are hard on a time integrator.
+//! Ground motions that are difficult for a time integrator.
 //!
-//! Each is a function of the step's number, so that it is as hard for every time step: it shakes
-//! for so many steps, stops dead, and stays where it is.
+//! Each is a function of the step's number, so that it is as difficult for every time step. It shakes
+//! for a number of steps, stops suddenly, and keeps its last displacement.
 
 use std::sync::Arc;
 
@@ -9,22 +9,22 @@ use basemat::motion::{FreeFieldFn, Record, STANDARD_GRAVITY, el_centro_1940};
 
 use std::f64::consts::{PI, TAU};
 
-/// Motion or force that shakes a cell.
+/// ShakingMotion or force that shakes a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Motion {
-    /// Nothing: the static state has to stay.
+pub(crate) enum ShakingMotion {
+    /// No motion; the static state must remain.
     Still,
     /// Twelve sines in either direction, from 2.5 rad per step to 400 steps a period, 1 g each at most.
     Sines,
     /// Pulses of acceleration of 50 g that last a fifth of a step, up and down by turns.
     Pulses,
-    /// Displacement that is there at one step's end and nowhere else.
+    /// Displacement at the end of single steps only.
     Spikes,
     /// A jump by 5 cm to the side and 2 cm up within one step.
     Step,
     /// Velocity pulse of Mavroeidis & Papageorgiou (2003), scaled to 5 g, with half of it upwards.
     NearFault,
-    /// Up and down with 3 g: the whole base leaves the ground.
+    /// Up and down with 3 g, so that the whole base leaves the ground.
     LiftOff,
     /// To and fro with every step, 5 g in either direction.
     Nyquist,
@@ -34,20 +34,20 @@ pub(crate) enum Motion {
     ElCentro,
 }
 
-pub(crate) const MOTIONS: [(&str, Motion); 10] = [
-    ("still", Motion::Still),
-    ("sines 1 g", Motion::Sines),
-    ("pulses in a step", Motion::Pulses),
-    ("spikes", Motion::Spikes),
-    ("step", Motion::Step),
-    ("near fault 5 g", Motion::NearFault),
-    ("lift-off 3 g", Motion::LiftOff),
-    ("Nyquist 5 g", Motion::Nyquist),
-    ("noise 5 g", Motion::Noise),
-    ("El Centro begins", Motion::ElCentro),
+pub(crate) const SHAKING_MOTIONS: [(&str, ShakingMotion); 10] = [
+    ("still", ShakingMotion::Still),
+    ("sines 1 g", ShakingMotion::Sines),
+    ("pulses in a step", ShakingMotion::Pulses),
+    ("spikes", ShakingMotion::Spikes),
+    ("step", ShakingMotion::Step),
+    ("near fault 5 g", ShakingMotion::NearFault),
+    ("lift-off 3 g", ShakingMotion::LiftOff),
+    ("Nyquist 5 g", ShakingMotion::Nyquist),
+    ("noise 5 g", ShakingMotion::Noise),
+    ("El Centro begins", ShakingMotion::ElCentro),
 ];
 
-impl Motion {
+impl ShakingMotion {
     /// The free field that shakes for `steps` steps of `time_step` seconds and then stops.
     pub(crate) fn field(self, steps: usize, time_step: f64) -> basemat::Result<FreeFieldFn> {
         let record: Option<Arc<Record>> = match self {
@@ -55,7 +55,8 @@ impl Motion {
             Self::NearFault => Some(Arc::new(near_fault(steps, time_step)?)),
             _ => None,
         };
-        let at = move |time: f64| {
+        // Half-plane and springs use displacements at the ends of steps, and no velocities.
+        Ok(FreeFieldFn::new(move |_, time| {
             let n = (time / time_step).round().min(steps as f64);
             match (&record, self) {
                 (Some(record), Self::NearFault) => {
@@ -69,9 +70,7 @@ impl Motion {
                     motion.shape(n).map(|u| g * u)
                 }
             }
-        };
-        // Nothing here uses velocities: half-plane and springs take displacements at step ends.
-        Ok(FreeFieldFn::new(move |_, time| at(time)))
+        }))
     }
 
     /// Displacement at the end of step `n`, in g Δt²; metres over g Δt² for a step.
@@ -82,7 +81,7 @@ impl Motion {
                 let mut sum = [0.0; 2];
                 for k in 0..12 {
                     let omega = 2.5 * (TAU / 400.0 / 2.5_f64).powf(f64::from(k) / 11.0);
-                    // sin − its slope at 0, faded in over a period: starts from rest.
+                    // The sine starts from rest, because it grows over a period.
                     let fade = 1.0 - (-(omega * n / TAU).powi(2)).exp();
                     sum[0] += fade * (omega * n + 0.7 * f64::from(k)).sin() / (omega * omega);
                     sum[1] += fade * (omega * n + 1.9 * f64::from(k)).sin() / (omega * omega);
@@ -90,12 +89,14 @@ impl Motion {
                 sum.map(|u| 0.3 * u)
             }
             Self::Pulses => {
-                // Every 20 steps a jump of velocity of 50 g × Δt/5, with alternating sign, midway.
-                let (full, rest) = ((n / 20.0).floor(), n % 20.0);
-                let odd = full % 2.0;
-                let travelled = (full / 2.0).floor() * 20.0 + odd * 19.5;
-                let moving = if odd == 0.0 { (rest - 0.5).max(0.0) } else { rest.min(0.5) };
-                let u = 10.0 * (travelled + moving);
+                // Every 20 steps a jump of velocity of 50 g × Δt/5, with alternating sign, in the middle of a step.
+                let pulses = (n / 20.0).floor();
+                let since_pulse = n % 20.0;
+                let odd = pulses % 2.0;
+                let completed = (pulses / 2.0).floor() * 20.0 + odd * 19.5;
+                let current =
+                    if odd == 0.0 { (since_pulse - 0.5).max(0.0) } else { since_pulse.min(0.5) };
+                let u = 10.0 * (completed + current);
                 [u, 0.3 * u]
             }
             Self::Spikes => {
@@ -117,7 +118,7 @@ impl Motion {
     }
 }
 
-/// From −½ to ½, of the step's number alone (splitmix64).
+/// Random number from −½ to ½ that depends on the step's number alone (splitmix64).
 fn random(n: f64, stream: u64) -> f64 {
     if n == 0.0 {
         return 0.0;
@@ -132,7 +133,8 @@ fn random(n: f64, stream: u64) -> f64 {
 /// v = ½ (1 + cos(2π(t−t₀)/(γT))) cos(2π(t−t₀)/T), |t−t₀| ≤ γT/2, with γ = 2: two periods in
 /// `steps` steps, scaled to 5 g.
 fn near_fault(steps: usize, time_step: f64) -> basemat::Result<Record> {
-    let (gamma, count) = (2.0, steps.max(8));
+    let gamma = 2.0;
+    let count = steps.max(8);
     let period = count as f64 / gamma;
     let velocity = |n: f64| {
         let angle = TAU * (n / period - 0.5 * gamma);

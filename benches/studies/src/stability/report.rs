@@ -3,17 +3,34 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::axes::{Map, SCHEME_MAP};
-use super::run::{Cell, ROUNDING, Verdict};
-use super::scene::Scheme;
+use super::axes::{SCHEME_MAP, StabilityMap};
+use super::run::{ENERGY_ROUNDING, MapCell, Verdict};
+use super::scene::StabilityScheme;
 use crate::AnyError;
 use crate::document::write_csv;
 
+fn number_text(number: f64) -> String {
+    format!("{number:.3e}")
+}
+
+/// Largest value of some cells.
+fn largest(cells: &[&MapCell], value: impl Fn(&MapCell) -> f64) -> f64 {
+    cells.iter().map(|cell| value(cell)).fold(0.0, f64::max)
+}
+
+fn count_verdicts(cells: &[&MapCell], verdict: Verdict) -> usize {
+    cells.iter().filter(|cell| cell.outcome.verdict == verdict).count()
+}
+
 /// Writes every cell.
-pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(), AnyError> {
+pub(crate) fn write_cells(
+    path: &Path,
+    maps: &[StabilityMap],
+    cells: &[MapCell],
+) -> Result<(), AnyError> {
     let rows = cells.iter().map(|cell| {
-        let (map, out) = (&maps[cell.map], &cell.outcome);
-        let short = |x: f64| format!("{x:.3e}");
+        let map = &maps[cell.map];
+        let outcome = &cell.outcome;
         [
             map.name.to_owned(),
             cell.scheme.name().to_owned(),
@@ -21,24 +38,24 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
             map.x.labels[cell.place[0]].clone(),
             map.y.name.to_owned(),
             map.y.labels[cell.place[1]].clone(),
-            out.verdict.name().to_owned(),
-            short(out.energy_balance[0]),
-            short(out.energy_balance[1]),
-            short(out.growth),
-            short(out.growth_per_step),
-            out.assessed.map(|growth| short(growth[0])).unwrap_or_default(),
-            out.assessed.map(|growth| short(growth[1])).unwrap_or_default(),
-            short(out.rise),
-            short(out.least_soil),
-            short(out.made),
-            format!("{:.2}", out.trials[0]),
-            format!("{:.0}", out.trials[1]),
-            out.fallbacks[0].to_string(),
-            out.fallbacks[1].to_string(),
-            out.mode_changes.to_string(),
-            format!("{:.2}", out.largest_uplift),
-            out.steps.to_string(),
-            out.error.as_ref().map(ToString::to_string).unwrap_or_default(),
+            outcome.verdict.name().to_owned(),
+            number_text(outcome.energy_balance[0]),
+            number_text(outcome.energy_balance[1]),
+            number_text(outcome.growth),
+            number_text(outcome.growth_per_step),
+            outcome.assessed.map(|growth| number_text(growth[0])).unwrap_or_default(),
+            outcome.assessed.map(|growth| number_text(growth[1])).unwrap_or_default(),
+            number_text(outcome.rise),
+            number_text(outcome.smallest_soil_work),
+            number_text(outcome.created_energy),
+            format!("{:.2}", outcome.trials[0]),
+            format!("{:.0}", outcome.trials[1]),
+            outcome.fallbacks[0].to_string(),
+            outcome.fallbacks[1].to_string(),
+            outcome.mode_changes.to_string(),
+            format!("{:.2}", outcome.largest_uplift),
+            outcome.steps.to_string(),
+            outcome.error.as_ref().map(ToString::to_string).unwrap_or_default(),
         ]
     });
     let columns = [
@@ -71,7 +88,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
 }
 
 /// The summary of all maps, and the long runs one by one.
-pub(crate) fn tables(maps: &[Map], cells: &[Cell]) -> String {
+pub(crate) fn tables(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::from(
         "| sweep | scheme | cells | steps | bounded | active | grows | refused | failed | \
          energy_balance residual, end | on the way | rise of energy | solves per step: mean | most | \
@@ -80,80 +97,85 @@ pub(crate) fn tables(maps: &[Map], cells: &[Cell]) -> String {
     );
     for (index, map) in maps.iter().enumerate() {
         for &scheme in map.schemes {
-            let own: Vec<_> =
-                cells.iter().filter(|c| c.map == index && c.scheme == scheme).collect();
-            if !own.is_empty() {
-                summary(&mut text, map.name, scheme, &own);
+            let scheme_cells: Vec<_> =
+                cells.iter().filter(|cell| cell.map == index && cell.scheme == scheme).collect();
+            if !scheme_cells.is_empty() {
+                summary(&mut text, map.name, scheme, &scheme_cells);
             }
         }
     }
-    let all: Vec<_> = cells.iter().filter(|cell| cell.scheme == Scheme::Own).collect();
+    let all: Vec<_> = cells.iter().filter(|cell| cell.scheme == StabilityScheme::Basemat).collect();
     if !all.is_empty() {
-        summary(&mut text, "**all**", Scheme::Own, &all);
+        summary(&mut text, "**all**", StabilityScheme::Basemat, &all);
     }
     if cells.iter().any(|cell| cell.outcome.assessed.is_some()) {
-        text.push_str(&foretold(maps, cells));
+        text.push_str(&assessments(maps, cells));
     }
     text.push_str(&long_runs(maps, cells));
     text
 }
 
-fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
-    let count = |verdict: Verdict| cells.iter().filter(|c| c.outcome.verdict == verdict).count();
-    let steps: usize = cells.iter().map(|c| c.outcome.steps).sum();
-    let most = |pick: &dyn Fn(&Cell) -> f64| cells.iter().map(|c| pick(c)).fold(0.0, f64::max);
-    let solves: f64 = cells.iter().map(|c| c.outcome.trials[0] * c.outcome.steps as f64).sum();
-    let fallbacks = |k: usize| cells.iter().map(|c| c.outcome.fallbacks[k]).sum::<usize>();
+fn summary(text: &mut String, name: &str, scheme: StabilityScheme, cells: &[&MapCell]) {
+    let steps: usize = cells.iter().map(|cell| cell.outcome.steps).sum();
+    let solves: f64 =
+        cells.iter().map(|cell| cell.outcome.trials[0] * cell.outcome.steps as f64).sum();
+    let gauss_seidel: usize = cells.iter().map(|cell| cell.outcome.fallbacks[0]).sum();
+    let paths: usize = cells.iter().map(|cell| cell.outcome.fallbacks[1]).sum();
     let _ = write!(text, "| {name} | {} | {} | {steps} ", scheme.name(), cells.len());
-    for verdict in Verdict::ALL {
-        let _ = write!(text, "| {} ", count(verdict));
+    for verdict in Verdict::ALL_VERDICTS {
+        let _ = write!(text, "| {} ", count_verdicts(cells, verdict));
     }
     let rise = if scheme.is_passive() {
-        format!("{:.1e}", most(&|c| c.outcome.rise))
+        format!("{:.1e}", largest(cells, |cell| cell.outcome.rise))
     } else {
         "–".into()
     };
     let _ = writeln!(
         text,
         "| {:.1e} | {:.1e} | {rise} | {:.2} | {:.0} | {} | {} |",
-        most(&|c| c.outcome.energy_balance[0]),
-        most(&|c| c.outcome.energy_balance[1]),
+        largest(cells, |cell| cell.outcome.energy_balance[0]),
+        largest(cells, |cell| cell.outcome.energy_balance[1]),
         solves / steps.max(1) as f64,
-        most(&|c| c.outcome.trials[1]),
-        fallbacks(0),
-        fallbacks(1)
+        largest(cells, |cell| cell.outcome.trials[1]),
+        gauss_seidel,
+        paths
     );
 }
 
-/// The share of [`tables`] that the document shows: verdicts of each scheme, figures of the
-/// crate's own, and the long runs.
-pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
+/// The part of [`tables`] for the document.
+///
+/// It has verdicts of each scheme, figures of the crate's scheme, and the long runs.
+pub(crate) fn document(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::from(
         "| sweep | basemat | energy error: end | on the way | rise of energy | most solves in a \
          step | paper | quadrature |\n|---|---|---|---|---|---|---|---|\n",
     );
-    let of = |scheme: Scheme, map: Option<usize>| -> Vec<&Cell> {
-        let all = cells.iter().filter(|cell| cell.scheme == scheme);
-        let others = |cell: &&Cell| maps[cell.map].name != SCHEME_MAP;
-        all.filter(|cell| map.map_or(others(cell), |map| cell.map == map)).collect()
+    // Cells of a scheme in one map, or in all maps but the comparison of time schemes.
+    let select = |scheme: StabilityScheme, map: Option<usize>| -> Vec<&MapCell> {
+        let scheme_cells = cells.iter().filter(|cell| cell.scheme == scheme);
+        scheme_cells
+            .filter(|cell| match map {
+                Some(map) => cell.map == map,
+                None => maps[cell.map].name != SCHEME_MAP,
+            })
+            .collect()
     };
     let others = maps.iter().enumerate().filter(|(_, map)| map.name != SCHEME_MAP);
     let names = others.map(|(index, map)| (map.name, Some(index)));
     for (name, map) in names.chain([("**all**", None)]) {
-        let own = of(Scheme::Own, map);
-        let most = |pick: &dyn Fn(&Cell) -> f64| own.iter().map(|c| pick(c)).fold(0.0, f64::max);
+        let crate_cells = select(StabilityScheme::Basemat, map);
         let _ = write!(
             text,
             "| {name} | {} | {:.1e} | {:.1e} | {:.1e} | {:.0} ",
-            verdicts(&own),
-            most(&|c| c.outcome.energy_balance[0]),
-            most(&|c| c.outcome.energy_balance[1]),
-            most(&|c| c.outcome.rise),
-            most(&|c| c.outcome.trials[1]),
+            verdicts(&crate_cells),
+            largest(&crate_cells, |cell| cell.outcome.energy_balance[0]),
+            largest(&crate_cells, |cell| cell.outcome.energy_balance[1]),
+            largest(&crate_cells, |cell| cell.outcome.rise),
+            largest(&crate_cells, |cell| cell.outcome.trials[1]),
         );
-        for scheme in [Scheme::Paper, Scheme::Quadrature] {
-            let of_map = if map.is_some() { of(scheme, map) } else { Vec::new() };
-            let _ = write!(text, "| {} ", verdicts(&of_map));
+        for scheme in [StabilityScheme::Paper, StabilityScheme::Quadrature] {
+            let map_cells = if map.is_some() { select(scheme, map) } else { Vec::new() };
+            let _ = write!(text, "| {} ", verdicts(&map_cells));
         }
         text.push_str("|\n");
     }
@@ -162,7 +184,7 @@ pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
 }
 
 /// Long runs one by one.
-fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
+fn long_runs(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::new();
     for (index, map) in maps.iter().enumerate().filter(|(_, map)| !map.drawn) {
         let _ = write!(
@@ -173,18 +195,18 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
             map.title
         );
         for cell in cells.iter().filter(|cell| cell.map == index) {
-            let out = &cell.outcome;
+            let outcome = &cell.outcome;
             let _ = writeln!(
                 text,
                 "| {} | {} | {} | {:.1e} | {:.1e} | {:.2} | {:.0} | {} |",
                 map.y.labels[cell.place[1]],
-                out.steps,
-                out.verdict.name(),
-                out.energy_balance[0],
-                out.rise,
-                out.trials[0],
-                out.trials[1],
-                out.mode_changes
+                outcome.steps,
+                outcome.verdict.name(),
+                outcome.energy_balance[0],
+                outcome.rise,
+                outcome.trials[0],
+                outcome.trials[1],
+                outcome.mode_changes
             );
         }
     }
@@ -192,7 +214,7 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
 }
 
 /// Results of the time schemes on the crate's soil.
-pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
+pub(crate) fn schemes(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::from(
         "| time scheme | cells | most energy made by the scheme | cells beyond 2 % | beyond 50 % | \
          energy error |\n|---|---|---|---|---|---|\n",
@@ -204,54 +226,55 @@ pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
             "Newmark, average acceleration",
             "HHT-α, α = −0.1",
         ]) {
-            let own: Vec<&Cell> =
+            let scheme_cells: Vec<&MapCell> =
                 cells.iter().filter(|cell| cell.map == index && cell.scheme == scheme).collect();
-            let most =
-                |pick: &dyn Fn(&Cell) -> f64| own.iter().map(|c| pick(c)).fold(0.0, f64::max);
-            let beyond = |made: f64| own.iter().filter(|cell| cell.outcome.made > made).count();
+            let beyond = |limit: f64| {
+                scheme_cells.iter().filter(|cell| cell.outcome.created_energy > limit).count()
+            };
             let _ = writeln!(
                 text,
                 "| {name} | {} | {:.1e} | {} | {} | {:.1e} |",
-                verdicts(&own),
-                most(&|cell| cell.outcome.made),
+                verdicts(&scheme_cells),
+                largest(&scheme_cells, |cell| cell.outcome.created_energy),
                 beyond(0.02),
                 beyond(0.5),
-                most(&|cell| cell.outcome.energy_balance[1]),
+                largest(&scheme_cells, |cell| cell.outcome.energy_balance[1]),
             );
         }
     }
     text
 }
 
-/// Number of cells of each verdict, in words.
-fn verdicts(cells: &[&Cell]) -> String {
-    let counts = Verdict::ALL.into_iter().filter_map(|verdict| {
-        let count = cells.iter().filter(|cell| cell.outcome.verdict == verdict).count();
+/// Number of cells of each verdict, as text.
+fn verdicts(cells: &[&MapCell]) -> String {
+    let counts = Verdict::ALL_VERDICTS.into_iter().filter_map(|verdict| {
+        let count = count_verdicts(cells, verdict);
         (count > 0).then(|| format!("{count} {}", verdict.name()))
     });
     let text = counts.collect::<Vec<_>>().join(", ");
     if text.is_empty() { "–".into() } else { text }
 }
 
-/// The cells of the crate's own scheme that are not as they must be, one a line.
-pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
+/// The cells of the crate's schemes that are not as guaranteed, one a line.
+pub(crate) fn broken(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::new();
-    let own = cells.iter().filter(|cell| cell.scheme.is_passive());
-    for cell in own.filter(|cell| !cell.outcome.is_as_guaranteed(maps[cell.map].allowed)) {
-        let (map, out) = (&maps[cell.map], &cell.outcome);
+    let passive = cells.iter().filter(|cell| cell.scheme.is_passive());
+    for cell in passive.filter(|cell| !cell.outcome.is_as_guaranteed(maps[cell.map].allowed)) {
+        let map = &maps[cell.map];
+        let outcome = &cell.outcome;
         let _ = write!(
             text,
-            "\n--map {} --x {} --y {}: {} (energy balance {:.1e} of {ROUNDING:.0e}, rise {:.1e}, least work \
+            "\n--map {} --x {} --y {}: {} (energy balance {:.1e} of {ENERGY_ROUNDING:.0e}, rise {:.1e}, least work \
              on the soil {:.1e})",
             map.name,
             map.x.labels[cell.place[0]],
             map.y.labels[cell.place[1]],
-            out.verdict.name(),
-            out.energy_balance[0],
-            out.rise,
-            out.least_soil
+            outcome.verdict.name(),
+            outcome.energy_balance[0],
+            outcome.rise,
+            outcome.smallest_soil_work
         );
-        if let Some(error) = &out.error {
+        if let Some(error) = &outcome.error {
             let _ = write!(text, ": {error}");
         }
     }
@@ -259,7 +282,7 @@ pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
 }
 
 /// Predictions for the full-plane schemes and their outcome, each equation counted once a cell.
-fn foretold(maps: &[Map], cells: &[Cell]) -> String {
+fn assessments(maps: &[StabilityMap], cells: &[MapCell]) -> String {
     let mut text = String::from(
         "\n| sweep | scheme | assessed | growth foretold: of these grew or failed | were active | \
          stayed bounded | no growth foretold: grew or failed | active | bounded |\n\
@@ -267,17 +290,18 @@ fn foretold(maps: &[Map], cells: &[Cell]) -> String {
     );
     for (index, map) in maps.iter().enumerate() {
         for &scheme in map.schemes.iter().filter(|scheme| !scheme.is_half_plane()) {
-            let own: Vec<_> = cells
+            let outcomes: Vec<_> = cells
                 .iter()
-                .filter(|c| c.map == index && c.scheme == scheme)
-                .map(|c| &c.outcome)
-                .filter(|out| out.assessed.is_some())
+                .filter(|cell| cell.map == index && cell.scheme == scheme)
+                .map(|cell| &cell.outcome)
+                .filter(|outcome| outcome.assessed.is_some())
                 .collect();
-            let _ = write!(text, "| {} | {} | {} ", map.name, scheme.name(), own.len());
+            let _ = write!(text, "| {} | {} | {} ", map.name, scheme.name(), outcomes.len());
             for growth in [true, false] {
                 let count = |verdicts: &[Verdict]| {
-                    let those = own.iter().filter(|out| out.is_foretold() == growth);
-                    those.filter(|out| verdicts.contains(&out.verdict)).count()
+                    let assessed =
+                        outcomes.iter().filter(|outcome| outcome.is_unstable() == growth);
+                    assessed.filter(|outcome| verdicts.contains(&outcome.verdict)).count()
                 };
                 let bad = count(&[Verdict::Grows, Verdict::Failed, Verdict::Refused]);
                 let active = count(&[Verdict::Active]);

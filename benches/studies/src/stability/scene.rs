@@ -17,18 +17,18 @@ use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
-use super::motions::Motion;
+use super::motions::ShakingMotion;
 
 /// Width of the base, m.
-const WIDTH: f64 = 10.0;
+const BASE_WIDTH: f64 = 10.0;
 /// Free elements beside the base in the full-plane schemes, as in the paper.
-const FREE: usize = 5;
+const FREE_ELEMENTS: usize = 5;
 
 /// Scheme of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Scheme {
+pub(crate) enum StabilityScheme {
     /// Half-plane in the mean, midpoint rule.
-    Own,
+    Basemat,
     /// The same with other time schemes: dissipative midpoint rule with γ = 0.8, average acceleration,
     /// HHT-α with α = −0.1.
     Dissipative,
@@ -40,10 +40,10 @@ pub(crate) enum Scheme {
     Quadrature,
 }
 
-impl Scheme {
+impl StabilityScheme {
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Own => "basemat",
+            Self::Basemat => "basemat",
             Self::Dissipative => "dissipative",
             Self::Newmark => "newmark",
             Self::Hht => "hht",
@@ -57,20 +57,19 @@ impl Scheme {
         !matches!(self, Self::Paper | Self::Quadrature)
     }
 
-    /// Whether the run cannot gain energy from nowhere.
+    /// Whether the scheme cannot create energy.
     pub(crate) fn is_passive(self) -> bool {
-        matches!(self, Self::Own | Self::Dissipative)
+        matches!(self, Self::Basemat | Self::Dissipative)
     }
 }
 
 /// Law between base and soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Law {
+pub(crate) enum StabilityLaw {
     Bonded,
     /// Friction coefficient.
     Coulomb(f64),
-    /// Thickness over height of the neighbouring element (1 m) and share of the stiffness that is
-    /// left in debonding; friction 0.4.
+    /// Thickness over height of the neighbouring element (1 m), and ratio of the debonded stiffness; friction 0.4.
     Layer(f64, f64),
     /// Bearing pressure over the mean static one; friction 0.4.
     Yielding(f64),
@@ -78,8 +77,8 @@ pub(crate) enum Law {
 
 /// All parameters of a cell.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Scene {
-    pub(crate) scheme: Scheme,
+pub(crate) struct StabilityScene {
+    pub(crate) scheme: StabilityScheme,
     /// c₁Δt over the mean element length.
     pub(crate) beta: f64,
     pub(crate) poisson: f64,
@@ -92,22 +91,21 @@ pub(crate) struct Scene {
     pub(crate) mass: f64,
     /// Height over width.
     pub(crate) slenderness: f64,
-    pub(crate) law: Law,
-    pub(crate) motion: Motion,
-    /// Steps of shaking; as many of rest follow (see [`Scene::rest`]).
+    pub(crate) law: StabilityLaw,
+    pub(crate) motion: ShakingMotion,
+    /// Steps of shaking; the steps of [`StabilityScene::rest`] follow.
     pub(crate) steps: usize,
     pub(crate) history: HistoryMethod,
     /// Amplitude of a horizontal load at the top, over the weight.
     pub(crate) push: f64,
-    /// Tilt over the one that statics would bear on rigid ground, b/h, from which the block is let go; zero: it
-    /// stands under its weight.
+    /// Initial tilt over b/h, the largest tilt in static equilibrium on rigid ground; zero: in equilibrium.
     pub(crate) tilt: f64,
 }
 
-impl Default for Scene {
+impl Default for StabilityScene {
     fn default() -> Self {
         Self {
-            scheme: Scheme::Own,
+            scheme: StabilityScheme::Basemat,
             beta: 0.5,
             poisson: 1.0 / 3.0,
             elements: 10,
@@ -115,8 +113,8 @@ impl Default for Scene {
             stiffness: f64::INFINITY,
             mass: 0.7,
             slenderness: 1.5,
-            law: Law::Coulomb(0.4),
-            motion: Motion::Sines,
+            law: StabilityLaw::Coulomb(0.4),
+            motion: ShakingMotion::Sines,
             steps: 1000,
             history: HistoryMethod::Auto,
             push: 0.0,
@@ -125,7 +123,7 @@ impl Default for Scene {
     }
 }
 
-impl Scene {
+impl StabilityScene {
     /// The simulation, ready to march.
     pub(crate) fn build(&self) -> Result<Simulation> {
         let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
@@ -145,17 +143,21 @@ impl Scene {
     }
 
     pub(crate) fn time_step(&self, soil: &Soil) -> f64 {
-        self.beta * WIDTH / (self.elements as f64 * soil.pressure_wave_speed())
+        self.beta * BASE_WIDTH / (self.elements as f64 * soil.pressure_wave_speed())
     }
 
-    /// Whether the scheme is computed here. Coefficients of the full plane take as many lags as
-    /// waves take steps: many where S waves are slow against the step's P waves; and the quadrature
-    /// takes all of them at once.
+    /// Whether the scheme is computed for these parameters.
+    ///
+    /// Coefficients of the full plane have as many lags as waves travel steps. These are many where S waves are slow
+    /// compared with the P waves of a step. The quadrature computes all of them at once.
     pub(crate) fn exists(&self) -> bool {
         match self.scheme {
-            Scheme::Own | Scheme::Dissipative | Scheme::Newmark | Scheme::Hht => true,
-            Scheme::Paper => self.poisson <= 0.45,
-            Scheme::Quadrature => self.poisson <= 0.45 && self.beta >= 0.1,
+            StabilityScheme::Basemat
+            | StabilityScheme::Dissipative
+            | StabilityScheme::Newmark
+            | StabilityScheme::Hht => true,
+            StabilityScheme::Paper => self.poisson <= 0.45,
+            StabilityScheme::Quadrature => self.poisson <= 0.45 && self.beta >= 0.1,
         }
     }
 
@@ -165,13 +167,13 @@ impl Scene {
             let ground = ElasticGround::new(soil, strip)?.with_history(self.history)?;
             let builder = builder.ground(ground);
             return Ok(match self.scheme {
-                Scheme::Dissipative => builder.scheme(DissipativeMidpoint::default()),
-                Scheme::Newmark => builder.scheme(Newmark::default()),
-                Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
+                StabilityScheme::Dissipative => builder.scheme(DissipativeMidpoint::default()),
+                StabilityScheme::Newmark => builder.scheme(Newmark::default()),
+                StabilityScheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
                 _ => builder,
             });
         }
-        // Marched whatever is foretold: that is what the maps are to show.
+        // The maps show marches with growth, too.
         let ground = self.full_plane(soil)?.allow_growth();
         Ok(builder.ground(ground).scheme(Newmark::default()))
     }
@@ -180,29 +182,29 @@ impl Scene {
     fn nodes(&self) -> Vec<f64> {
         let count = self.elements;
         let middle = ((count - 1) / 2).max(1) as f64;
-        let mut place = 0.0;
+        let mut position = 0.0;
         let mut nodes = vec![0.0];
         for k in 0..count {
-            place += self.grading.powf(k.min(count - 1 - k) as f64 / middle);
-            nodes.push(place);
+            position += self.grading.powf(k.min(count - 1 - k) as f64 / middle);
+            nodes.push(position);
         }
-        nodes.iter().map(|x| WIDTH * (x / place - 0.5)).collect()
+        nodes.iter().map(|x| BASE_WIDTH * (x / position - 0.5)).collect()
     }
 
     fn with_law(&self, builder: SimulationBuilder, soil: &Soil) -> Result<SimulationBuilder> {
         Ok(match self.law {
-            Law::Bonded => builder.interface(Bonded),
-            Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
-            Law::Yielding(ratio) => {
-                let pressure = self.weight(soil) / WIDTH;
+            StabilityLaw::Bonded => builder.interface(Bonded),
+            StabilityLaw::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
+            StabilityLaw::Yielding(ratio) => {
+                let pressure = self.weight(soil) / BASE_WIDTH;
                 builder.interface(Yielding::new(ratio * pressure, 0.4)?)
             }
-            Law::Layer(ratio, debonded) => {
+            StabilityLaw::Layer(ratio, debonded) => {
                 let layer = ThinLayer::new(*soil, 1.0, 0.4)?
                     .with_thickness_ratio(ratio)?
                     .with_debonded_ratio(debonded)?;
                 let builder = builder.interface(layer);
-                if self.scheme == Scheme::Paper {
+                if self.scheme == StabilityScheme::Paper {
                     builder.contact_search(ContactSearch::FlowChart { iterations: 60 })
                 } else {
                     builder
@@ -213,29 +215,29 @@ impl Scene {
 
     /// Weight of the structure, N/m.
     fn weight(&self, soil: &Soil) -> f64 {
-        self.mass * soil.density() * WIDTH * WIDTH * STANDARD_GRAVITY
+        self.mass * soil.density() * BASE_WIDTH * BASE_WIDTH * STANDARD_GRAVITY
     }
 
-    /// The push, while the ground shakes, and the tilt; of rigid blocks.
+    /// Adds the push during the shaking, and the tilt, of rigid blocks.
     fn with_load(
         &self,
         mut builder: SimulationBuilder,
         soil: &Soil,
         step: f64,
     ) -> Result<SimulationBuilder> {
-        let block = RigidBlock::new(WIDTH, self.slenderness * WIDTH, 1.0)?;
+        let block = RigidBlock::new(BASE_WIDTH, self.slenderness * BASE_WIDTH, 1.0)?;
         if self.push != 0.0 {
-            let (size, end) = (self.push * self.weight(soil), self.steps as f64 * step);
-            let force = move |t: f64| {
+            let amplitude = self.push * self.weight(soil);
+            let end = self.steps as f64 * step;
+            let top = block.horizontal_at(self.slenderness * BASE_WIDTH);
+            builder = builder.load(Load::new(top, move |t: f64| {
                 let sines = [7.0, 31.0, 113.0].map(|turns| (TAU * turns * t / end).sin());
-                if t < end { size * sines.iter().sum::<f64>() / 3.0 } else { 0.0 }
-            };
-            let top = block.horizontal_at(self.slenderness * WIDTH);
-            builder = builder.load(Load::new(top, force));
+                if t < end { amplitude * sines.iter().sum::<f64>() / 3.0 } else { 0.0 }
+            }));
         }
         if self.tilt != 0.0 {
             let tilt = self.tilt / self.slenderness;
-            let edge = 0.5 * WIDTH * tilt;
+            let edge = 0.5 * BASE_WIDTH * tilt;
             builder = builder
                 .gravity_stage(GravityStage::Unloaded)
                 .initial_displacement([0.0, edge, tilt]);
@@ -245,32 +247,32 @@ impl Scene {
 
     fn with_structure(&self, builder: SimulationBuilder, soil: &Soil) -> Result<SimulationBuilder> {
         let density = self.mass * soil.density() / self.slenderness;
-        let height = self.slenderness * WIDTH;
+        let height = self.slenderness * BASE_WIDTH;
         if self.stiffness == f64::INFINITY {
-            return Ok(builder.structure(RigidBlock::new(WIDTH, height, density)?));
+            return Ok(builder.structure(RigidBlock::new(BASE_WIDTH, height, density)?));
         }
         let young = 2.0 * (1.0 + soil.poisson()) * soil.shear_modulus() * self.stiffness;
         let layers = [Layer::new(height, 5, Material::new(young, 0.2, density)?)];
-        let mesh = Mesh::layered_block(-0.5 * WIDTH..0.5 * WIDTH, 5, &layers)?;
+        let mesh = Mesh::layered_block(-0.5 * BASE_WIDTH..0.5 * BASE_WIDTH, 5, &layers)?;
         Ok(builder.structure(FemModel::on_base(mesh)?))
     }
 
-    /// Growth per step that the crate's assessment of the boundary equation foretells, base
-    /// uplifted and bonded; `None` for the half-plane, and where it would take
-    /// long: for very short steps and for many elements.
-    pub(crate) fn assess(&self, known: &Foretold) -> Option<[f64; 2]> {
+    /// Growth per step by the assessment of the boundary equation, base uplifted and bonded.
+    ///
+    /// `None` for the half-plane, and for very short steps and many elements, which would take long.
+    pub(crate) fn assess(&self, assessments: &Assessments) -> Option<[f64; 2]> {
         let affordable = (0.25..=10.0).contains(&self.beta) && self.elements <= 10;
         if self.scheme.is_half_plane() || !affordable {
             return None;
         }
         let numbers = [self.beta, self.poisson].map(f64::to_bits);
         let key = (self.scheme, numbers, self.elements);
-        let kept = || known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(&growth) = kept().get(&key) {
+        let cached = assessments.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        if let Some(growth) = cached {
             return growth;
         }
         let growth = self.growth_of_boundary().ok();
-        kept().insert(key, growth);
+        assessments.lock().unwrap_or_else(PoisonError::into_inner).insert(key, growth);
         growth
     }
 
@@ -282,9 +284,10 @@ impl Scene {
     }
 
     fn full_plane(&self, soil: Soil) -> Result<FullPlaneGround> {
-        let half = 0.5 * WIDTH;
-        let ground = FullPlaneGround::strip(soil, -half..half, self.elements, FREE)?;
-        Ok(if self.scheme == Scheme::Paper {
+        let half_width = 0.5 * BASE_WIDTH;
+        let ground =
+            FullPlaneGround::strip(soil, -half_width..half_width, self.elements, FREE_ELEMENTS)?;
+        Ok(if self.scheme == StabilityScheme::Paper {
             ground
         } else {
             ground.with_kernel(|segments, soil, step| {
@@ -295,5 +298,5 @@ impl Scene {
     }
 }
 
-/// Assessments made so far: of a scheme, β and ν, elements.
-pub(crate) type Foretold = Mutex<HashMap<(Scheme, [u64; 2], usize), Option<[f64; 2]>>>;
+/// Growth per step of the assessed boundary equations, by scheme, β and ν, and elements.
+pub(crate) type Assessments = Mutex<HashMap<(StabilityScheme, [u64; 2], usize), Option<[f64; 2]>>>;

@@ -3,12 +3,14 @@
 use basemat::bem::Grading;
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, GRAY, GREEN, ORANGE, Panel, RED};
+use crate::figure::{
+    CURVE_BLUE, CURVE_GRAY, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel,
+};
 use basemat_problems::sampled_block::{History, PulsedBlock, distance};
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "convergence",
     title: "Orders of convergence",
     reference: "frequency-domain table (elements); a much finer step (time)",
@@ -32,32 +34,34 @@ fn history(
 fn orders(errors: &[[f64; 3]], halvings: u8) -> [f64; 2] {
     let last = errors.len() - 1;
     let first = last - usize::from(halvings);
-    let order = |k: usize| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings);
-    let list: [f64; 3] = std::array::from_fn(order);
-    [list.iter().fold(f64::INFINITY, |m, x| m.min(*x)), list.iter().fold(0.0, |m, x| m.max(*x))]
+    let orders: [f64; 3] =
+        std::array::from_fn(|k| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings));
+    let smallest = orders.iter().fold(f64::INFINITY, |smallest, order| smallest.min(*order));
+    let largest = orders.iter().fold(0.0, |largest, order| order.max(largest));
+    [smallest, largest]
 }
 
-fn add(checks: &mut Vec<Check>, what: &str, [low, high]: [f64; 2], wanted: [f64; 2]) {
-    let range = wanted[0]..=wanted[1];
-    checks.push(Check::within(format!("{what}: smallest order"), low, range.clone()));
-    checks.push(Check::within(format!("{what}: largest order"), high, range));
+fn add(checks: &mut Vec<ValidationCheck>, name: &str, [low, high]: [f64; 2], limits: [f64; 2]) {
+    let range = limits[0]..=limits[1];
+    checks.push(ValidationCheck::within(format!("{name}: smallest order"), low, range.clone()));
+    checks.push(ValidationCheck::within(format!("{name}: largest order"), high, range));
 }
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
-    let wanted = PulsedBlock::exact();
-    let mut left = Panel::new("number of elements", "error of the rotation, relative L2")
+    let exact = PulsedBlock::exact();
+    let mut left = FigurePanel::new("number of elements", "error of the rotation, relative L2")
         .categories(&["4", "8", "16", "32"])
         .logarithmic();
     for (grading, name, color, range) in [
-        (Grading::Uniform, "uniform elements", RED, [0.8, 1.2]),
-        (Grading::Cosine, "cosine-graded elements", BLUE, [1.7, 2.3]),
+        (Grading::Uniform, "uniform elements", CURVE_RED, [0.8, 1.2]),
+        (Grading::Cosine, "cosine-graded elements", CURVE_BLUE, [1.7, 2.3]),
     ] {
         let mut errors = Vec::new();
         for &count in counts {
-            let found = history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
-            errors.push(distance(&found, &wanted));
+            let computed = history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025)?;
+            errors.push(distance(&computed, &exact));
         }
         add(&mut checks, name, orders(&errors, 1), range);
         left = left.circles(name, color, points(0, &errors));
@@ -69,7 +73,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     }
 
     let mesh = (Grading::Cosine, 8);
-    let mut right = Panel::new("time step Δt c_S/b", "error of the rotation, relative L2")
+    let mut right = FigurePanel::new("time step Δt c_S/b", "error of the rotation, relative L2")
         .legend(SeriesLabelPosition::LowerLeft)
         .categories(&["0.2", "0.1", "0.05", "0.025", "0.0125"])
         .room(0.1, 0.08)
@@ -81,19 +85,23 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         errors.push(distance(&history(PulsedBlock::BONDED_BLOCK, mesh, step)?, &finest));
     }
     add(&mut checks, "time step, bonded", orders(&errors, 2), [1.8, 2.2]);
-    right = right.circles("bonded", BLUE, points(0, &errors));
-    for (power, color, start) in [(2, BLUE, errors[0][1]), (1, GRAY, 0.09)] {
+    right = right.circles("bonded", CURVE_BLUE, points(0, &errors));
+    for (power, color, start) in [(2, CURVE_BLUE, errors[0][1]), (1, CURVE_GRAY, 0.09)] {
         let end = start * 0.5_f64.powi(4 * power);
         right = right.dashed(&format!("order {power}"), color, vec![(0.0, start), (4.0, end)]);
     }
     let list = [
-        ("sliding", ORANGE, PulsedBlock { friction: Some(0.5), ..PulsedBlock::SLENDER_BLOCK }),
+        (
+            "sliding",
+            CURVE_ORANGE,
+            PulsedBlock { friction: Some(0.5), ..PulsedBlock::SLENDER_BLOCK },
+        ),
         (
             "rocking",
-            GREEN,
+            CURVE_GREEN,
             PulsedBlock { friction: Some(f64::INFINITY), ..PulsedBlock::SLENDER_BLOCK },
         ),
-        ("rocking and sliding", RED, PulsedBlock::SLIDING_BLOCK),
+        ("rocking and sliding", CURVE_RED, PulsedBlock::SLIDING_BLOCK),
     ];
     let list = if short { &list[..1] } else { &list[..] };
     let steps = [0.1, 0.05, 0.025, 0.0125];
@@ -108,7 +116,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     }
     let title =
         "Rigid block under an SV pulse: error against elements (left) and time step (right)";
-    Ok(Outcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
 }
 
 /// Errors of the rotation, the first at the halving of number `first`.

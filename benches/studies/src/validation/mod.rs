@@ -1,4 +1,4 @@
-//! Physics that must come out: problems with a reference that shares no code with the crate.
+//! Validation problems, whose references share no code with the crate.
 //!
 //! Each case states its errors and a limit for each; the process fails if one is exceeded. The
 //! content of `benches/studies/tables/validation.md` comes from
@@ -34,13 +34,13 @@ use std::path::PathBuf;
 use cpu_time::ProcessTime;
 
 use crate::AnyError;
-use outcome::{Case, Finished};
+use outcome::{Finished, ValidationCase};
 
 /// The validation problems: errors against references, limits, pictures.
 ///
 /// Prints a table a case, writes checks.csv and SVG plots, and fails if a limit is exceeded.
 #[derive(Debug, Clone, clap::Args)]
-pub(crate) struct Options {
+pub(crate) struct ValidationOptions {
     /// Only the case of this name.
     #[arg(long)]
     case: Option<String>,
@@ -56,43 +56,43 @@ pub(crate) struct Options {
     pub(crate) short: bool,
 }
 
-impl Options {
+impl ValidationOptions {
     /// Whether the case called `name` was requested.
-    pub(crate) fn wants(&self, name: &str) -> bool {
+    pub(crate) fn selects(&self, name: &str) -> bool {
         self.case.as_deref().is_none_or(|case| case == name)
     }
 }
 
-const CASES: [Case; 21] = [
-    lamb::CASE,
-    strip_impedance::CASE,
-    embedded::CASE,
-    named_mats::CASE,
-    transient::BLOCKS,
-    transient::CANTILEVER,
-    transient::THREE_STOREYS,
-    punch::CASE,
-    uplift_law::CASE,
-    newmark_block::CASE,
-    sliding_estimate::CASE,
-    rocking_block::CASE,
-    rocking_frame::CASE,
-    overturning::CASE,
-    two_springs::CASE,
-    scatter::CASE,
-    yim_chopra::CASE,
-    convergence::CASE,
-    plate::CASE,
-    cone::CASE,
-    containment::CASE,
+const VALIDATION_CASES: [ValidationCase; 21] = [
+    lamb::VALIDATION_CASE,
+    strip_impedance::VALIDATION_CASE,
+    embedded::VALIDATION_CASE,
+    named_mats::VALIDATION_CASE,
+    transient::BLOCK_CASE,
+    transient::CANTILEVER_CASE,
+    transient::THREE_STOREY_CASE,
+    punch::VALIDATION_CASE,
+    uplift_law::VALIDATION_CASE,
+    newmark_block::VALIDATION_CASE,
+    sliding_estimate::VALIDATION_CASE,
+    rocking_block::VALIDATION_CASE,
+    rocking_frame::VALIDATION_CASE,
+    overturning::VALIDATION_CASE,
+    two_springs::VALIDATION_CASE,
+    scatter::VALIDATION_CASE,
+    yim_chopra::VALIDATION_CASE,
+    convergence::VALIDATION_CASE,
+    plate::VALIDATION_CASE,
+    cone::VALIDATION_CASE,
+    containment::VALIDATION_CASE,
 ];
 
-pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+pub(crate) fn run(options: &ValidationOptions) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
     let mut finished = Vec::new();
     // Cases with a number outside its limits, or that did not run to their end.
     let mut failed = Vec::new();
-    for case in CASES.into_iter().filter(|case| options.wants(case.name)) {
+    for case in VALIDATION_CASES.into_iter().filter(|case| options.selects(case.name)) {
         let begin = ProcessTime::try_now()?;
         let outcome = match (case.run)(options.short) {
             Ok(outcome) => outcome,
@@ -112,7 +112,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         finished.push(case);
     }
     if finished.is_empty() && failed.is_empty() {
-        let names: Vec<&str> = CASES.iter().map(|case| case.name).collect();
+        let names: Vec<&str> = VALIDATION_CASES.iter().map(|case| case.name).collect();
         return Err(format!("no such case; there are {}", names.join(", ")).into());
     }
     report::write_checks(&options.out.join("checks.csv"), &finished)?;

@@ -7,42 +7,38 @@ use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome, worse};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_curve, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, ORANGE, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::series::{Error, whole};
 use basemat_problems::table;
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "newmark_block",
     title: "Newmark's sliding block under El Centro",
-    reference: "own integration in 10 µs steps, and a table of peaks",
+    reference: "separate integration in 10 µs steps, and a table of peaks",
     settings: "block 4 m × 0.4 m, 4 elements, c_S = 1600 m/s, Δt = 1.25 ms, friction 0.1 and 0.2",
     run,
 };
 
-/// Samples of the reference's history, s.
-const SAMPLE: f64 = 0.005;
+/// Interval of the samples, s.
+const SAMPLE_INTERVAL: f64 = 0.005;
 
-/// Slip of a rigid block on rigid shaken ground every `SAMPLE`: friction drives the slip velocity
-/// to zero with at most φg, and no farther than zero within a step.
+/// Slip of a rigid block on rigid shaken ground at every sample.
+///
+/// Friction reduces the slip velocity with at most φg, and not below zero within a step.
 fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
     let substeps = 500;
-    let step = SAMPLE / f64::from(substeps);
-    let hold = friction * STANDARD_GRAVITY * step;
-    let (mut slip, mut velocity, mut slips) = (0.0, 0.0_f64, vec![0.0]);
-    let samples = record.accelerations();
-    let ground = |time: f64| {
-        let place = time / record.time_step();
-        let k = whole(place.floor()).min(samples.len() - 2);
-        let part = place - k as f64;
-        samples[k] * (1.0 - part) + samples[k + 1] * part
-    };
-    for n in 0..whole(duration / SAMPLE) {
+    let step = SAMPLE_INTERVAL / f64::from(substeps);
+    let friction_change = friction * STANDARD_GRAVITY * step;
+    let mut slip = 0.0;
+    let mut velocity = 0.0_f64;
+    let mut slips = vec![0.0];
+    for n in 0..whole(duration / SAMPLE_INTERVAL) {
         for k in 0..substeps {
-            let time = n as f64 * SAMPLE + (f64::from(k) + 0.5) * step;
-            let free = velocity - ground(time) * step;
-            let next = free - free.signum() * free.abs().min(hold);
+            let time = n as f64 * SAMPLE_INTERVAL + (f64::from(k) + 0.5) * step;
+            let free = velocity - interpolated(record, time) * step;
+            let next = free - free.signum() * free.abs().min(friction_change);
             slip += 0.5 * step * (velocity + next);
             velocity = next;
         }
@@ -51,7 +47,16 @@ fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
     slips
 }
 
-/// Mean slip of the block on the half-plane every `SAMPLE`.
+/// Acceleration of a record at a time, linear between its samples.
+fn interpolated(record: &Record, time: f64) -> f64 {
+    let samples = record.accelerations();
+    let position = time / record.time_step();
+    let k = whole(position.floor()).min(samples.len() - 2);
+    let part = position - k as f64;
+    samples[k] * (1.0 - part) + samples[k + 1] * part
+}
+
+/// Mean slip of the block on the half-plane at every sample.
 fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec<f64>, AnyError> {
     let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
     let mut simulation = Simulation::builder(time_step)
@@ -60,10 +65,10 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
         .interface(Coulomb::new(friction)?)
         .motion(el_centro_1940())
         .build()?;
-    let every = whole(SAMPLE / time_step);
+    let stride = whole(SAMPLE_INTERVAL / time_step);
     let mut slips = vec![0.0];
-    let run = simulation.run(every * whole(duration / SAMPLE), |state| {
-        if state.step % every == 0 {
+    let run = simulation.run(stride * whole(duration / SAMPLE_INTERVAL), |state| {
+        if state.step % stride == 0 {
             slips.push(state.mean_slip);
         }
     })?;
@@ -73,17 +78,26 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
     Ok(slips)
 }
 
-fn distance(found: &[f64], wanted: &[f64]) -> f64 {
+fn distance(computed: &[f64], reference: &[f64]) -> f64 {
     let mut error = Error::default();
-    found.iter().zip(wanted).for_each(|(a, b)| error.add(*a, *b));
+    computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }
 
 fn largest(slips: &[f64]) -> f64 {
-    slips.iter().fold(0.0, |most, slip| worse(most, slip.abs()))
+    slips.iter().fold(0.0, |largest, slip| worse(largest, slip.abs()))
 }
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+fn last(slips: &[f64]) -> f64 {
+    slips.last().copied().unwrap_or(f64::NAN)
+}
+
+/// Slip of the first 12 s, mm.
+fn slip_curve(slips: &[f64]) -> Vec<(f64, f64)> {
+    milli_curve(SAMPLE_INTERVAL, &slips[..slips.len().min(whole(12.0 / SAMPLE_INTERVAL))])
+}
+
+fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let record = el_centro_1940();
     let duration = if short { 7.0 } else { 31.18 };
     let table = table("sliding_rigid_block.csv");
@@ -92,42 +106,38 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut checks = Vec::new();
     let mut panels = Vec::new();
     for (friction, limits) in [(0.1, [4e-3, 1e-5, 2e-5]), (0.2, [8e-3, 5e-6, 2e-5])] {
-        let wanted = reference(&record, friction, duration);
-        let found = slide(1600.0, friction, 1.25e-3, duration)?;
+        let reference = reference(&record, friction, duration);
+        let stiff = slide(1600.0, friction, 1.25e-3, duration)?;
         let soft = slide(100.0, friction, 2.5e-3, duration)?;
-        let error = distance(&found, &wanted);
-        checks.push(Check::below(
+        let error = distance(&stiff, &reference);
+        checks.push(ValidationCheck::below(
             format!("friction {friction}: history of slip, relative L2"),
             error,
             limits[0],
         ));
         let row =
-            rows.iter().zip(&records).find(|(r, name)| **name == "peknold" && r[0] == friction);
+            rows.iter().zip(&records).find(|(row, name)| **name == "peknold" && row[0] == friction);
         let ([_, peak, residual], _) = row.ok_or("no such row in the table")?;
-        let unit = |name: &str| format!("friction {friction}: {name} against the table, m");
-        let off = (largest(&found) - peak).abs();
-        checks.push(Check::below(unit("largest slip"), off, limits[1]));
-        let end = |slips: &[f64]| slips.last().copied().unwrap_or(f64::NAN);
+        let label = |name: &str| format!("friction {friction}: {name} against the table, m");
+        let error = (largest(&stiff) - peak).abs();
+        checks.push(ValidationCheck::below(label("largest slip"), error, limits[1]));
         if !short {
-            let off = (end(&found) - residual).abs();
-            checks.push(Check::below(unit("slip left"), off, limits[2]));
-            // The table's last digit is 1e-6 m, its own sub-steps leave 2e-6 m.
-            let off = worse((end(&wanted) - residual).abs(), (largest(&wanted) - peak).abs());
-            checks.push(Check::below(unit("own integration"), off, 2e-6));
+            let error = (last(&stiff) - residual).abs();
+            checks.push(ValidationCheck::below(label("slip left"), error, limits[2]));
+            // The table's last digit is 1e-6 m, and its sub-steps have an error of 2e-6 m.
+            let error =
+                worse((last(&reference) - residual).abs(), (largest(&reference) - peak).abs());
+            checks.push(ValidationCheck::below(label("separate integration"), error, 2e-6));
         }
-        let points = |slips: &[f64]| {
-            let each = slips.iter().enumerate().take(whole(12.0 / SAMPLE));
-            each.map(|(k, slip)| (k as f64 * SAMPLE, 1e3 * slip)).collect::<Vec<_>>()
-        };
         panels.push(
-            Panel::new("time, s", &format!("slip, mm (friction {friction})"))
+            FigurePanel::new("time, s", &format!("slip, mm (friction {friction})"))
                 .legend(SeriesLabelPosition::LowerRight)
                 .room(0.3, 0.05)
-                .reference("rigid ground, own integration", RED, points(&wanted))
-                .dashed("basemat, c_S = 100 m/s", ORANGE, points(&soft))
-                .line("basemat, c_S = 1600 m/s", BLUE, points(&found)),
+                .reference("rigid ground, separate integration", CURVE_RED, slip_curve(&reference))
+                .dashed("basemat, c_S = 100 m/s", CURVE_ORANGE, slip_curve(&soft))
+                .line("basemat, c_S = 1600 m/s", CURVE_BLUE, slip_curve(&stiff)),
         );
     }
     let title = "Block 4 m × 0.4 m sliding under El Centro 1940 NS";
-    Ok(Outcome { checks, figure: Figure::new(title, 2, panels) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, panels) })
 }

@@ -7,7 +7,7 @@ use crate::figure::Figure;
 
 /// A validation problem.
 #[derive(Clone, Copy)]
-pub(crate) struct Case {
+pub(crate) struct ValidationCase {
     /// Name on the command line, in file names and in the document's markers.
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
@@ -16,23 +16,23 @@ pub(crate) struct Case {
     /// Mesh and time step.
     pub(crate) settings: &'static str,
     /// Runs the case; `true` selects the short form.
-    pub(crate) run: fn(bool) -> Result<Outcome, AnyError>,
+    pub(crate) run: fn(bool) -> Result<ValidationOutcome, AnyError>,
 }
 
 /// Errors and picture of a case.
-pub(crate) struct Outcome {
-    pub(crate) checks: Vec<Check>,
+pub(crate) struct ValidationOutcome {
+    pub(crate) checks: Vec<ValidationCheck>,
     pub(crate) figure: Figure,
 }
 
 /// A number that must lie within limits.
-pub(crate) struct Check {
+pub(crate) struct ValidationCheck {
     pub(crate) name: String,
     pub(crate) value: f64,
     pub(crate) limits: RangeInclusive<f64>,
 }
 
-impl Check {
+impl ValidationCheck {
     /// An error that must not exceed `limit`.
     pub(crate) fn below(name: impl Into<String>, value: f64, limit: f64) -> Self {
         Self { name: name.into(), value, limits: 0.0..=limit }
@@ -45,25 +45,30 @@ impl Check {
 
     /// Checks of several errors, each with its name and limit.
     pub(crate) fn list(names: &[&str], values: &[f64], limits: &[f64]) -> Vec<Self> {
-        let each = names.iter().zip(values).zip(limits);
-        each.map(|((name, value), limit)| Self::below(*name, *value, *limit)).collect()
+        let errors = names.iter().zip(values).zip(limits);
+        errors.map(|((name, value), limit)| Self::below(*name, *value, *limit)).collect()
     }
 
-    /// Whether the number is where it must be; NaN never is.
+    /// Whether the number is within its limits; NaN never is.
     pub(crate) fn holds(&self) -> bool {
         self.limits.contains(&self.value)
     }
 }
 
-/// The larger of two errors; NaN, which is the worst, if either is (`f64::max` would drop it).
-pub(crate) fn worse(one: f64, other: f64) -> f64 {
-    if one.is_nan() || one > other { one } else { other }
+/// The larger of two errors; NaN if either is NaN (`f64::max` would ignore it).
+pub(crate) fn worse(error: f64, other: f64) -> f64 {
+    if error.is_nan() || error > other { error } else { other }
+}
+
+/// Curve of samples at an interval, with values multiplied by 1000.
+pub(crate) fn milli_curve(interval: f64, values: &[f64]) -> Vec<(f64, f64)> {
+    values.iter().enumerate().map(|(k, value)| (k as f64 * interval, 1e3 * value)).collect()
 }
 
 /// A case that has run.
 pub(crate) struct Finished {
-    pub(crate) case: Case,
-    pub(crate) outcome: Outcome,
+    pub(crate) case: ValidationCase,
+    pub(crate) outcome: ValidationOutcome,
     /// Processor time of the case, reference included, s.
     pub(crate) seconds: f64,
 }
@@ -76,6 +81,6 @@ impl Finished {
 
     /// Whether every check holds.
     pub(crate) fn holds(&self) -> bool {
-        self.outcome.checks.iter().all(Check::holds)
+        self.outcome.checks.iter().all(ValidationCheck::holds)
     }
 }

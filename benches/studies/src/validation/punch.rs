@@ -1,4 +1,4 @@
-//! A rigid punch under an eccentric load that lifts off, and one that is glued: static contact.
+//! Static contact of a rigid punch under an eccentric load, frictionless and bonded.
 
 use std::f64::consts::PI;
 
@@ -8,13 +8,13 @@ use basemat::structure::{RigidBlock, Structure};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome, worse};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, GREEN, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::table;
 use basemat_problems::wrapped::Pulled;
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "punch",
     title: "Partial uplift of a punch",
     reference: "inclined punch in closed form (Muskhelishvili; Johnson), and its table",
@@ -22,8 +22,8 @@ pub(crate) const CASE: Case = Case {
     run,
 };
 
-/// Half width and load are 1, the shear modulus too.
-const ECCENTRICITIES: [f64; 4] = [0.3, 0.6, 0.75, 0.9];
+/// Eccentricities; half width, load and shear modulus are 1.
+const LOAD_ECCENTRICITIES: [f64; 4] = [0.3, 0.6, 0.75, 0.9];
 
 /// Rigid block under a constant clockwise moment.
 fn tilted(moment: f64) -> basemat::Result<impl Structure> {
@@ -32,17 +32,17 @@ fn tilted(moment: f64) -> basemat::Result<impl Structure> {
 }
 
 /// Clockwise tilt, length of contact, and pressure of every element.
-struct Found {
+struct PunchState {
     tilt: f64,
     length: f64,
     pressure: Vec<(ContactElement, f64)>,
 }
 
-fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<Found, AnyError> {
+fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<PunchState, AnyError> {
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
     let ground = ElasticGround::new(soil, strip)?;
-    let places = ground.elements().to_vec();
+    let elements = ground.elements().to_vec();
     let simulation = Simulation::builder(0.1)
         .structure(tilted(eccentricity)?)
         .ground(ground)
@@ -50,35 +50,45 @@ fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<Found, AnyE
         .gravity(1.0)
         .build()?;
     let state = simulation.state();
-    Ok(Found {
+    Ok(PunchState {
         tilt: -simulation.static_displacement()[RigidBlock::ROTATION],
         length: 2.0 * (1.0 - state.uplifted_fraction),
-        pressure: places.into_iter().zip(state.contact.iter().map(|c| c.pressure)).collect(),
+        pressure: elements
+            .into_iter()
+            .zip(state.contact.iter().map(|element| element.pressure))
+            .collect(),
     })
 }
 
-/// Tilt of the smooth punch and length of its contact. With full contact (e ≤ ½) the pressure is
-/// (1 + 2ex)/(π√(1−x²)); beyond, contact is over L = 4(1−e) at the right edge.
-fn exact(poisson: f64, eccentricity: f64) -> [f64; 2] {
+struct ExactPunch {
+    tilt: f64,
+    length: f64,
+}
+
+/// Tilt of the frictionless punch and length of its contact.
+///
+/// With full contact (e ≤ ½) the pressure is (1 + 2ex)/(π√(1−x²)). Beyond, contact is over L = 4(1−e) at the right edge.
+fn exact(poisson: f64, eccentricity: f64) -> ExactPunch {
     let unit = (1.0 - poisson) / PI;
     if eccentricity <= 0.5 {
-        [2.0 * eccentricity * unit, 2.0]
+        ExactPunch { tilt: 2.0 * eccentricity * unit, length: 2.0 }
     } else {
-        [unit / (2.0 * (1.0 - eccentricity)), 4.0 * (1.0 - eccentricity)]
+        ExactPunch { tilt: unit / (2.0 * (1.0 - eccentricity)), length: 4.0 * (1.0 - eccentricity) }
     }
 }
 
-/// Load carried to the left of x once the punch has lifted: ∫ (2/πL) √(u/(L−u)) du.
-fn carried(eccentricity: f64, x: f64) -> f64 {
+/// Load to the left of x under a punch that has lifted: ∫ (2/πL) √(u/(L−u)) du.
+fn load_left_of(eccentricity: f64, x: f64) -> f64 {
     let length = 4.0 * (1.0 - eccentricity);
     let u = (x - 1.0 + length).clamp(0.0, length);
     2.0 / (PI * length) * (length * (u / length).sqrt().asin() - (u * (length - u)).sqrt())
 }
 
-/// Tilt (clockwise) and sideways motion (to the right) of the strip glued to the ground under a
-/// clockwise moment of 1: found, and in closed form with ε = ln(3−4ν)/(2π),
-/// θ = 2(1−ν)/((1+4ε²)πμb²) and u = 2εbθ.
-fn glued(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
+/// Tilt (clockwise) and sideways motion (to the right) of the bonded strip under a clockwise moment of 1.
+///
+/// The first pair is computed. The second is in closed form with ε = ln(3−4ν)/(2π), θ = 2(1−ν)/((1+4ε²)πμb²) and
+/// u = 2εbθ.
+fn bonded_strip(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
     let simulation = Simulation::builder(0.1)
@@ -90,87 +100,97 @@ fn glued(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
     let u = simulation.static_displacement();
     let exponent = (3.0 - 4.0 * poisson).ln() / (2.0 * PI);
     let tilt = 2.0 * (1.0 - poisson) / ((1.0 + 4.0 * exponent * exponent) * PI);
-    let found = [-u[RigidBlock::ROTATION], u[RigidBlock::HORIZONTAL]];
-    Ok([found, [tilt, 2.0 * exponent * tilt]])
+    let computed = [-u[RigidBlock::ROTATION], u[RigidBlock::HORIZONTAL]];
+    Ok([computed, [tilt, 2.0 * exponent * tilt]])
 }
 
-fn run(_short: bool) -> Result<Outcome, AnyError> {
+fn run(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let limits = [1e-3, 1.2e-3, 2.5e-3, 7.2e-3];
     let mut checks = Vec::new();
-    let (mut order, mut edge, mut table_error) = ([f64::INFINITY, 0.0_f64], 0.0_f64, 0.0_f64);
+    let mut order = [f64::INFINITY, 0.0_f64];
+    let mut edge = 0.0_f64;
+    let mut table_error = 0.0_f64;
     let rows =
         table("halfplane_tilted_punch.csv").rows(["nu", "f", "e", "theta", "contact_length"]);
-    for (e, limit) in ECCENTRICITIES.into_iter().zip(limits) {
+    for (e, limit) in LOAD_ECCENTRICITIES.into_iter().zip(limits) {
         let mut worst = 0.0_f64;
         for poisson in [0.0, 1.0 / 3.0] {
-            let [tilt, length] = exact(poisson, e);
+            let exact = exact(poisson, e);
             let mut errors = [0.0; 3];
             for (error, elements) in errors.iter_mut().zip([10, 20, 40]) {
-                let found = punch(poisson, e, elements)?;
-                *error = (found.tilt / tilt - 1.0).abs();
+                let computed = punch(poisson, e, elements)?;
+                *error = (computed.tilt / exact.tilt - 1.0).abs();
                 let longest = PI / elements as f64;
-                edge = worse(edge, (found.length - length).abs() / longest);
+                edge = worse(edge, (computed.length - exact.length).abs() / longest);
             }
             worst = worse(worst, errors[2]);
             let slope = (errors[1] / errors[2]).log2();
             order = [order[0].min(slope), order[1].max(slope)];
-            // The closed form that is used here against the table.
+            // Error of this closed form against the table.
             for [nu, friction, eccentricity, theta, contact] in &rows {
-                let same = |a: f64, b: f64| (a - b).abs() < 1e-9;
-                if *friction == 0.0 && same(*nu, poisson) && same(*eccentricity, e) {
-                    let off = worse((theta / tilt - 1.0).abs(), (contact / length - 1.0).abs());
-                    table_error = worse(table_error, off);
+                let is_case = (nu - poisson).abs() < 1e-9 && (eccentricity - e).abs() < 1e-9;
+                if *friction == 0.0 && is_case {
+                    let error = worse(
+                        (theta / exact.tilt - 1.0).abs(),
+                        (contact / exact.length - 1.0).abs(),
+                    );
+                    table_error = worse(table_error, error);
                 }
             }
         }
-        checks.push(Check::below(
+        checks.push(ValidationCheck::below(
             format!("tilt at e = {e} b, 40 elements, relative"),
             worst,
             limit,
         ));
     }
-    checks.push(Check::within("order in the element size, smallest", order[0], 1.9..=2.2));
-    checks.push(Check::within("order in the element size, largest", order[1], 1.9..=2.2));
-    checks.push(Check::below("edge of contact, off by elements", edge, 1.0));
-    checks.push(Check::below("closed form against the table", table_error, 1e-9));
+    checks.push(ValidationCheck::within(
+        "order in the element size, smallest",
+        order[0],
+        1.9..=2.2,
+    ));
+    checks.push(ValidationCheck::within("order in the element size, largest", order[1], 1.9..=2.2));
+    checks.push(ValidationCheck::below("edge of contact, off by elements", edge, 1.0));
+    checks.push(ValidationCheck::below("closed form against the table", table_error, 1e-9));
     let pressed = punch(0.0, 0.75, 40)?;
     let misplaced: f64 = pressed
         .pressure
         .iter()
-        .map(|(element, p)| {
-            let wanted = carried(0.75, element.right()) - carried(0.75, element.left());
-            (p * element.length() - wanted).abs()
+        .map(|(element, pressure)| {
+            let expected = load_left_of(0.75, element.right()) - load_left_of(0.75, element.left());
+            (pressure * element.length() - expected).abs()
         })
         .sum();
-    checks.push(Check::below(
+    checks.push(ValidationCheck::below(
         "pressure at e = 0.75 b, misplaced part of the load",
         misplaced,
         1e-2,
     ));
     let mut worst = [0.0_f64; 2];
     for poisson in [0.0, 1.0 / 3.0] {
-        let [found, wanted] = glued(poisson, 40)?;
+        let [computed, expected] = bonded_strip(poisson, 40)?;
         for k in 0..2 {
-            worst[k] = worse(worst[k], (found[k] / wanted[k] - 1.0).abs());
+            worst[k] = worse(worst[k], (computed[k] / expected[k] - 1.0).abs());
         }
     }
     let names =
         ["glued strip: tilt under a moment, relative", "glued strip: sideways motion, relative"];
-    checks.extend(Check::list(&names, &worst, &[1.2e-3, 1e-3]));
-    Ok(Outcome { checks, figure: figure(&pressed)? })
+    checks.extend(ValidationCheck::list(&names, &worst, &[1.2e-3, 1e-3]));
+    Ok(ValidationOutcome { checks, figure: figure(&pressed)? })
 }
 
-fn figure(pressed: &Found) -> Result<Figure, AnyError> {
+fn figure(pressed: &PunchState) -> Result<Figure, AnyError> {
     // Tilts over that at which the punch starts to lift, θ₀ = (1−ν)N/(πμb).
     let unit = 1.0 / PI;
     let curve = (1..=97).map(|k| 0.01 * f64::from(k));
-    let curve = curve.map(|e| (exact(0.0, e)[0] / unit, e)).collect();
-    let bonded = (0..=100).map(|k| 0.02 * f64::from(k)).map(|t| (t, 0.5 * t)).collect();
-    let mut left = Panel::new("tilt θ/θ₀, θ₀ = (1−ν)N/(πμb)", "moment M/(N b)")
+    let curve = curve.map(|e| (exact(0.0, e).tilt / unit, e)).collect();
+    let bonded = (0..=100).map(|k| 0.02 * f64::from(k)).map(|tilt| (tilt, 0.5 * tilt)).collect();
+    let mut left = FigurePanel::new("tilt θ/θ₀, θ₀ = (1−ν)N/(πμb)", "moment M/(N b)")
         .legend(SeriesLabelPosition::LowerRight)
-        .dashed("without uplift", GREEN, bonded)
-        .reference("closed form", RED, curve);
-    for (elements, name, color) in [(10, "basemat, 10 elements", GREEN), (40, "40 elements", BLUE)]
+        .dashed("without uplift", CURVE_GREEN, bonded)
+        .reference("closed form", CURVE_RED, curve);
+    for (elements, name, color) in
+        [(10, "basemat, 10 elements", CURVE_GREEN), (40, "40 elements", CURVE_BLUE)]
     {
         let mut points = Vec::new();
         for e in [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93] {
@@ -179,14 +199,19 @@ fn figure(pressed: &Found) -> Result<Figure, AnyError> {
         left = left.circles(name, color, points);
     }
     left = left.room(0.02, 0.08);
-    let middle = |element: &ContactElement| 0.5 * (element.left() + element.right());
-    let pressure = |x: f64| 2.0 / PI * (x / (1.0 - x)).sqrt();
-    let exact = (0..=970).map(|k| 1e-3 * f64::from(k)).map(|x| (x, pressure(x))).collect();
-    let found = pressed.pressure.iter().filter(|(element, _)| middle(element) < 0.97);
-    let right = Panel::new("place under the punch, x/b", "pressure p b/N, e = 0.75 b")
+    let exact = (0..=970)
+        .map(|k| 1e-3 * f64::from(k))
+        .map(|x| (x, 2.0 / PI * (x / (1.0 - x)).sqrt()))
+        .collect();
+    let computed = pressed
+        .pressure
+        .iter()
+        .map(|(element, pressure)| (0.5 * (element.left() + element.right()), *pressure))
+        .filter(|(x, _)| *x < 0.97);
+    let right = FigurePanel::new("place under the punch, x/b", "pressure p b/N, e = 0.75 b")
         .legend(SeriesLabelPosition::UpperLeft)
-        .reference("closed form: contact over 0 ≤ x ≤ b", RED, exact)
-        .circles("basemat, 40 elements", BLUE, found.map(|(e, p)| (middle(e), *p)).collect());
+        .reference("closed form: contact over 0 ≤ x ≤ b", CURVE_RED, exact)
+        .circles("basemat, 40 elements", CURVE_BLUE, computed.collect());
     let title = "Rigid frictionless punch of half width b under a load N at eccentricity e = M/N";
     Ok(Figure::new(title, 2, vec![left, right]))
 }

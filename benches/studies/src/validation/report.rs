@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::outcome::{Check, Finished};
+use super::outcome::{Finished, ValidationCheck};
 use crate::AnyError;
 use crate::document::{splice, write_csv};
 
@@ -18,7 +18,9 @@ pub(crate) fn print(finished: &Finished) {
 
 /// Writes every check of every case.
 pub(crate) fn write_checks(path: &Path, list: &[Finished]) -> Result<(), AnyError> {
-    let checks = list.iter().flat_map(|f| f.outcome.checks.iter().map(move |check| (f, check)));
+    let checks = list
+        .iter()
+        .flat_map(|finished| finished.outcome.checks.iter().map(move |check| (finished, check)));
     write_csv(
         path,
         ["case", "check", "value", "lowest", "highest", "holds"],
@@ -59,8 +61,9 @@ fn section(finished: &Finished) -> Result<String, AnyError> {
     Ok(text)
 }
 
-fn limits(check: &Check) -> String {
-    let (low, high) = (*check.limits.start(), *check.limits.end());
+fn limits(check: &ValidationCheck) -> String {
+    let low = *check.limits.start();
+    let high = *check.limits.end();
     if low == 0.0 { format!("≤ {}", number(high)) } else { format!("{low} … {high}") }
 }
 

@@ -1,4 +1,4 @@
-//! A rocking block: Housner's with its impacts, and the quarter period on the half-plane.
+//! Housner's rocking block with its impacts, and the quarter period on the half-plane.
 
 use std::f64::consts::PI;
 
@@ -9,13 +9,13 @@ use basemat::structure::{Base, RigidBlock, Structure, Triplets};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome, worse};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_curve, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::rocking::{Rocker, crossings, quarter_period};
 use basemat_problems::series::{Error, whole};
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "rocking_block",
     title: "Rocking block",
     reference: "Housner's block, integrated apart; quarter period in closed form",
@@ -26,74 +26,82 @@ pub(crate) const CASE: Case = Case {
 /// Half width, half height (m), density (kg/m³).
 const B: f64 = 0.5;
 const H: f64 = 2.0;
-const DENSITY: f64 = 2500.0;
-/// The block is pushed for this long (s), with `PUSH` times the moment that lifts it at most.
-const PUSHED: f64 = 0.5;
-const PUSH: f64 = 1.6;
-/// Runs whose errors are averaged, with pushes that differ by `BUMP` of themselves from run to run: each impact of stiff
-/// bodies multiplies rounding, so that one run's errors are a draw, twice as large in one as in another.
-const PUSHES: usize = 16;
-const BUMP: f64 = 1e-10;
-/// Impacts that are compared: later ones follow each other ever faster, until the block stands.
-const IMPACTS: usize = 8;
-/// Samples of histories, s.
-const SAMPLE: f64 = 0.01;
+const MASS_DENSITY: f64 = 2500.0;
+/// Duration of the push (s), and its largest moment over the moment that lifts the block.
+const PUSH_DURATION: f64 = 0.5;
+const PUSH_FACTOR: f64 = 1.6;
+/// Number of runs whose errors are averaged, and relative difference of the push from run to run.
+///
+/// Each impact of stiff bodies multiplies rounding, so that errors of single runs differ by a factor of two.
+const RUN_COUNT: usize = 16;
+const PUSH_INCREMENT: f64 = 1e-10;
+/// Number of impacts that are compared; later impacts follow each other ever faster, until the block stands.
+const IMPACT_COUNT: usize = 8;
+/// Interval of the samples, s.
+const SAMPLE_INTERVAL: f64 = 0.01;
 
 fn mass() -> f64 {
-    4.0 * B * H * DENSITY
+    4.0 * B * H * MASS_DENSITY
 }
 
 fn weight() -> f64 {
     mass() * STANDARD_GRAVITY
 }
 
-/// About the middle of the base.
+/// Moment of inertia about the middle of the base.
 fn inertia() -> f64 {
     mass() * (B * B + H * H) / 3.0 + mass() * H * H
 }
 
 fn push(time: f64) -> f64 {
-    if time < PUSHED { PUSH * weight() * B * (PI * time / PUSHED).sin() } else { 0.0 }
-}
-
-/// The block with its P–Δ effect and a factor of the push, on a base of its own width.
-struct Pushed(RigidBlock, f64);
-
-impl Pushed {
-    fn on_base(width: f64, factor: f64) -> Result<Self, AnyError> {
-        let central = inertia() - mass() * H * H;
-        let block = RigidBlock::from_mass(width, mass(), central, H)?;
-        Ok(Self(block.with_p_delta(STANDARD_GRAVITY)?, factor))
+    if time < PUSH_DURATION {
+        PUSH_FACTOR * weight() * B * (PI * time / PUSH_DURATION).sin()
+    } else {
+        0.0
     }
 }
 
-impl Structure for Pushed {
+/// The block with its P–Δ effect under a push.
+struct PushedBlock {
+    block: RigidBlock,
+    push_factor: f64,
+}
+
+impl PushedBlock {
+    fn on_base(width: f64, push_factor: f64) -> Result<Self, AnyError> {
+        let central = inertia() - mass() * H * H;
+        let block = RigidBlock::from_mass(width, mass(), central, H)?;
+        Ok(Self { block: block.with_p_delta(STANDARD_GRAVITY)?, push_factor })
+    }
+}
+
+impl Structure for PushedBlock {
     fn dofs(&self) -> usize {
-        self.0.dofs()
+        self.block.dofs()
     }
 
     fn base(&self) -> Base {
-        self.0.base()
+        self.block.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        self.0.mass(matrix)
+        self.block.mass(matrix)
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        self.0.stiffness(matrix)
+        self.block.stiffness(matrix)
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        load[RigidBlock::ROTATION] += self.1 * push(time);
+        load[RigidBlock::ROTATION] += self.push_factor * push(time);
         Ok(())
     }
 }
 
-/// Tilts every step, the first at t = 0.
+/// Tilts at every step, the first at t = 0.
 fn tilts(
     ground: impl Ground + 'static,
-    structure: Pushed,
+    structure: PushedBlock,
     time_step: f64,
     duration: f64,
 ) -> Result<Vec<f64>, AnyError> {
@@ -111,96 +119,115 @@ fn tilts(
     Ok(tilts)
 }
 
-/// Housner on two elements, whose pressures act at their middles, ±b: the two corners. The bed is
-/// stiff, and damped enough that a corner lands without rebound and the bed is back (c/k) within
-/// 0.05 ms.
-fn corners(time_step: f64, duration: f64, factor: f64) -> Result<Vec<f64>, AnyError> {
-    let (stiffness, dashpot) = (4e12, 2e8);
+/// Housner's block on two elements, whose pressures act at their middles, ±b: the two corners.
+///
+/// The stiff bed is damped, so that a corner lands without rebound and the bed returns (c/k) within 0.05 ms.
+fn on_corners(time_step: f64, duration: f64, factor: f64) -> Result<Vec<f64>, AnyError> {
+    let stiffness = 4e12;
+    let dashpot = 2e8;
     let bed = SpringGround::new(-2.0 * B..2.0 * B, 2, stiffness, 1e13)?
         .with_dashpots(dashpot, 0.0)?
         .with_theta(1.0)?;
-    let every = whole(SAMPLE / time_step);
-    let block = Pushed::on_base(4.0 * B, factor)?;
-    Ok(tilts(bed, block, time_step, duration)?.into_iter().step_by(every).collect())
+    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let block = PushedBlock::on_base(4.0 * B, factor)?;
+    Ok(tilts(bed, block, time_step, duration)?.into_iter().step_by(stride).collect())
 }
 
-/// Difference of histories, relative to the wanted one in the L2 norm.
-fn relative(found: &[f64], wanted: &[f64]) -> f64 {
+/// Difference of histories relative to the reference, in the L2 norm.
+fn relative(computed: &[f64], reference: &[f64]) -> f64 {
     let mut error = Error::default();
-    found.iter().zip(wanted).for_each(|(a, b)| error.add(*a, *b));
+    computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }
 
-/// Quarter period of free rocking on the half-plane over Housner's, and over that on a
-/// half-plane without inertia.
-fn quarter(speed: f64, elements: usize) -> Result<[f64; 2], AnyError> {
-    let (poisson, time_step) = (1.0 / 3.0, 0.0025);
+struct QuarterRatios {
+    rigid_base: f64,
+    yielding_soil: f64,
+}
+
+/// Quarter period of free rocking on the half-plane over Housner's, and over the one on a half-plane without inertia.
+fn quarter_ratios(speed: f64, elements: usize) -> Result<QuarterRatios, AnyError> {
+    let poisson = 1.0 / 3.0;
+    let time_step = 0.0025;
     let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
     let strip = Strip::new(-B..B, elements, Grading::Cosine)?;
     let ground = ElasticGround::new(soil, strip)?;
     let edge = ground.elements()[0].length();
-    let tilts = tilts(ground, Pushed::on_base(2.0 * B, 1.0)?, time_step, 1.5)?;
-    let peak = (whole(PUSHED / time_step)..tilts.len() - 1)
+    let tilts = tilts(ground, PushedBlock::on_base(2.0 * B, 1.0)?, time_step, 1.5)?;
+    let peak = (whole(PUSH_DURATION / time_step)..tilts.len() - 1)
         .find(|&k| tilts[k + 1] < tilts[k])
         .ok_or("the block does not turn back")?;
-    let [before, tilt, after] = [tilts[peak - 1], tilts[peak], tilts[peak + 1]];
-    let turned = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
+    let before = tilts[peak - 1];
+    let tilt = tilts[peak];
+    let after = tilts[peak + 1];
+    let peak_step = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
     let upright = (peak..tilts.len() - 1)
         .find(|&k| tilts[k + 1] < 0.0)
         .ok_or("the block does not come back")?;
-    let crossed = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
-    let found = (crossed - turned) * time_step;
+    let crossing_step = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
+    let computed = (crossing_step - peak_step) * time_step;
     let rate = (weight() * H / (inertia() + mass() * B * B)).sqrt();
     let housner = (1.0 / (1.0 - tilt * H / B)).acosh() / rate;
     let lift_off = (1.0 - poisson) * weight() / (PI * soil.shear_modulus() * B);
-    // Pressure on the last element acts at its middle: the block turns about that point.
+    // Pressure on the last element acts at its middle, about which the block rotates.
     let slenderness = (B - 0.5 * edge) / H;
     let yielding = quarter_period(tilt, lift_off, slenderness, rate);
-    Ok([found / housner, found / yielding])
+    Ok(QuarterRatios { rigid_base: computed / housner, yielding_soil: computed / yielding })
 }
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+/// Largest tilt between two times.
+fn peak_tilt(tilts: &[f64], from: f64, to: f64) -> f64 {
+    let part = &tilts[whole(from / SAMPLE_INTERVAL)..=whole(to / SAMPLE_INTERVAL)];
+    part.iter().fold(0.0_f64, |largest, tilt| worse(largest, tilt.abs()))
+}
+
+/// Tilts of the runs whose errors are averaged.
+fn runs(time_step: f64, duration: f64) -> Result<Vec<Vec<f64>>, AnyError> {
+    let factors = (0..RUN_COUNT).map(|k| 1.0 + k as f64 * PUSH_INCREMENT);
+    factors.map(|factor| on_corners(time_step, duration, factor)).collect()
+}
+
+fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let duration = if short { 5.0 } else { 6.5 };
     let block = Rocker { half_width: B, mass: mass(), height: H, inertia: inertia() };
-    let (wanted, impacts) = block.tilts(push, SAMPLE, duration);
-    let peak = |tilts: &[f64], from: f64, to: f64| {
-        let part = &tilts[whole(from / SAMPLE)..=whole(to / SAMPLE)];
-        part.iter().fold(0.0_f64, |most, tilt| worse(most, tilt.abs()))
-    };
-    if impacts.len() <= IMPACTS {
+    let (reference, impacts) = block.tilts(push, SAMPLE_INTERVAL, duration);
+    if impacts.len() <= IMPACT_COUNT {
         return Err("fewer impacts than are compared".into());
     }
-    let runs = |time_step: f64| -> Result<Vec<_>, AnyError> {
-        let factors = (0..PUSHES).map(|k| 1.0 + k as f64 * BUMP);
-        factors.map(|factor| corners(time_step, duration, factor)).collect()
-    };
-    let mean = |sum: f64| sum / PUSHES as f64;
-    let (mut tilt, mut off, mut peaks) = (0.0, 0.0, 0.0);
-    let fine = runs(2e-5)?;
-    for found in &fine {
-        let times = crossings(found, SAMPLE);
-        if times.len() < IMPACTS {
+    let mean = |sum: f64| sum / RUN_COUNT as f64;
+    let mut tilt = 0.0;
+    let mut time_error = 0.0;
+    let mut peaks = 0.0;
+    let fine = runs(2e-5, duration)?;
+    for tilts in &fine {
+        let times = crossings(tilts, SAMPLE_INTERVAL);
+        if times.len() < IMPACT_COUNT {
             return Err("fewer impacts than are compared".into());
         }
-        tilt += relative(found, &wanted);
-        let apart = times.iter().zip(&impacts[..IMPACTS]).map(|(a, b)| (a - b).abs());
-        off += apart.fold(0.0, worse);
-        let between = impacts[..=IMPACTS].windows(2).map(|pair| {
-            let [a, b] = [found, &wanted].map(|tilts| peak(tilts, pair[0], pair[1]));
-            (a / b - 1.0).abs()
+        tilt += relative(tilts, &reference);
+        let differences = times.iter().zip(&impacts[..IMPACT_COUNT]).map(|(a, b)| (a - b).abs());
+        time_error += differences.fold(0.0, worse);
+        let peak_errors = impacts[..=IMPACT_COUNT].windows(2).map(|pair| {
+            let expected = peak_tilt(&reference, pair[0], pair[1]);
+            (peak_tilt(tilts, pair[0], pair[1]) / expected - 1.0).abs()
         });
-        peaks += between.fold(0.0, worse);
+        peaks += peak_errors.fold(0.0, worse);
     }
     let mut checks = vec![
-        Check::below("two corners: tilt, relative L2", mean(tilt), 2e-2),
-        Check::below("two corners: times of 8 impacts, s", mean(off), 6e-3),
-        Check::below("two corners: 8 amplitudes between impacts, relative", mean(peaks), 8e-3),
+        ValidationCheck::below("two corners: tilt, relative L2", mean(tilt), 2e-2),
+        ValidationCheck::below("two corners: times of 8 impacts, s", mean(time_error), 6e-3),
+        ValidationCheck::below(
+            "two corners: 8 amplitudes between impacts, relative",
+            mean(peaks),
+            8e-3,
+        ),
     ];
-    // The step's share: an impact lasts a fraction of 0.1 ms.
+    // The error of the step is large, because an impact lasts a fraction of 0.1 ms.
     for (step, name, limit) in [(1e-4, "0.1", 4.5e-2), (5e-4, "0.5", 0.12)] {
-        let error = runs(step)?.iter().map(|found| relative(found, &wanted)).sum();
+        let runs = runs(step, duration)?;
+        let error = runs.iter().map(|tilts| relative(tilts, &reference)).sum();
         let name = format!("two corners, Δt = {name} ms: tilt, relative L2");
-        checks.push(Check::below(name, mean(error), limit));
+        checks.push(ValidationCheck::below(name, mean(error), limit));
     }
     let list = [
         (100.0, 16, 1.8e-2, 5.5e-3),
@@ -210,31 +237,40 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         (800.0, 16, 6.5e-3, 8e-4),
     ];
     let list = if short { &list[2..3] } else { &list[..] };
-    let (mut over_housner, mut over_yielding) = (Vec::new(), Vec::new());
+    let mut over_housner = Vec::new();
+    let mut over_yielding = Vec::new();
     for &(speed, elements, housner, yielding) in list {
-        let [rigid, soft] = quarter(speed, elements)?;
+        let ratios = quarter_ratios(speed, elements)?;
         let scene = format!("c_S = {speed} m/s, {elements} elements: quarter period");
-        // Slower than on a rigid base, never faster.
-        checks.push(Check::within(format!("{scene} over Housner's"), rigid, 1.0..=1.0 + housner));
+        // Rocking on soil is slower than on a rigid base.
+        checks.push(ValidationCheck::within(
+            format!("{scene} over Housner's"),
+            ratios.rigid_base,
+            1.0..=1.0 + housner,
+        ));
         let name = format!("{scene} against yielding soil");
-        checks.push(Check::below(name, (soft - 1.0).abs(), yielding));
+        checks.push(ValidationCheck::below(name, (ratios.yielding_soil - 1.0).abs(), yielding));
         if elements == 16 {
-            over_housner.push((speed, 100.0 * (rigid - 1.0)));
-            over_yielding.push((speed, 100.0 * (soft - 1.0)));
+            over_housner.push((speed, 100.0 * (ratios.rigid_base - 1.0)));
+            over_yielding.push((speed, 100.0 * (ratios.yielding_soil - 1.0)));
         }
     }
-    let points = |tilts: &[f64]| {
-        let each = tilts.iter().enumerate();
-        each.map(|(k, tilt)| (k as f64 * SAMPLE, 1e3 * tilt)).collect::<Vec<_>>()
-    };
-    let left = Panel::new("time, s", "tilt, mrad")
-        .reference("Housner 1963, integrated apart", RED, points(&wanted))
-        .line("basemat, two corners on a stiff bed", BLUE, points(&fine[0]));
-    let right = Panel::new("c_S of the soil, m/s", "quarter period too long by, %")
+    let left = FigurePanel::new("time, s", "tilt, mrad")
+        .reference(
+            "Housner 1963, integrated apart",
+            CURVE_RED,
+            milli_curve(SAMPLE_INTERVAL, &reference),
+        )
+        .line(
+            "basemat, two corners on a stiff bed",
+            CURVE_BLUE,
+            milli_curve(SAMPLE_INTERVAL, &fine[0]),
+        );
+    let right = FigurePanel::new("c_S of the soil, m/s", "quarter period too long by, %")
         .legend(SeriesLabelPosition::UpperRight)
         .room(0.15, 0.15)
-        .crosses("against Housner's rigid base", RED, over_housner)
-        .circles("against soil that yields without inertia", BLUE, over_yielding);
+        .crosses("against Housner's rigid base", CURVE_RED, over_housner)
+        .circles("against soil that yields without inertia", CURVE_BLUE, over_yielding);
     let title = "Block 1 m × 4 m, pushed for half a second, then free: tilt (left); 16 elements on the half-plane (right)";
-    Ok(Outcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
 }

@@ -8,14 +8,14 @@ use basemat::structure::{RigidBlock, RigidBody};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome};
 use crate::AnyError;
 use crate::artificial_motion::artificial_motion;
-use crate::figure::{BLUE, Figure, GREEN, ORANGE, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::random::Random;
 use basemat_problems::series::whole;
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "scatter",
     title: "Blocks that rock and twist under fifty inputs",
     reference: "the same scene at half the step, as a distribution; the run with factor 1 alone",
@@ -23,19 +23,20 @@ pub(crate) const CASE: Case = Case {
     run,
 };
 
-const INPUTS: usize = 50;
-const DURATION: f64 = 14.0;
-const SPEED: f64 = 300.0;
+const INPUT_COUNT: usize = 50;
+const RUN_DURATION: f64 = 14.0;
+/// m/s.
+const SHEAR_WAVE_SPEED: f64 = 300.0;
 
-/// Largest tilt and twist of a run, mrad, by factor of the motion and time step.
-type Scene = fn(f64, f64) -> Result<[f64; 2], AnyError>;
+/// Function of the largest tilt and twist of a run (mrad) by factor of the motion and time step.
+type PeakFunction = fn(f64, f64) -> Result<[f64; 2], AnyError>;
 
 fn soil() -> basemat::Result<Soil> {
-    Soil::from_shear_wave_speed(SPEED, 1.0 / 3.0, 1900.0)
+    Soil::from_shear_wave_speed(SHEAR_WAVE_SPEED, 1.0 / 3.0, 1900.0)
 }
 
 /// A block in the plane under a factor of El Centro.
-fn rocks(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
+fn rocking_block(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
     let block = RigidBlock::new(1.6, 6.0, 2000.0)?.with_p_delta(STANDARD_GRAVITY)?;
     let strip = Strip::under(&block, 16, Grading::Cosine)?.remove(0);
     let mut simulation = Simulation::builder(time_step)
@@ -44,12 +45,12 @@ fn rocks(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
         .interface(Coulomb::new(0.7)?)
         .motion(el_centro_1940().scaled(factor)?)
         .build()?;
-    let run = simulation.run(whole(DURATION / time_step), |_| {})?;
+    let run = simulation.run(whole(RUN_DURATION / time_step), |_| {})?;
     Ok([1e3 * run.whole.base_rotation.magnitude(), 0.0])
 }
 
 /// A column in plan under a factor of El Centro and, across, of an artificial motion.
-fn twists(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
+fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
     let column = RigidBody::cuboid([2.0, 2.0, 7.0], 2000.0)?.with_p_delta(STANDARD_GRAVITY)?;
     let across = artificial_motion(2.0, 3)?.scaled(0.35 * STANDARD_GRAVITY * factor)?;
     let mut simulation = Simulation::builder(time_step)
@@ -62,7 +63,7 @@ fn twists(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
             ..Triaxial::default()
         })
         .build()?;
-    let run = simulation.run(whole(DURATION / time_step), |_| {})?;
+    let run = simulation.run(whole(RUN_DURATION / time_step), |_| {})?;
     let whole = &run.whole;
     let tilt = whole.base_rotation.magnitude();
     Ok([1e3 * tilt, 1e3 * whole.twist.magnitude()])
@@ -70,10 +71,10 @@ fn twists(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
 
 /// Value below which this part of the sorted values lies.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
-    let place = part * (sorted.len() - 1) as f64;
-    let below = whole(place.floor());
+    let position = part * (sorted.len() - 1) as f64;
+    let below = whole(position.floor());
     let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
+    sorted[below] + (position - position.floor()) * (sorted[above] - sorted[below])
 }
 
 /// Peaks of the run with factor 1, and the sorted peaks of all inputs.
@@ -82,9 +83,17 @@ struct Peaks {
     all: Vec<f64>,
 }
 
+impl Peaks {
+    /// Part of the inputs over their peak.
+    fn distribution(&self) -> Vec<(f64, f64)> {
+        let peaks = self.all.iter().enumerate();
+        peaks.map(|(n, peak)| (*peak, (n as f64 + 0.5) / self.all.len() as f64)).collect()
+    }
+}
+
 /// Tilts and twists of a scene under `scale` times the motion.
 fn peaks(
-    scene: Scene,
+    scene: PeakFunction,
     scale: f64,
     factors: &[f64],
     time_step: f64,
@@ -93,58 +102,59 @@ fn peaks(
     let runs = factors.iter().map(|factor| scene(scale * factor, time_step));
     let runs: Vec<[f64; 2]> = runs.collect::<Result<_, _>>()?;
     Ok([0, 1].map(|k| {
-        let mut all: Vec<f64> = runs.iter().map(|own| own[k]).collect();
+        let mut all: Vec<f64> = runs.iter().map(|run| run[k]).collect();
         all.sort_by(f64::total_cmp);
         Peaks { single: single[k], all }
     }))
 }
 
-/// Name and run of a scene, scale of its motion, time step, largest spread relative to the median, and quantities.
-type Row = (&'static str, Scene, f64, f64, f64, &'static [&'static str]);
+/// Name and peaks of a scene, scale of its motion, time step, largest spread relative to the median, and quantities.
+type ScatterCase = (&'static str, PeakFunction, f64, f64, f64, &'static [&'static str]);
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut random = Random(46);
-    let count = if short { 6 } else { INPUTS };
+    let count = if short { 6 } else { INPUT_COUNT };
     let factors: Vec<f64> = (0..count).map(|_| random.within(0.99, 1.01)).collect();
-    let (mut checks, mut panels) = (Vec::new(), Vec::new());
+    let mut checks = Vec::new();
+    let mut panels = Vec::new();
     // Half the step may change a peak by a third of the spread.
-    let scenes: [Row; 4] = [
-        ("block, 1.2 El Centro", rocks, 1.2, 2.5e-3, 0.1, &["tilt"]),
-        ("block, 1.5 El Centro", rocks, 1.5, 2.5e-3, 0.1, &["tilt"]),
-        ("block, 2 El Centro", rocks, 2.0, 2.5e-3, 0.1, &["tilt"]),
-        ("column that twists", twists, 1.0, 5e-3, 0.6, &["tilt", "twist"]),
+    let scenes: [ScatterCase; 4] = [
+        ("block, 1.2 El Centro", rocking_block, 1.2, 2.5e-3, 0.1, &["tilt"]),
+        ("block, 1.5 El Centro", rocking_block, 1.5, 2.5e-3, 0.1, &["tilt"]),
+        ("block, 2 El Centro", rocking_block, 2.0, 2.5e-3, 0.1, &["tilt"]),
+        ("column that twists", twisting_column, 1.0, 5e-3, 0.6, &["tilt", "twist"]),
     ];
     for (scene, run, scale, step, spread, quantities) in scenes {
         let near = 1.0 - spread / 3.0..=1.0 + spread / 3.0;
-        let [coarse, fine] = [step, 0.5 * step].map(|step| peaks(run, scale, &factors, step));
-        let [coarse, fine] = [coarse?, fine?];
+        let coarse = peaks(run, scale, &factors, step)?;
+        let fine = peaks(run, scale, &factors, 0.5 * step)?;
         for ((name, coarse), fine) in quantities.iter().zip(&coarse).zip(&fine) {
-            let mut row = |what: &str, value: f64, limits| {
-                checks.push(Check::within(format!("{scene}: {name}, {what}"), value, limits));
+            let mut add = |label: &str, value: f64, limits| {
+                checks.push(ValidationCheck::within(
+                    format!("{scene}: {name}, {label}"),
+                    value,
+                    limits,
+                ));
             };
             let parts = [0.16, 0.5, 0.84].map(|part| quantile(&coarse.all, part));
-            row("factor 1, mrad", coarse.single, 30.0..=130.0);
+            add("factor 1, mrad", coarse.single, 30.0..=130.0);
             let half = fine.single / coarse.single;
-            row("factor 1 at half the step, over that", half, near.clone());
-            row("median, mrad", parts[1], 30.0..=130.0);
-            row("16 % over the median", parts[0] / parts[1], 1.0 - spread..=1.0);
-            row("84 % over the median", parts[2] / parts[1], 1.0..=1.0 + spread);
+            add("factor 1 at half the step, over that", half, near.clone());
+            add("median, mrad", parts[1], 30.0..=130.0);
+            add("16 % over the median", parts[0] / parts[1], 1.0 - spread..=1.0);
+            add("84 % over the median", parts[2] / parts[1], 1.0..=1.0 + spread);
             let half = quantile(&fine.all, 0.5) / parts[1];
-            row("median at half the step, over that", half, near.clone());
-            let curve = |own: &Peaks| {
-                let each = own.all.iter().enumerate();
-                each.map(|(n, peak)| (*peak, (n as f64 + 0.5) / count as f64)).collect()
-            };
+            add("median at half the step, over that", half, near.clone());
             panels.push(
-                Panel::new(&format!("{scene}: largest {name}, mrad"), "part of the inputs")
-                    .line("fifty inputs", BLUE, curve(coarse))
-                    .line("half the step", GREEN, curve(fine))
-                    .circles("factor 1", ORANGE, vec![(coarse.single, 0.5)])
-                    .crosses("factor 1, half the step", RED, vec![(fine.single, 0.5)])
+                FigurePanel::new(&format!("{scene}: largest {name}, mrad"), "part of the inputs")
+                    .line("fifty inputs", CURVE_BLUE, coarse.distribution())
+                    .line("half the step", CURVE_GREEN, fine.distribution())
+                    .circles("factor 1", CURVE_ORANGE, vec![(coarse.single, 0.5)])
+                    .crosses("factor 1, half the step", CURVE_RED, vec![(fine.single, 0.5)])
                     .legend(SeriesLabelPosition::LowerRight),
             );
         }
     }
     let title = "Largest tilt and twist under inputs that differ by 1 % at most";
-    Ok(Outcome { checks, figure: Figure::new(title, 3, panels) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 3, panels) })
 }

@@ -3,15 +3,15 @@
 use basemat::bem::Grading;
 use plotters::prelude::SeriesLabelPosition;
 
-use super::outcome::{Case, Check, Outcome, worse};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::impedance::{Force, impedances};
 use basemat_problems::rigid_strip::RigidStrip;
 use basemat_problems::series::Error;
 use basemat_problems::table;
 
-pub(crate) const CASE: Case = Case {
+pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "strip_impedance",
     title: "Rigid strip impedances",
     reference: "frequency-domain tables (problems of Luco & Westmann, Karasudhi, Keer & Lee)",
@@ -21,14 +21,14 @@ pub(crate) const CASE: Case = Case {
 
 const TIME_STEP: f64 = 0.05;
 
-/// Impedances over a₀, `[hh, vv, rr, hr]` of real and imaginary parts: the table's and those found.
-struct Curves {
+/// Real and imaginary parts of the impedances `[hh, vv, rr, hr]` over a₀, tabled and computed.
+struct StripCurves {
     frequencies: Vec<f64>,
-    wanted: Vec<[[f64; 2]; 4]>,
-    found: Vec<[[f64; 2]; 4]>,
+    tabled: Vec<[[f64; 2]; 4]>,
+    computed: Vec<[[f64; 2]; 4]>,
 }
 
-fn curves(name: &str, poisson: f64, bonded: bool) -> Curves {
+fn curves(name: &str, poisson: f64, bonded: bool) -> StripCurves {
     let kind = if bonded { "bonded" } else { "relaxed" };
     let columns =
         ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
@@ -36,19 +36,19 @@ fn curves(name: &str, poisson: f64, bonded: bool) -> Curves {
     let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let strip = |contact| RigidStrip::new(poisson, Grading::Cosine, 16, TIME_STEP, contact);
-    let found = impedances(strip, TIME_STEP, Force::Mean, bonded, &frequencies);
-    let part = |row: &[f64; 9], k: usize| [row[2 * k + 1], row[2 * k + 2]];
-    let wanted = rows.iter().map(|row| std::array::from_fn(|k| part(row, k))).collect();
-    Curves { frequencies, wanted, found }
+    let computed = impedances(strip, TIME_STEP, Force::Mean, bonded, &frequencies);
+    let tabled =
+        rows.iter().map(|row| std::array::from_fn(|k| [row[2 * k + 1], row[2 * k + 2]])).collect();
+    StripCurves { frequencies, tabled, computed }
 }
 
-impl Curves {
+impl StripCurves {
     /// Root mean square of the error, relative to the root mean square of the modulus.
     fn errors(&self) -> [f64; 4] {
         std::array::from_fn(|k| {
             let mut error = Error::default();
-            for (found, wanted) in self.found.iter().zip(&self.wanted) {
-                (0..2).for_each(|part| error.add(found[k][part], wanted[k][part]));
+            for (computed, tabled) in self.computed.iter().zip(&self.tabled) {
+                (0..2).for_each(|part| error.add(computed[k][part], tabled[k][part]));
             }
             error.relative()
         })
@@ -56,12 +56,12 @@ impl Curves {
 
     /// Real part (stiffness) or imaginary part over a₀ (dashpot) of component k.
     fn points(&self, list: &[[[f64; 2]; 4]], k: usize, part: usize) -> Vec<(f64, f64)> {
-        let value = |a0: f64, z: [f64; 2]| if part == 0 { z[0] } else { z[1] / a0 };
-        self.frequencies.iter().zip(list).map(|(a0, z)| (*a0, value(*a0, z[k]))).collect()
+        let impedances = self.frequencies.iter().zip(list);
+        impedances.map(|(a0, z)| (*a0, if part == 0 { z[k][0] } else { z[k][1] / a0 })).collect()
     }
 }
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let list = [("0333", 1.0 / 3.0), ("025", 0.25), ("0", 0.0)];
     let list = if short { &list[..1] } else { &list[..] };
     let mut checks = Vec::new();
@@ -77,27 +77,30 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
             }
             shown.get_or_insert(curves);
         }
-        // Without friction, motions across and down are not coupled.
-        let (kind, count) = if bonded { ("bonded", 4) } else { ("relaxed", 3) };
+        // Without friction, horizontal and vertical motions are not coupled.
+        let kind = if bonded { "bonded" } else { "relaxed" };
+        let count = if bonded { 4 } else { 3 };
         let names = names.map(|name| format!("{kind}, {name}"));
-        let each = names.into_iter().zip(worst).zip(limits).take(count);
-        checks.extend(each.map(|((name, error), limit)| Check::below(name, error, limit)));
+        let errors = names.into_iter().zip(worst).zip(limits).take(count);
+        checks.extend(
+            errors.map(|((name, error), limit)| ValidationCheck::below(name, error, limit)),
+        );
     }
     let curves = shown.ok_or("no table")?;
     let titles =
         ["horizontal: K_hh/μ", "vertical: K_vv/μ", "rocking: K_rr/(μb²)", "coupling: K_hr/(μb)"];
     let panels = titles.iter().enumerate().map(|(k, title)| {
-        let mut panel = Panel::new("a₀ = ωb/c_S", title).room(0.05, 0.85);
+        let mut panel = FigurePanel::new("a₀ = ωb/c_S", title).room(0.05, 0.85);
         panel = panel.legend(SeriesLabelPosition::UpperMiddle);
-        for (part, name, color) in [(0, "Re K", BLUE), (1, "Im K / a₀", RED)] {
-            let (wanted, found) =
-                (curves.points(&curves.wanted, k, part), curves.points(&curves.found, k, part));
-            panel = panel.reference(&format!("{name}, table"), color, wanted);
-            panel = panel.line(&format!("{name}, basemat"), color, found);
+        for (part, name, color) in [(0, "Re K", CURVE_BLUE), (1, "Im K / a₀", CURVE_RED)] {
+            let tabled = curves.points(&curves.tabled, k, part);
+            let computed = curves.points(&curves.computed, k, part);
+            panel = panel.reference(&format!("{name}, table"), color, tabled);
+            panel = panel.line(&format!("{name}, basemat"), color, computed);
         }
         panel
     });
     let title =
         "Bonded rigid strip of half width b, ν = 1/3: impedances (rotation lowers the right side)";
-    Ok(Outcome { checks, figure: Figure::new(title, 2, panels.collect()) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, panels.collect()) })
 }

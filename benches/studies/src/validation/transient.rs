@@ -7,61 +7,74 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::{RigidBlock, Structure};
 use basemat::{Simulation, Soil};
 
-use super::outcome::{Case, Check, Outcome, worse};
+use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Figure, Panel, RED};
+use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::sampled_block::{base_motion, moment, rotation, shear};
 use basemat_problems::series::{Error, Series, whole};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
-const ELEMENTS: usize = 16;
+const ELEMENT_COUNT: usize = 16;
 const TIME_STEP: f64 = 0.05;
 
 /// A column of the table, and the same quantity of a state.
-struct Quantity<'a> {
+struct TabledQuantity<'a> {
     column: &'a str,
     name: &'a str,
-    of: &'a dyn Fn(&State) -> f64,
+    value: &'a dyn Fn(&State) -> f64,
     /// Whether it is a mean over the step, as forces are.
     mean: bool,
     limit: f64,
 }
 
-impl<'a> Quantity<'a> {
+impl<'a> TabledQuantity<'a> {
     /// A quantity at the end of the step.
-    fn at_end(column: &'a str, name: &'a str, of: &'a dyn Fn(&State) -> f64, limit: f64) -> Self {
-        Self { column, name, of, mean: false, limit }
+    fn at_end(
+        column: &'a str,
+        name: &'a str,
+        value: &'a dyn Fn(&State) -> f64,
+        limit: f64,
+    ) -> Self {
+        Self { column, name, value, mean: false, limit }
     }
 
     /// A mean over the step.
-    fn mean(column: &'a str, name: &'a str, of: &'a dyn Fn(&State) -> f64, limit: f64) -> Self {
-        Self { column, name, of, mean: true, limit }
+    fn mean(column: &'a str, name: &'a str, value: &'a dyn Fn(&State) -> f64, limit: f64) -> Self {
+        Self { column, name, value, mean: true, limit }
     }
 }
 
 /// Time series of one quantity.
-struct History {
+struct QuantityHistory {
     name: String,
     error: f64,
     limit: f64,
     times: Vec<f64>,
-    found: Vec<f64>,
-    wanted: Vec<f64>,
+    computed: Vec<f64>,
+    tabled: Vec<f64>,
 }
 
-/// Runs a structure with degrees of freedom `[u_x, u_y, θ, …]` under the S wave of the tables: a Ricker pulse
-/// of the free field with amplitude 1 and σ = 1 about t = 5, in units of b, c_S, μ.
+/// All quantities of a run.
+struct TabledRun {
+    list: Vec<QuantityHistory>,
+    energy_error: f64,
+}
+
+/// Runs a structure with degrees of freedom `[u_x, u_y, θ, …]` under the S wave of the tables.
+///
+/// The free field is a Ricker pulse with amplitude 1 and σ = 1 about t = 5, in units of b, c_S, μ.
 fn histories(
     file: &str,
     structure: impl Structure + 'static,
     poisson: f64,
-    quantities: &[Quantity],
-) -> Result<(Vec<History>, f64), AnyError> {
+    quantities: &[TabledQuantity],
+) -> Result<TabledRun, AnyError> {
     let table = table(file);
-    let columns: Vec<_> = quantities.iter().map(|q| Series::new(&table, q.column)).collect();
+    let columns: Vec<_> =
+        quantities.iter().map(|quantity| Series::new(&table, quantity.column)).collect();
     let soil = Soil::new(1.0, poisson, 1.0)?;
-    let strip = Strip::new(-1.0..1.0, ELEMENTS, Grading::Cosine)?;
+    let strip = Strip::new(-1.0..1.0, ELEMENT_COUNT, Grading::Cosine)?;
     let mut simulation = Simulation::builder(TIME_STEP)
         .structure(structure)
         .ground(ElasticGround::new(soil, strip)?)
@@ -71,59 +84,60 @@ fn histories(
         .build()?;
     let mut histories: Vec<_> = quantities
         .iter()
-        .map(|q| History {
-            name: q.name.to_owned(),
+        .map(|quantity| QuantityHistory {
+            name: quantity.name.to_owned(),
             error: 0.0,
-            limit: q.limit,
+            limit: quantity.limit,
             times: Vec::new(),
-            found: Vec::new(),
-            wanted: Vec::new(),
+            computed: Vec::new(),
+            tabled: Vec::new(),
         })
         .collect();
     let duration = columns.first().ok_or("no quantities")?.duration();
     let run = simulation.run(whole(duration / TIME_STEP), |state| {
-        for ((history, q), column) in histories.iter_mut().zip(quantities).zip(&columns) {
-            // The force of a step stands for its mean over the step, and belongs to its middle.
-            let (time, wanted) = if q.mean {
-                (state.time - 0.5 * TIME_STEP, column.mean(state.time, TIME_STEP))
+        for ((history, quantity), column) in histories.iter_mut().zip(quantities).zip(&columns) {
+            // The force of a step is its mean over the step, in the middle of the step.
+            if quantity.mean {
+                history.times.push(state.time - 0.5 * TIME_STEP);
+                history.tabled.push(column.mean(state.time, TIME_STEP));
             } else {
-                (state.time, column.at(state.time))
-            };
-            history.times.push(time);
-            history.found.push((q.of)(state));
-            history.wanted.push(wanted);
+                history.times.push(state.time);
+                history.tabled.push(column.at(state.time));
+            }
+            history.computed.push((quantity.value)(state));
         }
     })?;
     for history in &mut histories {
         let mut error = Error::default();
-        history.found.iter().zip(&history.wanted).for_each(|(a, b)| error.add(*a, *b));
+        history.computed.iter().zip(&history.tabled).for_each(|(a, b)| error.add(*a, *b));
         history.error = error.relative();
     }
-    Ok((histories, run.energy_error))
+    Ok(TabledRun { list: histories, energy_error: run.energy_error })
 }
 
 /// Checks of the histories, and of the energy balance.
-fn checks(histories: &[History], energy_balance: f64) -> Vec<Check> {
-    let mut checks: Vec<_> = histories
-        .iter()
-        .map(|h| Check::below(format!("{}, relative L2", h.name), h.error, h.limit))
-        .collect();
-    checks.push(Check::below("energy balance, residual", energy_balance, 1e-10));
+fn checks(histories: &TabledRun) -> Vec<ValidationCheck> {
+    let mut checks = Vec::new();
+    for history in &histories.list {
+        let name = format!("{}, relative L2", history.name);
+        checks.push(ValidationCheck::below(name, history.error, history.limit));
+    }
+    checks.push(ValidationCheck::below("energy balance, residual", histories.energy_error, 1e-10));
     checks
 }
 
 /// A panel with the first 25 b/c_S of a history; what follows is small.
-fn panel(history: &History, unit: &str) -> Panel {
+fn panel(history: &QuantityHistory, unit: &str) -> FigurePanel {
     let points = |values: &[f64]| {
-        let each = history.times.iter().copied().zip(values.iter().copied());
-        each.take_while(|(time, _)| *time <= 25.0).collect()
+        let samples = history.times.iter().copied().zip(values.iter().copied());
+        samples.take_while(|(time, _)| *time <= 25.0).collect()
     };
-    Panel::new("t c_S / b", &format!("{}{unit}", history.name))
-        .reference("frequency-domain table", RED, points(&history.wanted))
-        .line("basemat", BLUE, points(&history.found))
+    FigurePanel::new("t c_S / b", &format!("{}{unit}", history.name))
+        .reference("frequency-domain table", CURVE_RED, points(&history.tabled))
+        .line("basemat", CURVE_BLUE, points(&history.computed))
 }
 
-pub(crate) const BLOCKS: Case = Case {
+pub(crate) const BLOCK_CASE: ValidationCase = ValidationCase {
     name: "block_sv_pulse",
     title: "Rigid block under an SV pulse",
     reference: "frequency-domain tables, Fourier synthesis",
@@ -131,12 +145,7 @@ pub(crate) const BLOCKS: Case = Case {
     run: blocks,
 };
 
-fn block(
-    name: &str,
-    poisson: f64,
-    height: f64,
-    density: f64,
-) -> Result<(Vec<History>, f64), AnyError> {
+fn block(name: &str, poisson: f64, height: f64, density: f64) -> Result<TabledRun, AnyError> {
     let roof = |state: &State| {
         state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
     };
@@ -145,16 +154,16 @@ fn block(
         RigidBlock::new(2.0, height, density)?,
         poisson,
         &[
-            Quantity::at_end("u_base", "base displacement", &base_motion, 4e-3),
-            Quantity::at_end("theta", "rotation", &rotation, 7.5e-3),
-            Quantity::at_end("u_roof", "roof displacement", &roof, 8e-3),
-            Quantity::mean("V", "base shear", &shear, 2.5e-3),
-            Quantity::mean("M", "base moment", &moment, 1.3e-2),
+            TabledQuantity::at_end("u_base", "base displacement", &base_motion, 4e-3),
+            TabledQuantity::at_end("theta", "rotation", &rotation, 7.5e-3),
+            TabledQuantity::at_end("u_roof", "roof displacement", &roof, 8e-3),
+            TabledQuantity::mean("V", "base shear", &shear, 2.5e-3),
+            TabledQuantity::mean("M", "base moment", &moment, 1.3e-2),
         ],
     )
 }
 
-fn blocks(short: bool) -> Result<Outcome, AnyError> {
+fn blocks(short: bool) -> Result<ValidationOutcome, AnyError> {
     let third = 1.0 / 3.0;
     let list = [
         ("nu0333_h2_rho1", third, 2.0, 1.0),
@@ -165,16 +174,16 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
         ("nu025_h4_rho0.5", 0.25, 4.0, 0.5),
     ];
     let list = if short { &list[..2] } else { &list[..] };
-    let mut checks: Vec<Check> = Vec::new();
+    let mut checks: Vec<ValidationCheck> = Vec::new();
     let mut worst_balance = 0.0_f64;
     let mut shown = Vec::new();
     for (name, poisson, height, density) in list {
-        let (found, energy_balance) = block(name, *poisson, *height, *density)?;
-        worst_balance = worse(worst_balance, energy_balance);
-        for (k, history) in found.iter().enumerate() {
+        let histories = block(name, *poisson, *height, *density)?;
+        worst_balance = worse(worst_balance, histories.energy_error);
+        for (k, history) in histories.list.iter().enumerate() {
             match checks.get_mut(k) {
                 Some(check) => check.value = worse(check.value, history.error),
-                None => checks.push(Check::below(
+                None => checks.push(ValidationCheck::below(
                     format!("{}, relative L2, worst block", history.name),
                     history.error,
                     history.limit,
@@ -182,17 +191,17 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
             }
         }
         if shown.is_empty() {
-            shown = found;
+            shown = histories.list;
         }
     }
-    checks.push(Check::below("energy balance, residual", worst_balance, 1e-10));
+    checks.push(ValidationCheck::below("energy balance, residual", worst_balance, 1e-10));
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A b)"];
     let panels = [0, 1, 3, 4].map(|k| panel(&shown[k], units[k]));
     let title = "Block of height 2b and the soil's density, ν = 1/3; the free field is a Ricker pulse of amplitude A";
-    Ok(Outcome { checks, figure: Figure::new(title, 2, panels.into()) })
+    Ok(ValidationOutcome { checks, figure: Figure::new(title, 2, panels.into()) })
 }
 
-pub(crate) const CANTILEVER: Case = Case {
+pub(crate) const CANTILEVER_CASE: ValidationCase = ValidationCase {
     name: "cantilever",
     title: "Cantilever on the strip",
     reference: "exact beam functions in the frequency domain",
@@ -200,33 +209,41 @@ pub(crate) const CANTILEVER: Case = Case {
     run: cantilever,
 };
 
-fn cantilever(_short: bool) -> Result<Outcome, AnyError> {
+fn cantilever(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let cantilever = Cantilever::new(8);
     let top = cantilever.top();
-    let tip = move |state: &State| state.absolute_displacement()[top];
-    // Shear of the beam, without the inertia of the base of mass 1.
-    let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
-    let (found, energy_balance) = histories(
+    let histories = histories(
         "td_EBcantilever_SV_nu0333.csv",
         cantilever,
         1.0 / 3.0,
         &[
-            Quantity::at_end("u_base", "base displacement", &base_motion, 3.6e-3),
-            Quantity::at_end("theta", "rotation", &rotation, 6.5e-3),
-            Quantity::at_end("u_top", "top displacement", &tip, 5.7e-3),
-            Quantity::mean("V_beam", "shear at the beam's foot", &beam_shear, 3.4e-3),
-            Quantity::mean("V", "base shear", &shear, 3e-3),
-            Quantity::mean("M", "base moment", &moment, 1.25e-2),
+            TabledQuantity::at_end("u_base", "base displacement", &base_motion, 3.6e-3),
+            TabledQuantity::at_end("theta", "rotation", &rotation, 6.5e-3),
+            TabledQuantity::at_end(
+                "u_top",
+                "top displacement",
+                &|state: &State| state.absolute_displacement()[top],
+                5.7e-3,
+            ),
+            // Without the inertia of the base of mass 1.
+            TabledQuantity::mean(
+                "V_beam",
+                "shear at the beam's foot",
+                &|state: &State| -state.base_shear - state.acceleration()[0],
+                3.4e-3,
+            ),
+            TabledQuantity::mean("V", "base shear", &shear, 3e-3),
+            TabledQuantity::mean("M", "base moment", &moment, 1.25e-2),
         ],
     )?;
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
-    let panels = [0, 2, 3, 5].map(|k| panel(&found[k], units[k]));
+    let panels = [0, 2, 3, 5].map(|k| panel(&histories.list[k], units[k]));
     let title = "Euler–Bernoulli cantilever of height 4b on a massive rigid base, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(Outcome { checks: checks(&found, energy_balance), figure })
+    Ok(ValidationOutcome { checks: checks(&histories), figure })
 }
 
-pub(crate) const THREE_STOREYS: Case = Case {
+pub(crate) const THREE_STOREY_CASE: ValidationCase = ValidationCase {
     name: "three_storeys",
     title: "Three-storey building on the strip",
     reference: "frequency-domain table, Fourier synthesis",
@@ -234,37 +251,51 @@ pub(crate) const THREE_STOREYS: Case = Case {
     run: storeys,
 };
 
-fn storeys(_short: bool) -> Result<Outcome, AnyError> {
+/// Displacement of a floor relative to the frame of the base.
+fn floor_motion(state: &State, floor: u8) -> f64 {
+    let u = state.absolute_displacement();
+    u[2 + usize::from(floor)] - u[0] + f64::from(floor) * u[2]
+}
+
+fn storeys(_short: bool) -> Result<ValidationOutcome, AnyError> {
     let building = three_storeys()?;
     let rows = building.shear(0)?;
-    let storey_shear =
-        move |s: &State| rows.value(s.absolute_displacement(), s.velocity(), s.acceleration());
-    // Storey displacements relative to the frame of the base.
-    let relative = |j: u8| {
-        move |state: &State| {
-            let u = state.absolute_displacement();
-            u[2 + usize::from(j)] - u[0] + f64::from(j) * u[2]
-        }
-    };
-    let (first, third) = (relative(1), relative(3));
-    let (found, energy_balance) = histories(
+    let histories = histories(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,
         1.0 / 3.0,
         &[
-            Quantity::at_end("u_base", "base displacement", &base_motion, 3.1e-3),
-            Quantity::at_end("theta", "rotation", &rotation, 4.3e-3),
-            Quantity::at_end("v1", "first floor, relative", &first, 3.6e-3),
-            Quantity::at_end("v3", "third floor, relative", &third, 7.2e-3),
-            Quantity::at_end("V1", "first storey's shear", &storey_shear, 3.3e-3),
-            Quantity::mean("V", "base shear", &shear, 2e-3),
-            Quantity::mean("M", "base moment", &moment, 1.1e-2),
+            TabledQuantity::at_end("u_base", "base displacement", &base_motion, 3.1e-3),
+            TabledQuantity::at_end("theta", "rotation", &rotation, 4.3e-3),
+            TabledQuantity::at_end(
+                "v1",
+                "first floor, relative",
+                &|state| floor_motion(state, 1),
+                3.6e-3,
+            ),
+            TabledQuantity::at_end(
+                "v3",
+                "third floor, relative",
+                &|state| floor_motion(state, 3),
+                7.2e-3,
+            ),
+            TabledQuantity::at_end(
+                "V1",
+                "first storey's shear",
+                &|state: &State| {
+                    let velocity = state.velocity();
+                    rows.value(state.absolute_displacement(), velocity, state.acceleration())
+                },
+                3.3e-3,
+            ),
+            TabledQuantity::mean("V", "base shear", &shear, 2e-3),
+            TabledQuantity::mean("M", "base moment", &moment, 1.1e-2),
         ],
     )?;
     let units = [" / A", " b / A", " / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
-    let panels = [0, 3, 4, 6].map(|k| panel(&found[k], units[k]));
+    let panels = [0, 3, 4, 6].map(|k| panel(&histories.list[k], units[k]));
     let title =
         "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(Outcome { checks: checks(&found, energy_balance), figure })
+    Ok(ValidationOutcome { checks: checks(&histories), figure })
 }

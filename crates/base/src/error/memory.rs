@@ -35,7 +35,7 @@ fn bytes_text(number: f64) -> String {
     }
 }
 
-/// Largest memory of one part, bytes: more than parts of usual models take, and less than a mistyped number needs.
+/// Largest memory of one part, bytes: parts of usual models take less, and a mistyped number would take more.
 const MEMORY_LIMIT: u64 = 8 << 30;
 
 /// Memory limit for the size of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.
