@@ -96,12 +96,14 @@ impl ComplexBlock {
 impl Index<(usize, usize)> for ComplexBlock {
     type Output = Complex64;
 
+    #[inline]
     fn index(&self, (row, column): (usize, usize)) -> &Complex64 {
         &self.values[column * self.rows + row]
     }
 }
 
 impl IndexMut<(usize, usize)> for ComplexBlock {
+    #[inline]
     fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut Complex64 {
         &mut self.values[column * self.rows + row]
     }

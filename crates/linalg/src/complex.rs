@@ -1,4 +1,6 @@
 //! Complex numbers: Laplace variables, moduli and the closed forms.
+//!
+//! Small functions are inlined: crates above compile them within their loops.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -25,22 +27,26 @@ pub struct Complex {
 
 impl Complex {
     /// `re` + i `im`.
+    #[inline]
     pub const fn new(re: f64, im: f64) -> Self {
         Self { re, im }
     }
 
     /// A real number.
+    #[inline]
     pub const fn real(re: f64) -> Self {
         Self { re, im: 0.0 }
     }
 
     /// `modulus` e^(i `angle`).
     #[doc(hidden)]
+    #[inline]
     pub fn polar(modulus: f64, angle: f64) -> Self {
         Self::new(modulus * angle.cos(), modulus * angle.sin())
     }
 
     /// Absolute value.
+    #[inline]
     pub fn abs(self) -> f64 {
         let square = self.square();
         // If the square leaves the range of f64, `hypot` is used, which is slower.
@@ -49,6 +55,7 @@ impl Complex {
 
     /// |x|².
     #[doc(hidden)]
+    #[inline]
     pub fn square(self) -> f64 {
         self.re * self.re + self.im * self.im
     }
@@ -56,6 +63,7 @@ impl Complex {
     /// Complex conjugate.
     #[must_use]
     #[doc(hidden)]
+    #[inline]
     pub const fn conj(self) -> Self {
         Self::new(self.re, -self.im)
     }
@@ -63,12 +71,14 @@ impl Complex {
     /// Product with a real number.
     #[must_use]
     #[doc(hidden)]
+    #[inline]
     pub fn scale(self, factor: f64) -> Self {
         Self::new(self.re * factor, self.im * factor)
     }
 
     /// 1/x.
     #[must_use]
+    #[inline]
     pub fn inverse(self) -> Self {
         let square = self.square();
         if square.is_normal() {
@@ -81,6 +91,7 @@ impl Complex {
 
     /// Square root with a real part not below zero.
     #[must_use]
+    #[inline]
     pub fn sqrt(self) -> Self {
         let size = self.abs();
         if size == 0.0 {
@@ -97,6 +108,7 @@ impl Complex {
 
     /// e^x.
     #[must_use]
+    #[inline]
     pub fn exp(self) -> Self {
         let size = self.re.exp();
         if size == 0.0 {
@@ -137,12 +149,14 @@ impl Complex {
 
     /// This number in the type that transforms and matrices use.
     #[doc(hidden)]
+    #[inline]
     pub fn inner(self) -> Complex64 {
         Complex64::new(self.re, self.im)
     }
 
     /// Whether both parts are finite.
     #[doc(hidden)]
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
     }
@@ -150,12 +164,14 @@ impl Complex {
 
 impl Add for Complex {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self::new(self.re + other.re, self.im + other.im)
     }
 }
 
 impl AddAssign for Complex {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -163,6 +179,7 @@ impl AddAssign for Complex {
 
 impl Sub for Complex {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self::new(self.re - other.re, self.im - other.im)
     }
@@ -170,6 +187,7 @@ impl Sub for Complex {
 
 impl Mul for Complex {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
     }
@@ -177,6 +195,7 @@ impl Mul for Complex {
 
 impl Mul<f64> for Complex {
     type Output = Self;
+    #[inline]
     fn mul(self, factor: f64) -> Self {
         self.scale(factor)
     }
@@ -184,6 +203,7 @@ impl Mul<f64> for Complex {
 
 impl Div for Complex {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         let square = other.square();
         if square.is_normal() {
@@ -195,6 +215,7 @@ impl Div for Complex {
 
 impl Neg for Complex {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self::new(-self.re, -self.im)
     }

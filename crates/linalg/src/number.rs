@@ -37,30 +37,37 @@ pub trait ComplexArithmetic:
 }
 
 impl ComplexArithmetic for Complex {
+    #[inline]
     fn like(self, value: Complex) -> Self {
         value
     }
 
+    #[inline]
     fn scale(self, factor: f64) -> Self {
         self.scale(factor)
     }
 
+    #[inline]
     fn inverse(self) -> Self {
         self.inverse()
     }
 
+    #[inline]
     fn sqrt(self) -> Self {
         self.sqrt()
     }
 
+    #[inline]
     fn exp(self) -> Self {
         self.exp()
     }
 
+    #[inline]
     fn at_least(self, minimum: Self) -> Self {
         if self.abs() < minimum.abs() { minimum } else { self }
     }
 
+    #[inline]
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self {
         if other.re < -fraction * other.abs() { -self } else { self }
     }

@@ -90,7 +90,7 @@ impl Probe {
         Self { unit: unit.into(), ..self }
     }
 
-    /// Column in files, `roof_left_m_per_s2`: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
+    /// Column in files, `roof_left_m_per_s2`: name and unit by the rule of `basemat::results`.
     #[doc(hidden)]
     pub fn column(&self) -> String {
         column(&self.name, &self.unit)
