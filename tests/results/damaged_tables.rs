@@ -131,8 +131,8 @@ fn plain_sweep() -> Sweep<'static> {
     Sweep::grid([Parameter::numbers("friction", friction)]).unwrap()
 }
 
-fn compute_plain(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
-    Ok([1.0 / 3.0, case.index as f64])
+fn plain_results(case: &SweepCase<'_>) -> [f64; 2] {
+    [1.0 / 3.0, case.index as f64]
 }
 
 /// In rows with quoted cells, which end what the mark began, and in rows without any, which do not.
@@ -140,7 +140,7 @@ fn compute_plain(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> 
 fn a_stray_quotation_mark_drops_no_rows() {
     for (name, sweep, compute) in [
         ("quoted", &(|| sweep(25)) as &dyn Fn() -> Sweep<'static>, &compute as &Compute),
-        ("plain", &plain_sweep, &compute_plain),
+        ("plain", &plain_sweep, &|case: &SweepCase<'_>| Ok::<_, String>(plain_results(case))),
     ] {
         let folder = folder(&format!("quotes_{name}"));
         let path = folder.join("cases.csv");
@@ -180,8 +180,8 @@ fn a_stray_quotation_mark_drops_no_rows() {
 }
 
 #[cfg(unix)]
-fn compute_index(case: &SweepCase<'_>) -> Result<[f64; 2]> {
-    Ok([case.index as f64, 0.5])
+fn index_results(case: &SweepCase<'_>) -> [f64; 2] {
+    [case.index as f64, 0.5]
 }
 
 /// Runs in a separate process whose files may have 2 or 4 kB: `ulimit` counts in blocks.
@@ -196,7 +196,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
         let runs = AtomicUsize::new(0);
         let fault = sweep(FRICTION_COUNT).table_in(path, RESULT_COLUMNS, |case| {
             runs.fetch_add(1, Ordering::Relaxed);
-            compute_index(case)
+            Result::Ok(index_results(case))
         });
         let Err(Error::Sweep(error)) = fault else { panic!("{fault:?}") };
         let SweepError::Unwritten { computed, left, rows, .. } = &error else { panic!("{error}") };
@@ -221,7 +221,8 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
     let rows = text.split_once(begin).unwrap().1.split_once(end).unwrap().0;
-    let whole = sweep(FRICTION_COUNT).table(RESULT_COLUMNS, compute_index).unwrap();
+    let whole = sweep(FRICTION_COUNT);
+    let whole = whole.table(RESULT_COLUMNS, |case| Result::Ok(index_results(case))).unwrap();
     // From the file that was cut, and from the rows handed over.
     for saved_rows in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
         let _ = std::fs::remove_file(&path);
@@ -230,7 +231,7 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
         let runs = AtomicUsize::new(0);
         let table = sweep(FRICTION_COUNT).table_in(&path, RESULT_COLUMNS, |case| {
             runs.fetch_add(1, Ordering::Relaxed);
-            compute_index(case)
+            Result::Ok(index_results(case))
         });
         assert_eq!(table.unwrap(), whole);
         let runs = runs.load(Ordering::Relaxed);

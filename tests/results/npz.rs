@@ -31,6 +31,7 @@ fn decoded(bytes: &[u8]) -> String {
         .take_while(|letter| *letter != '\0')
         .collect()
 }
+
 /// Type, shape and bytes of an array.
 struct NumpyArray {
     kind: String,

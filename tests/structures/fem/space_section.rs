@@ -133,24 +133,25 @@ fn momentum(part: &dyn Structure, motion: &[f64], acceleration: &[f64]) -> f64 {
     form(&motion[..count], &mass(part), &acceleration[..count])
 }
 
-/// Motion of the building as a rigid body, with this shift and turn of the point at a reference and a height.
+/// Displacement above the origin at a height, of a body with this shift and turn of a place.
+fn displacement_at(z: f64, place: [f64; 3], shift: [f64; 3], turn: [f64; 3]) -> [f64; 3] {
+    let turned = cross(turn, [-place[0], -place[1], z - place[2]]);
+    [0, 1, 2].map(|k| shift[k] + turned[k])
+}
+
+/// Motion of the building as a rigid body: of its mat, and of each floor in its plane.
 fn rigid_building_motion(
     storeys: &[PlanStorey],
-    reference: [f64; 3],
+    place: [f64; 3],
     shift: [f64; 3],
     turn: [f64; 3],
 ) -> Vec<f64> {
+    let mut motion = [displacement_at(0.0, place, shift, turn), turn].concat();
     let mut level = 0.0;
-    let mut motion = Vec::new();
-    for storey in std::iter::once(None).chain(storeys.iter().map(Some)) {
-        level += storey.map_or(0.0, |storey| storey.height);
-        let turned = cross(turn, [-reference[0], -reference[1], level - reference[2]]);
-        let displacement = [0, 1, 2].map(|k| shift[k] + turned[k]);
-        if storey.is_none() {
-            motion.extend(displacement.into_iter().chain(turn));
-        } else {
-            motion.extend([displacement[0], displacement[1], turn[2]]);
-        }
+    for storey in storeys {
+        level += storey.height;
+        let displacement = displacement_at(level, place, shift, turn);
+        motion.extend([displacement[0], displacement[1], turn[2]]);
     }
     motion
 }
