@@ -239,13 +239,13 @@ fn margins_are_positive_and_do_not_depend_on_the_tolerance() {
 fn memory_does_not_grow() {
     let kernel = kernel(1.0 / 3.0, 0.5, strip(10, Grading::Uniform));
     let mut history = ExponentialHistory::new(kernel, 1e-9).unwrap();
-    let initial_memory = history.memory();
+    let memory_before = history.memory();
     history.prepare(usize::MAX, &mut unobserved).unwrap();
     for step in 0..3_000 {
         history.push(&[f64::from(step % 7); 20]);
     }
-    assert_eq!(history.memory(), initial_memory);
-    assert!(initial_memory < 1_000_000, "{initial_memory} bytes");
+    assert_eq!(history.memory(), memory_before);
+    assert!(memory_before < 1_000_000, "{memory_before} bytes");
     assert!(history.save().unwrap().len() < 10_000);
 }
 

@@ -29,7 +29,7 @@ fn l_shape_on_layer() -> ElasticGround {
     ElasticGround::in_plan(p1(gmb(5), gmb(1)), l_shape()).unwrap()
 }
 
-/// Histories of a march under random tractions, step by step.
+/// Responses of a march under random tractions, step by step.
 fn march(ground: &mut ElasticGround, steps: usize, seed: u64) -> Vec<Vec<f64>> {
     let size = 3 * ground.elements().len();
     let mut random = Random(seed);

@@ -67,7 +67,7 @@ fn the_other_way_is_the_mirror_image() {
     }
 }
 
-/// GOAL: at no angle the surface doubles the incident wave and moves in one direction.
+/// GOAL: under vertical incidence the surface doubles the incident wave and moves along one axis.
 #[test]
 fn vertical_incidence_doubles_one_component() {
     let vertical_sv = sv(0.3, 0.0);
