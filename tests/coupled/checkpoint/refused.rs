@@ -4,7 +4,7 @@
 
 use basemat::bem::SpringGround;
 use basemat::coupled::CheckpointError;
-use basemat::coupled::{Change, GravityStage, Load, SimulationBuilder};
+use basemat::coupled::{Change, GravityStage, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::HistoryMethod;
 use basemat::interface::{Cohesive, VariableFriction};
 use basemat::motion::{AtRest, FreeFieldFn, el_centro_1940};
@@ -18,121 +18,126 @@ use basemat_problems::scenes::{Rider, SI, block, friction, scene};
 use basemat_problems::wrapped::BareGround;
 use basemat_problems::{needed_from, own_force};
 
-#[test]
-fn other_scenes_are_refused() {
-    let base = || scene(SI, 0.6).interface(friction(0.3));
-    let plain = || base().structure(block(SI)).ground(spring_bed());
-    let mut simulation = plain().build().unwrap();
-    simulation.run(20, |_| {}).unwrap();
-    let bed = |count, stiffness| SpringGround::new(-2.0..2.0, count, stiffness, 4e7).unwrap();
-    let heavier = || RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
-    let probe = basemat::coupled::Probe::displacement("top", vec![(0, 1.0)]);
-    for (quantity, other) in [
-        (
-            "number of degrees of freedom",
-            base().structure(Rider { block: block(SI) }).ground(spring_bed()),
-        ),
-        ("list of contact elements", base().structure(block(SI)).ground(bed(6, 5e7))),
-        ("list of probes", plain().probe(probe)),
-        ("structure", base().structure(heavier()).ground(spring_bed())),
-        ("ground", base().structure(block(SI)).ground(bed(8, 6e7))),
-        ("static state", plain().gravity(5.0)),
-        ("time step or scheme", plain().scheme(basemat::coupled::Theta::new(0.6).unwrap())),
-    ] {
-        let checkpoint = other.build().unwrap().checkpoint().unwrap();
-        let found = refusal(&mut simulation, &checkpoint);
-        assert_eq!(found, CheckpointError::OtherScene { quantity });
-    }
-    let with = |history| base().structure(block(SI)).ground(half_plane(history)).build().unwrap();
-    let direct = with(HistoryMethod::Direct).checkpoint().unwrap();
-    let quantity = "kind of history";
-    let found = refusal(&mut with(HistoryMethod::Exponentials), &direct);
-    assert_eq!(found, CheckpointError::OtherScene { quantity });
+/// A block on springs, all but its law.
+fn on_springs() -> SimulationBuilder {
+    scene(SI, 0.6).structure(block(SI)).ground(spring_bed())
 }
 
-/// Laws that differ at another slip rate only, and loads and motions that differ in a few steps.
+fn sliding_block() -> SimulationBuilder {
+    on_springs().interface(friction(0.3))
+}
+
+fn bed_of(count: usize, stiffness: f64) -> SpringGround {
+    SpringGround::new(-2.0..2.0, count, stiffness, 4e7).unwrap()
+}
+
+#[test]
+fn other_scenes_are_refused() {
+    let mut simulation = sliding_block().build().unwrap();
+    simulation.run(20, |_| {}).unwrap();
+    let heavier = RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
+    for (quantity, other) in [
+        ("number of degrees of freedom", sliding_block().structure(Rider { block: block(SI) })),
+        ("list of contact elements", sliding_block().ground(bed_of(6, 5e7))),
+        ("list of probes", sliding_block().probe(Probe::displacement("top", vec![(0, 1.0)]))),
+        ("structure", sliding_block().structure(heavier)),
+        ("ground", sliding_block().ground(bed_of(8, 6e7))),
+        ("static state", sliding_block().gravity(5.0)),
+        ("time step or scheme", sliding_block().scheme(Theta::new(0.6).unwrap())),
+    ] {
+        let checkpoint = other.build().unwrap().checkpoint().unwrap();
+        let error = refusal(&mut simulation, &checkpoint);
+        assert_eq!(error, CheckpointError::OtherScene { quantity });
+    }
+    let direct = sliding_block().ground(half_plane(HistoryMethod::Direct)).build().unwrap();
+    let exponentials = sliding_block().ground(half_plane(HistoryMethod::Exponentials));
+    let error = refusal(&mut exponentials.build().unwrap(), &direct.checkpoint().unwrap());
+    assert_eq!(error, CheckpointError::OtherScene { quantity: "kind of history" });
+}
+
+/// Friction that has this coefficient at high slip rates only.
+fn with_fast_friction(coefficient: f64) -> SimulationBuilder {
+    on_springs().interface(VariableFriction::new(move |start| {
+        if start.slip_rate.abs() > 0.5 { coefficient } else { 0.4 }
+    }))
+}
+
+/// A load of 50 ms after one second.
+fn with_blow(force: f64) -> SimulationBuilder {
+    let table = Load::table(vec![(0, 1.0)], &[1.00, 1.02, 1.05], &[0.0, force, 0.0]).unwrap();
+    on_springs().interface(friction(0.4)).load(table)
+}
+
+/// A short motion of the ground about this time.
+fn with_knock(middle: f64) -> SimulationBuilder {
+    let motion = FreeFieldFn::new(move |_, time: f64| {
+        let phase = (time - middle) / 0.05;
+        [if phase.abs() < 1.0 { 1e-3 * (1.0 - phase * phase).powi(3) } else { 0.0 }, 0.0]
+    });
+    on_springs().interface(friction(0.4)).motion(motion)
+}
+
+/// Laws that differ at another slip rate only, and loads and motions that differ in a few steps, are found.
 #[test]
 fn differences_that_rest_does_not_show_are_found() {
-    let base = || scene(SI, 0.6).structure(block(SI)).ground(spring_bed());
-    let fast = |friction: f64| {
-        let law = VariableFriction::new(
-            move |start| {
-                if start.slip_rate.abs() > 0.5 { friction } else { 0.4 }
-            },
-        );
-        base().interface(law)
-    };
-    let blow = |force: f64| {
-        let table = Load::table(vec![(0, 1.0)], &[1.00, 1.02, 1.05], &[0.0, force, 0.0]).unwrap();
-        base().interface(friction(0.4)).load(table)
-    };
-    let knock = |at: f64| {
-        let motion = FreeFieldFn::new(move |_, time: f64| {
-            let phase = (time - at) / 0.05;
-            [if phase.abs() < 1.0 { 1e-3 * (1.0 - phase * phase).powi(3) } else { 0.0 }, 0.0]
-        });
-        base().interface(friction(0.4)).motion(motion)
-    };
     let cases = [
-        ("interface law", fast(0.2), fast(0.3), 20),
-        ("load", blow(1e4), blow(3e4), 1000),
-        ("ground motion", knock(0.52), knock(0.63), 1000),
+        ("interface law", with_fast_friction(0.2), with_fast_friction(0.3), 20),
+        ("load", with_blow(1e4), with_blow(3e4), 1000),
+        ("ground motion", with_knock(0.52), with_knock(0.63), 1000),
     ];
-    for (quantity, one, other, steps) in cases {
-        let mut one = one.build().unwrap();
-        one.run(steps, |_| {}).unwrap();
-        let saved = one.checkpoint().unwrap();
-        let mut other = other.build().unwrap();
-        assert_eq!(refusal(&mut other, &saved), CheckpointError::OtherScene { quantity });
-        one.resume(&saved).unwrap();
+    for (quantity, saved, other, steps) in cases {
+        let mut saved = saved.build().unwrap();
+        saved.run(steps, |_| {}).unwrap();
+        let checkpoint = saved.checkpoint().unwrap();
+        let error = refusal(&mut other.build().unwrap(), &checkpoint);
+        assert_eq!(error, CheckpointError::OtherScene { quantity });
+        saved.resume(&checkpoint).unwrap();
     }
+}
+
+/// A block with a cohesive bond and a harmonic load.
+fn cohesive_block(tension: f64, cohesion: f64, coefficient: f64, force: f64) -> SimulationBuilder {
+    let law = Cohesive::new(tension, cohesion, coefficient).unwrap();
+    let load = Load::new(vec![(0, 1.0)], move |time: f64| force * (9.0 * time).sin());
+    on_springs().interface(law).load(load)
+}
+
+fn reference_block() -> SimulationBuilder {
+    cohesive_block(2e3, 3e3, 0.3, 1e3)
+}
+
+/// Scenes that differ from the reference in one quantity, and the change that allows it.
+fn changed_scenes() -> Vec<(&'static str, Change, SimulationBuilder)> {
+    let unloaded = on_springs().interface(Cohesive::new(2e3, 3e3, 0.3).unwrap());
+    let frictional = reference_block().gravity_stage(GravityStage::Frictional);
+    let thrown = reference_block().initial_velocity([0.1, 0.0, 0.0]);
+    vec![
+        ("interface law", Change::InterfaceLaw, cohesive_block(2e3, 3e3, 0.31, 1e3)),
+        ("interface law", Change::InterfaceLaw, cohesive_block(2e3, 4e3, 0.3, 1e3)),
+        ("interface law", Change::InterfaceLaw, cohesive_block(1e3, 3e3, 0.3, 1e3)),
+        ("ground motion", Change::GroundMotion, reference_block().motion(el_centro_1940())),
+        ("ground motion", Change::GroundMotion, reference_block().motion(AtRest)),
+        ("load", Change::Load, cohesive_block(2e3, 3e3, 0.3, 1.1e3)),
+        ("load", Change::Load, unloaded),
+        ("gravity stage", Change::GravityStage, frictional),
+        ("initial motion", Change::InitialMotion, thrown),
+    ]
 }
 
 /// Motion, loads and law of a resumed run equal the checkpoint's, unless a change is declared.
 #[test]
 fn what_decides_a_run_is_compared() {
-    type Changed = (&'static str, Change, SimulationBuilder);
-    let law = || Cohesive::new(2e3, 3e3, 0.3).unwrap();
-    let base = || scene(SI, 0.6).structure(block(SI)).ground(spring_bed());
-    let load =
-        |factor: f64| Load::new(vec![(0, 1.0)], move |time: f64| factor * (9.0 * time).sin());
-    let plain = || base().interface(law()).load(load(1e3));
-    let stage = |stage| plain().gravity_stage(stage);
-    let thrown = |velocity: f64| plain().initial_velocity([velocity, 0.0, 0.0]);
-    let cases: Vec<Changed> = vec![
-        (
-            "interface law",
-            Change::InterfaceLaw,
-            base().interface(Cohesive::new(2e3, 3e3, 0.31).unwrap()).load(load(1e3)),
-        ),
-        (
-            "interface law",
-            Change::InterfaceLaw,
-            base().interface(Cohesive::new(2e3, 4e3, 0.3).unwrap()).load(load(1e3)),
-        ),
-        (
-            "interface law",
-            Change::InterfaceLaw,
-            base().interface(Cohesive::new(1e3, 3e3, 0.3).unwrap()).load(load(1e3)),
-        ),
-        ("ground motion", Change::GroundMotion, plain().motion(el_centro_1940())),
-        ("ground motion", Change::GroundMotion, plain().motion(AtRest)),
-        ("load", Change::Load, base().interface(law()).load(load(1.1e3))),
-        ("load", Change::Load, base().interface(law())),
-        ("gravity stage", Change::GravityStage, stage(GravityStage::Frictional)),
-        ("initial motion", Change::InitialMotion, thrown(0.1)),
-    ];
-    let mut simulation = plain().build().unwrap();
+    let mut simulation = reference_block().build().unwrap();
     simulation.run(150, |_| {}).unwrap();
-    let saved = simulation.checkpoint().unwrap();
-    for (quantity, change, other) in cases {
+    let checkpoint = simulation.checkpoint().unwrap();
+    for (quantity, change, other) in changed_scenes() {
         let mut other = other.build().unwrap();
-        assert_eq!(refusal(&mut other, &saved), CheckpointError::OtherScene { quantity });
-        let others = Change::ALL.into_iter().filter(|own| *own != change);
-        let others: Vec<_> = others.collect();
-        assert!(other.resume_changed(&saved, &others).is_err(), "{quantity}");
+        assert_eq!(refusal(&mut other, &checkpoint), CheckpointError::OtherScene { quantity });
+        let other_changes: Vec<_> =
+            Change::ALL.into_iter().filter(|other_change| *other_change != change).collect();
+        assert!(other.resume_changed(&checkpoint, &other_changes).is_err(), "{quantity}");
         if change != Change::GravityStage {
-            other.resume_changed(&saved, &[change]).unwrap();
+            other.resume_changed(&checkpoint, &[change]).unwrap();
             other.run(20, |_| {}).unwrap();
         }
     }
@@ -140,26 +145,32 @@ fn what_decides_a_run_is_compared() {
 
 #[test]
 fn grounds_that_cannot_be_saved_say_so() {
-    let base = || scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-    let mut silent = base().ground(BareGround(spring_bed())).build().unwrap();
-    silent.run(5, |_| {}).unwrap();
+    let unsaved_ground = sliding_block().ground(BareGround(spring_bed()));
+    let mut simulation = unsaved_ground.build().unwrap();
+    simulation.run(5, |_| {}).unwrap();
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "ground" });
-    assert_eq!(silent.checkpoint().unwrap_err(), unsupported);
-    let other = base().ground(spring_bed()).build().unwrap().checkpoint().unwrap();
-    assert_eq!(silent.resume(&other).unwrap_err(), unsupported);
-    silent.run(5, |_| {}).unwrap();
+    assert_eq!(simulation.checkpoint().unwrap_err(), unsupported);
+    let checkpoint = sliding_block().build().unwrap().checkpoint().unwrap();
+    assert_eq!(simulation.resume(&checkpoint).unwrap_err(), unsupported);
+    simulation.run(5, |_| {}).unwrap();
 }
 
-/// A nonlinear structure without `save`: the default must not pretend that there is nothing to save.
-struct Unsaved(Rider);
+/// A nonlinear structure without `save`, whose default must refuse a checkpoint.
+struct UnsavedRider(Rider);
 
-impl Structure for Unsaved {
+impl UnsavedRider {
+    fn new() -> Self {
+        Self(Rider { block: block(SI) })
+    }
+}
+
+impl Structure for UnsavedRider {
     needed_from!(0);
 
     own_force!();
 }
 
-impl NonlinearForce for Unsaved {
+impl NonlinearForce for UnsavedRider {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         self.0.force(u, force)
     }
@@ -171,23 +182,22 @@ impl NonlinearForce for Unsaved {
 
 #[test]
 fn nonlinear_structures_that_cannot_be_saved_say_so() {
-    let base = || scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
-    let unsaved = || Unsaved(Rider { block: block(SI) });
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "structure" });
-    let known = base().structure(Rider { block: block(SI) }).build().unwrap().checkpoint().unwrap();
-    let wrapped: [Box<dyn Structure>; 4] = [
-        Box::new(unsaved()),
-        Box::new(WithSprings::new(unsaved())),
-        Box::new(ModalDamping::new(&[0.05]).unwrap().on(unsaved()).unwrap()),
-        Box::new(StructureGroup::new().with(unsaved(), 0.0).unwrap()),
+    let rider = sliding_block().structure(Rider { block: block(SI) }).build().unwrap();
+    let checkpoint = rider.checkpoint().unwrap();
+    let structures: [Box<dyn Structure>; 4] = [
+        Box::new(UnsavedRider::new()),
+        Box::new(WithSprings::new(UnsavedRider::new())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(UnsavedRider::new()).unwrap()),
+        Box::new(StructureGroup::new().with(UnsavedRider::new(), 0.0).unwrap()),
     ];
-    for (k, structure) in wrapped.into_iter().enumerate() {
-        let mut silent = base().structure(structure).build().unwrap();
-        silent.run(5, |_| {}).unwrap();
-        assert_eq!(silent.checkpoint().unwrap_err(), unsupported, "{k}");
-        if k == 0 {
-            assert_eq!(silent.resume(&known).unwrap_err(), unsupported);
+    for (index, structure) in structures.into_iter().enumerate() {
+        let mut simulation = sliding_block().structure(structure).build().unwrap();
+        simulation.run(5, |_| {}).unwrap();
+        assert_eq!(simulation.checkpoint().unwrap_err(), unsupported, "{index}");
+        if index == 0 {
+            assert_eq!(simulation.resume(&checkpoint).unwrap_err(), unsupported);
         }
-        silent.run(5, |_| {}).unwrap();
+        simulation.run(5, |_| {}).unwrap();
     }
 }
