@@ -18,7 +18,7 @@ fn steps_find_a_solution_of_brute_force() {
         assert_eq!((tally.failed, tally.none), (0, 0), "{tally:?}");
         assert!(tally.violation < 1e-10 && tally.distance < 1e-9, "{tally:?}");
         assert!(tally.several == 0 || high > 0.6, "{tally:?}");
-        // Problems in which every start is the solution would say nothing.
+        // Problems whose start is the solution would prove nothing.
         assert!(tally.trials > 3 * tally.problems / 2, "{tally:?}");
     }
 }

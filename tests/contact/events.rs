@@ -1,11 +1,11 @@
-//! GOAL: events inside a step converge as the step shrinks.
-//! SCENE: a block on springs and on the half-plane: the whole base lifts off and lands; slip
-//! reverses in all elements at once; impacts follow each other ever faster.
+//! GOAL: results with events inside a step converge as the step is reduced.
+//! SCENE: a block on springs and on the half-plane: the whole base lifts off and lands; slip reverses in all elements at
+//! once; impacts follow each other at decreasing intervals.
 //! REFERENCE: the next finer run, and rest at the end.
 
 use basemat::Simulation;
 use basemat::bem::{Grading, SpringGround};
-use basemat::coupled::{SimulationBuilder, Transition};
+use basemat::coupled::{SimulationBuilder, State, Transition};
 use basemat::interface::Mode;
 use basemat::motion::FreeFieldFn;
 use basemat::results::Run;
@@ -13,174 +13,208 @@ use basemat::structure::RigidBlock;
 
 use basemat_problems::scenes::{GRAVITY, SI, friction, ground};
 
-/// Samples are compared at multiples of this, s.
-const SAMPLE: f64 = 4e-3;
-const ELEMENTS: usize = 6;
+/// Interval of the samples that are compared, s.
+const SAMPLE_INTERVAL: f64 = 4e-3;
+const ELEMENT_COUNT: usize = 6;
+/// Numbers of steps per sample in the runs that are compared.
+const STEPS_PER_SAMPLE: [usize; 4] = [1, 2, 4, 8];
 
-/// Displacements `[along, up]` and rotation of the base at the samples, and the run.
-struct Outcome {
+/// A run and its events.
+#[derive(Default)]
+struct SampledRun {
+    /// Displacements to the right and up, and rotation of the base, at the samples.
     history: Vec<[f64; 3]>,
-    run: Run,
     /// Steps in which all elements changed their mode.
-    at_once: usize,
-    all_open: bool,
+    common_changes: usize,
+    was_fully_open: bool,
     transitions: Vec<Transition>,
+}
+
+impl SampledRun {
+    /// Records a state, the last of every `steps_per_sample`.
+    fn record(&mut self, state: &State, steps_per_sample: usize) {
+        if state.step % steps_per_sample == 0 {
+            let u = state.absolute_displacement();
+            self.history.push([u[0], u[1], u[2]]);
+        }
+        self.transitions.extend_from_slice(&state.transitions);
+        self.common_changes += usize::from(state.transitions.len() == state.modes.len());
+        self.was_fully_open |= state.modes.iter().all(|mode| *mode == Mode::Open);
+    }
+
+    /// Number of reversals of slip within a step.
+    fn reversals(&self) -> usize {
+        let changes = self.transitions.iter();
+        changes.filter(|change| is_reversal(change)).count()
+    }
+
+    /// Displacements of the base at all samples, with rotations as displacements of its ends.
+    fn displacements(&self) -> Vec<f64> {
+        self.history.iter().flat_map(|motion| [motion[0], motion[1], 2.0 * motion[2]]).collect()
+    }
+}
+
+fn is_reversal(change: &Transition) -> bool {
+    change.from.is_slip() && change.to.is_slip() && change.from != change.to
 }
 
 fn block(height: f64) -> RigidBlock {
     RigidBlock::new(4.0, height, 1500.0).unwrap()
 }
 
-fn bed() -> SpringGround {
-    let bed = SpringGround::new(-2.0..2.0, ELEMENTS, 4e7, 3e7).unwrap();
-    bed.with_dashpots(3e5, 2e5).unwrap()
+fn springs() -> SpringGround {
+    let springs = SpringGround::new(-2.0..2.0, ELEMENT_COUNT, 4e7, 3e7).unwrap();
+    springs.with_dashpots(3e5, 2e5).unwrap()
 }
 
-/// Runs a scene with the step SAMPLE / `parts` for `duration` seconds.
-fn outcome(builder: SimulationBuilder, parts: usize, duration: f64) -> Outcome {
+fn on_half_plane(builder: SimulationBuilder) -> SimulationBuilder {
+    builder.ground(ground(SI, ELEMENT_COUNT, Grading::Cosine))
+}
+
+/// Runs a scene for `duration` seconds.
+fn sampled_run(
+    builder: SimulationBuilder,
+    steps_per_sample: usize,
+    duration: f64,
+) -> (SampledRun, Run) {
     let mut simulation = builder.gravity(GRAVITY).build().unwrap();
-    let (mut history, mut at_once, mut all_open, mut transitions) = (Vec::new(), 0, false, vec![]);
+    let mut sampled = SampledRun::default();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
-    let samples = (duration / SAMPLE).round() as usize;
+    let samples = (duration / SAMPLE_INTERVAL).round() as usize;
     let run = simulation
-        .run(samples * parts, |state| {
-            if state.step % parts == 0 {
-                let u = state.absolute_displacement();
-                history.push([u[0], u[1], u[2]]);
-            }
-            transitions.extend_from_slice(&state.transitions);
-            at_once += usize::from(state.transitions.len() == state.modes.len());
-            all_open |= state.modes.iter().all(|mode| *mode == Mode::Open);
-        })
+        .run(samples * steps_per_sample, |state| sampled.record(state, steps_per_sample))
         .unwrap();
-    let opened = transitions.iter().filter(|change| change.to == Mode::Open).count();
-    let closed = transitions.iter().filter(|change| change.from == Mode::Open).count();
-    assert_eq!(
-        [run.mode_changes, run.debondings, run.rebondings],
-        [transitions.len(), opened, closed]
-    );
-    Outcome { history, run, at_once, all_open, transitions }
+    let changes = &sampled.transitions;
+    let opened = changes.iter().filter(|change| change.to == Mode::Open).count();
+    let closed = changes.iter().filter(|change| change.from == Mode::Open).count();
+    let counts = [run.mode_changes, run.debondings, run.rebondings];
+    assert_eq!(counts, [changes.len(), opened, closed]);
+    (sampled, run)
 }
 
-/// Runs with ever shorter steps; returns them and the largest differences between neighbours,
-/// relative to the largest displacement.
-fn refine(
+/// Runs with decreasing steps.
+struct RefinedRuns {
+    sampled: Vec<SampledRun>,
+    runs: Vec<Run>,
+    /// Largest differences between successive runs, relative to the largest displacement.
+    differences: Vec<f64>,
+}
+
+fn refined_runs(
     name: &str,
-    parts: &[usize],
     duration: f64,
     scene: impl Fn(f64) -> SimulationBuilder,
-) -> (Vec<Outcome>, Vec<f64>) {
-    let runs: Vec<Outcome> =
-        parts.iter().map(|&k| outcome(scene(SAMPLE / k as f64), k, duration)).collect();
-    // Rotations as displacements of the base's ends.
-    let unit = |h: &[f64; 3]| [h[0], h[1], 2.0 * h[2]];
-    let all = |o: &Outcome| o.history.iter().flat_map(unit).collect::<Vec<_>>();
-    let scale = all(&runs[runs.len() - 1]).iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    let apart: Vec<f64> = runs
-        .windows(2)
-        .map(|pair| {
-            let (a, b) = (all(&pair[0]), all(&pair[1]));
-            a.iter().zip(&b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / scale
-        })
-        .collect();
-    for run in &runs {
-        let Run { mode_changes, trials, steps, fallbacks, energy_error, .. } = &run.run;
+) -> RefinedRuns {
+    let mut sampled = Vec::new();
+    let mut runs = Vec::new();
+    for steps_per_sample in STEPS_PER_SAMPLE {
+        let builder = scene(SAMPLE_INTERVAL / steps_per_sample as f64);
+        let (sampled_run, run) = sampled_run(builder, steps_per_sample, duration);
+        let Run { mode_changes, trials, steps, fallbacks, energy_error, .. } = &run;
         println!(
-            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {mode_changes} changes, {} at once, energy balance {energy_error:.1e}",
-            run.at_once
+            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {mode_changes} changes, {} common, energy error {energy_error:.1e}",
+            sampled_run.common_changes
         );
         assert!(*energy_error < 1e-9, "{name}");
-        // Contact is found by a few solves a step, whatever happens in it.
+        // A few solves a step find the contact during any event.
         assert!(*trials < 3 * steps, "{name}");
+        sampled.push(sampled_run);
+        runs.push(run);
     }
-    println!("{name}: {apart:?}");
-    (runs, apart)
+    let displacements: Vec<Vec<f64>> = sampled.iter().map(SampledRun::displacements).collect();
+    let scale = largest_absolute(displacements[displacements.len() - 1].iter().copied());
+    let differences = displacements
+        .windows(2)
+        .map(|pair| largest_absolute(pair[0].iter().zip(&pair[1]).map(|(a, b)| a - b)) / scale)
+        .collect();
+    println!("{name}: {differences:?}");
+    RefinedRuns { sampled, runs, differences }
 }
 
-/// The last differences shrink in proportion to the step or faster, within what a landing that
-/// falls on either side of a step's end does.
-fn assert_converging(name: &str, apart: &[f64], finest: f64) {
-    let last = apart[apart.len() - 1];
-    let first = apart[0];
-    let halvings = i32::try_from(apart.len() - 1).unwrap();
-    assert!(last < first * 0.7_f64.powi(halvings), "{name}: {apart:?}");
-    assert!(last < finest, "{name}: {apart:?}");
+fn largest_absolute(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0_f64, |largest, value| largest.max(value.abs()))
 }
 
-/// The ground rises by `rise` (m) within about 2 `width` (s), and stops.
-fn thrown(rise: f64, width: f64) -> FreeFieldFn {
-    let up = move |t: f64| 0.5 * rise * (((t - 4.0 * width) / width).tanh() + 4.0_f64.tanh());
-    FreeFieldFn::new(move |_, t| [0.0, up(t) - up(0.0)])
+/// Checks that differences decrease nearly in proportion to the step, and that the last is small.
+///
+/// A landing may fall on either side of a step's end.
+fn assert_converging(name: &str, differences: &[f64], max_last: f64) {
+    let last = differences[differences.len() - 1];
+    let first = differences[0];
+    let halvings = i32::try_from(differences.len() - 1).unwrap();
+    assert!(last < first * 0.7_f64.powi(halvings), "{name}: {differences:?}");
+    assert!(last < max_last, "{name}: {differences:?}");
+}
+
+/// A low block on ground that rises by 0.12 m within about 80 ms, and stops.
+fn thrown_block(time_step: f64) -> SimulationBuilder {
+    fn rise(time: f64) -> f64 {
+        let width = 0.04;
+        0.5 * 0.12 * (((time - 4.0 * width) / width).tanh() + 4.0_f64.tanh())
+    }
+
+    let motion = FreeFieldFn::new(|_, t| [0.0, rise(t) - rise(0.0)]);
+    Simulation::builder(time_step).structure(block(3.0)).interface(friction(0.5)).motion(motion)
 }
 
 #[test]
 fn whole_base_lifts_off_and_lands() {
-    let scene = |time_step: f64| {
-        Simulation::builder(time_step)
-            .structure(block(3.0))
-            .interface(friction(0.5))
-            .motion(thrown(0.12, 0.04))
-    };
-    let parts = [1, 2, 4, 8];
-    let (runs, apart) = refine("spring bed", &parts, 0.8, |step| scene(step).ground(bed()));
-    assert_converging("spring bed", &apart, 0.01);
-    for run in &runs {
+    let on_springs = refined_runs("springs", 0.8, |step| thrown_block(step).ground(springs()));
+    assert_converging("springs", &on_springs.differences, 0.01);
+    for run in &on_springs.sampled {
         // All elements are alike here: they open in one step, and land in one.
-        assert!(run.all_open && run.at_once >= 2, "{}", run.at_once);
+        assert!(run.was_fully_open && run.common_changes >= 2, "{}", run.common_changes);
     }
-    let half_plane = |step| scene(step).ground(ground(SI, ELEMENTS, Grading::Cosine));
-    let (runs, apart) = refine("half-plane", &parts, 0.8, half_plane);
-    assert_converging("half-plane", &apart, 0.01);
-    for run in &runs {
-        let back = run.run.rebondings;
-        assert!(run.all_open && back >= ELEMENTS, "{back}");
+    let on_soil = refined_runs("half-plane", 0.8, |step| on_half_plane(thrown_block(step)));
+    assert_converging("half-plane", &on_soil.differences, 0.01);
+    for (sampled, run) in on_soil.sampled.iter().zip(&on_soil.runs) {
+        assert!(sampled.was_fully_open && run.rebondings >= ELEMENT_COUNT, "{}", run.rebondings);
     }
+}
+
+/// A flat block on ground that sways harmonically.
+fn swaying_block(time_step: f64) -> SimulationBuilder {
+    let motion = FreeFieldFn::new(|_, t: f64| [0.03 * (1.0 - (18.0 * t).cos()), 0.0]);
+    Simulation::builder(time_step).structure(block(1.0)).interface(friction(0.25)).motion(motion)
 }
 
 #[test]
 fn slip_reverses_in_all_elements() {
-    let scene = |time_step: f64| {
-        let sway = |t: f64| 0.03 * (1.0 - (18.0 * t).cos());
-        let motion = FreeFieldFn::new(move |_, t| [sway(t), 0.0]);
-        Simulation::builder(time_step)
-            .structure(block(1.0))
-            .interface(friction(0.25))
-            .motion(motion)
-    };
-    let reversals = |run: &Outcome| {
-        let turns = |a: Mode, b: Mode| a.is_slip() && b.is_slip() && a != b;
-        run.transitions.iter().filter(|change| turns(change.from, change.to)).count()
-    };
-    let parts = [1, 2, 4, 8];
-    let (runs, apart) = refine("spring bed", &parts, 1.2, |step| scene(step).ground(bed()));
-    assert_converging("spring bed", &apart, 0.01);
-    println!("{:?} reversals within a step", runs.iter().map(reversals).collect::<Vec<_>>());
-    assert!(reversals(&runs[0]) >= ELEMENTS && runs.iter().all(|run| run.at_once > 0));
-    let half_plane = |step| scene(step).ground(ground(SI, ELEMENTS, Grading::Cosine));
-    let (runs, apart) = refine("half-plane", &parts, 1.2, half_plane);
-    assert_converging("half-plane", &apart, 0.01);
-    assert!(runs.iter().all(|run| run.run.whole.residual_slip != 0.0));
+    let on_springs = refined_runs("springs", 1.2, |step| swaying_block(step).ground(springs()));
+    assert_converging("springs", &on_springs.differences, 0.01);
+    let reversals: Vec<_> = on_springs.sampled.iter().map(SampledRun::reversals).collect();
+    println!("{reversals:?} reversals within a step");
+    assert!(reversals[0] >= ELEMENT_COUNT);
+    assert!(on_springs.sampled.iter().all(|run| run.common_changes > 0));
+    let on_soil = refined_runs("half-plane", 1.2, |step| on_half_plane(swaying_block(step)));
+    assert_converging("half-plane", &on_soil.differences, 0.01);
+    assert!(on_soil.runs.iter().all(|run| run.whole.residual_slip != 0.0));
 }
 
-/// A slender block that was pushed rocks to rest, its impacts following each other ever faster.
+/// A slender block on stiff springs that is pushed once.
+fn rocking_block(time_step: f64) -> SimulationBuilder {
+    fn push(time: f64) -> f64 {
+        0.06 * (-((time - 0.2) / 0.06).powi(2)).exp()
+    }
+
+    let stiff_springs = SpringGround::new(-2.0..2.0, ELEMENT_COUNT, 1e9, 7e8).unwrap();
+    Simulation::builder(time_step)
+        .structure(block(8.0))
+        .interface(friction(0.8))
+        .motion(FreeFieldFn::new(|_, t| [push(t) - push(0.0), 0.0]))
+        .ground(stiff_springs.with_dashpots(3e6, 2e6).unwrap())
+}
+
+/// A slender block rocks to rest with impacts at decreasing intervals.
 #[test]
 fn impacts_that_accumulate_end_at_rest() {
-    let scene = |time_step: f64| {
-        let push = |t: f64| 0.06 * (-((t - 0.2) / 0.06).powi(2)).exp();
-        let motion = FreeFieldFn::new(move |_, t| [push(t) - push(0.0), 0.0]);
-        Simulation::builder(time_step).structure(block(8.0)).interface(friction(0.8)).motion(motion)
-    };
-    let stiff = || {
-        let bed = SpringGround::new(-2.0..2.0, ELEMENTS, 1e9, 7e8).unwrap();
-        bed.with_dashpots(3e6, 2e6).unwrap()
-    };
-    let (runs, apart) = refine("stiff bed", &[1, 2, 4, 8], 5.0, |step| scene(step).ground(stiff()));
-    assert_converging("stiff bed", &apart, 0.1);
-    for run in &runs {
-        let peak = run.history.iter().fold(0.0_f64, |m, u| m.max(u[2].abs()));
-        let end =
-            run.history[run.history.len() - 100..].iter().fold(0.0_f64, |m, u| m.max(u[2].abs()));
-        println!("rotation {peak:e} at most, {end:e} at the end");
+    let refined = refined_runs("stiff springs", 5.0, rocking_block);
+    assert_converging("stiff springs", &refined.differences, 0.1);
+    for run in &refined.sampled {
+        let peak = largest_absolute(run.history.iter().map(|motion| motion[2]));
+        let last_samples = &run.history[run.history.len() - 100..];
+        let end = largest_absolute(last_samples.iter().map(|motion| motion[2]));
+        println!("largest rotation {peak:e}, {end:e} at the end");
         assert!(end < 0.02 * peak);
     }
 }

@@ -11,86 +11,108 @@ use basemat::interface::{Coulomb, InterfaceLaw, UnilateralCondition, VariableFri
 
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, states};
 
-const STEPS: usize = 300;
+const RUN_STEPS: usize = 300;
 
 fn run(law: impl InterfaceLaw + 'static) -> Vec<State> {
     let builder = scene(SI, 0.6).structure(block(SI)).interface(law);
-    states(&mut builder.build().unwrap(), STEPS)
+    states(&mut builder.build().unwrap(), RUN_STEPS)
 }
 
-/// GOAL: with a coefficient that does not change it is Coulomb's law, to the last bit.
+/// GOAL: with a constant coefficient the law is Coulomb's, to the last bit.
 #[test]
-fn a_constant_is_coulomb() {
+fn a_constant_coefficient_is_coulomb_s_law() {
     for coefficient in [0.3, 3.0, f64::INFINITY] {
-        let variable = || VariableFriction::new(move |_| coefficient);
-        let plain = run(friction(coefficient));
-        assert!(plain.iter().any(|state| state.uplifted_fraction > 0.0));
-        assert_eq!(plain, run(variable()), "{coefficient}");
-        let stuck = run(friction(coefficient).with_tensile_strength(2e4).unwrap());
-        assert_ne!(stuck, plain);
-        assert_eq!(stuck, run(variable().with_tensile_strength(2e4).unwrap()), "{coefficient}");
+        let coulomb = run(friction(coefficient));
+        assert!(coulomb.iter().any(|state| state.uplifted_fraction > 0.0));
+        let variable = VariableFriction::new(move |_| coefficient);
+        assert_eq!(coulomb, run(variable), "{coefficient}");
+        let with_tension = run(friction(coefficient).with_tensile_strength(2e4).unwrap());
+        assert_ne!(with_tension, coulomb);
+        let variable = VariableFriction::new(move |_| coefficient);
+        let variable = variable.with_tensile_strength(2e4).unwrap();
+        assert_eq!(with_tension, run(variable), "{coefficient}");
     }
     let rate = UnilateralCondition::Velocity { closed_below: 1e-6 };
-    let jumping = run(friction(0.3).with_unilateral_condition(rate).unwrap());
+    let by_velocity = run(friction(0.3).with_unilateral_condition(rate).unwrap());
     let variable = VariableFriction::new(|_| 0.3).with_unilateral_condition(rate).unwrap();
-    assert_eq!(jumping, run(variable));
-    // Without friction the two have other lists of modes, and one solution.
-    let (smooth, variable) = (run(friction(0.0)), run(VariableFriction::new(|_| 0.0)));
-    let largest = smooth.iter().fold(0.0_f64, |m, s| m.max(s.absolute_displacement()[0].abs()));
-    for (a, b) in smooth.iter().zip(&variable) {
-        let apart = (a.absolute_displacement()[0] - b.absolute_displacement()[0]).abs();
-        assert!(apart < 1e-9 * largest, "{apart:e} of {largest:e}");
+    assert_eq!(by_velocity, run(variable));
+}
+
+/// Without friction the two laws have different lists of modes, and the same solution.
+#[test]
+fn a_coefficient_of_zero_is_frictionless() {
+    let coulomb = run(friction(0.0));
+    let variable = run(VariableFriction::new(|_| 0.0));
+    let sways = |states: &[State]| -> Vec<f64> {
+        states.iter().map(|state| state.absolute_displacement()[0]).collect()
+    };
+    let expected = sways(&coulomb);
+    let largest = expected.iter().fold(0.0_f64, |largest, sway| largest.max(sway.abs()));
+    for (a, b) in expected.iter().zip(sways(&variable)) {
+        assert!((a - b).abs() < 1e-9 * largest, "{a:e} {b:e} of {largest:e}");
     }
+}
+
+#[test]
+fn wrong_settings_are_refused() {
     assert!(VariableFriction::new(|_| 0.3).with_tensile_strength(f64::NAN).is_err());
-    let refused = UnilateralCondition::Velocity { closed_below: -1.0 };
-    assert!(VariableFriction::new(|_| 0.3).with_unilateral_condition(refused).is_err());
+    let negative_gap = UnilateralCondition::Velocity { closed_below: -1.0 };
+    assert!(VariableFriction::new(|_| 0.3).with_unilateral_condition(negative_gap).is_err());
+}
+
+#[test]
+fn only_constant_friction_has_a_coefficient() {
     assert_eq!(VariableFriction::new(|_| 0.3).friction_coefficient(), None);
     assert_eq!(friction(0.3).friction_coefficient(), Some(0.3));
     assert_eq!(Coulomb::uplift_only().friction_coefficient(), Some(f64::INFINITY));
 }
 
-/// GOAL: what slides has the coefficient of the speed at which it slid in the step before.
+fn coefficient_at(speed: f64) -> f64 {
+    0.15 + 0.2 * (-speed / 0.05).exp()
+}
+
+/// GOAL: an element that slides has the coefficient of its speed in the previous step.
 /// REFERENCE: slips, pressures and shears of the states.
 #[test]
-fn what_slides_has_the_coefficient_of_its_speed() {
-    let of_speed = |speed: f64| 0.15 + 0.2 * (-speed / 0.05).exp();
-    let law = VariableFriction::new(move |start| of_speed(start.slip_rate.abs()));
-    let states = run(law);
-    let (mut seen, mut range) = (0, [f64::INFINITY, 0.0_f64]);
-    for three in states.windows(3) {
-        for e in 0..three[0].contact.len() {
-            let [before, start, end] = [0, 1, 2].map(|k| three[k].contact[e]);
-            let speed = (start.slip - before.slip).abs() / TIME_STEP;
-            let coefficient = of_speed(speed);
-            let slack = 1e-6 * end.pressure.max(1e4);
-            assert!(end.shear.abs() <= coefficient * end.pressure.max(0.0) + slack);
-            if three[2].modes[e].is_slip() {
-                assert!((end.shear.abs() - coefficient * end.pressure).abs() <= slack);
-                seen += 1;
-                range = [range[0].min(coefficient), range[1].max(coefficient)];
+fn sliding_elements_have_the_coefficient_of_their_speed() {
+    let states = run(VariableFriction::new(|start| coefficient_at(start.slip_rate.abs())));
+    let mut sliding_elements = 0;
+    let mut smallest = f64::INFINITY;
+    let mut largest = 0.0_f64;
+    for steps in states.windows(3) {
+        for (e, end) in steps[2].contact.iter().enumerate() {
+            let increment = steps[1].contact[e].slip - steps[0].contact[e].slip;
+            let coefficient = coefficient_at(increment.abs() / TIME_STEP);
+            let tolerance = 1e-6 * end.pressure.max(1e4);
+            assert!(end.shear.abs() <= coefficient * end.pressure.max(0.0) + tolerance);
+            if steps[2].modes[e].is_slip() {
+                assert!((end.shear.abs() - coefficient * end.pressure).abs() <= tolerance);
+                sliding_elements += 1;
+                smallest = smallest.min(coefficient);
+                largest = largest.max(coefficient);
             }
         }
     }
-    println!("{seen} sliding elements, coefficients {range:?}");
-    assert!(seen > 100 && range[1] > range[0] + 0.05);
+    println!("{sliding_elements} sliding elements, coefficients {smallest} to {largest}");
+    assert!(sliding_elements > 100 && largest > smallest + 0.05);
 }
 
-/// GOAL: an invalid coefficient ends the step with an error, not as a base that sticks.
+/// GOAL: an invalid coefficient ends the step with an error, and does not make the base stick.
 #[test]
-fn a_coefficient_that_is_none_is_an_error() {
-    for bad in [f64::NAN, -0.1, f64::NEG_INFINITY] {
+fn an_invalid_coefficient_is_an_error() {
+    for invalid in [f64::NAN, -0.1, f64::NEG_INFINITY] {
         let law = VariableFriction::new(
             move |start| {
-                if start.state.slip.abs() > 1e-4 { bad } else { 0.2 }
+                if start.state.slip.abs() > 1e-4 { invalid } else { 0.2 }
             },
         );
         let builder = scene(SI, 0.6).structure(block(SI)).interface(law);
         let mut simulation = builder.build().unwrap();
         let error = loop {
-            let before = simulation.state().clone();
-            assert!(before.step < STEPS, "no step failed with {bad}");
+            let state = simulation.state().clone();
+            assert!(state.step < RUN_STEPS, "no step failed with {invalid}");
             if let Err(error) = simulation.step() {
-                assert_eq!(*simulation.state(), before);
+                assert_eq!(*simulation.state(), state);
                 break error;
             }
         };
@@ -101,6 +123,6 @@ fn a_coefficient_that_is_none_is_an_error() {
         let Error::Input { quantity: "friction coefficient", value, .. } = **reason else {
             panic!("{reason:?}")
         };
-        assert!(*element < 8 && value.to_bits() == bad.to_bits(), "{error}");
+        assert!(*element < 8 && value.to_bits() == invalid.to_bits(), "{error}");
     }
 }

@@ -8,34 +8,35 @@ use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 use basemat::{Simulation, Soil};
 
-const GRAVITY: f64 = 9.81;
-const DENSITY: f64 = 1500.0;
-const HEIGHT: f64 = 6.0;
+const GRAVITY_ACCELERATION: f64 = 9.81;
+const MASS_DENSITY: f64 = 1500.0;
+const BLOCK_HEIGHT: f64 = 6.0;
 
-/// A block of ten columns on ten elements; lateral contraction none, so that under its weight on a
-/// smooth flat ground it is stressed in one direction only.
-fn block(stiffness_ratio: f64) -> Simulation {
+/// A block of ten columns on ten elements, without lateral contraction.
+///
+/// Under its weight on smooth flat ground it is stressed in one direction only.
+fn block_on_soil(stiffness_ratio: f64) -> Simulation {
     let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0).unwrap();
     let young = 2.0 * (1.0 + soil.poisson()) * soil.shear_modulus() * stiffness_ratio;
-    let layers = [Layer::new(HEIGHT, 4, Material::new(young, 0.0, DENSITY).unwrap())];
+    let layers = [Layer::new(BLOCK_HEIGHT, 4, Material::new(young, 0.0, MASS_DENSITY).unwrap())];
     let mesh = Mesh::layered_block(-5.0..5.0, 10, &layers).unwrap();
     Simulation::builder(1e-3)
         .structure(FemModel::on_base(mesh).unwrap())
         .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 10).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
-        .gravity(GRAVITY)
+        .gravity(GRAVITY_ACCELERATION)
         .build()
         .unwrap()
 }
 
 #[test]
 fn soft_structures_stand() {
-    let weight = GRAVITY * DENSITY * HEIGHT * 10.0;
+    let weight = GRAVITY_ACCELERATION * MASS_DENSITY * BLOCK_HEIGHT * 10.0;
     for decade in -8..=4 {
-        let state = block(10.0_f64.powi(decade)).state().clone();
-        let apart = (state.normal_force / weight - 1.0).abs();
+        let state = block_on_soil(10.0_f64.powi(decade)).state().clone();
+        let error = (state.normal_force / weight - 1.0).abs();
         let moment = state.base_moment.abs() / (10.0 * weight);
-        assert!(apart < 1e-9, "1e{decade}: weight off by {apart:e}");
+        assert!(error < 1e-9, "1e{decade}: weight off by {error:e}");
         assert!(state.base_shear.abs() < 1e-9 * weight, "1e{decade}: {}", state.base_shear);
         assert!(moment < 1e-9, "1e{decade}: moment {moment:e}");
     }
@@ -43,13 +44,13 @@ fn soft_structures_stand() {
 
 #[test]
 fn soft_structures_press_evenly() {
-    // On ground that is rigid to it every column stands for itself: p = ρ g h.
-    let pressure = GRAVITY * DENSITY * HEIGHT;
+    // On ground that is rigid beside it every column carries its own weight: p = ρ g h.
+    let pressure = GRAVITY_ACCELERATION * MASS_DENSITY * BLOCK_HEIGHT;
     for decade in [-8, -7, -6] {
-        for contact in &block(10.0_f64.powi(decade)).state().contact {
-            let apart = (contact.pressure / pressure - 1.0).abs();
-            let expected = 10.0 * 10.0_f64.powi(decade).max(1e-7);
-            assert!(apart < expected, "1e{decade}: {apart:e}");
+        for contact in &block_on_soil(10.0_f64.powi(decade)).state().contact {
+            let error = (contact.pressure / pressure - 1.0).abs();
+            let tolerance = 10.0 * 10.0_f64.powi(decade).max(1e-7);
+            assert!(error < tolerance, "1e{decade}: {error:e}");
         }
     }
 }

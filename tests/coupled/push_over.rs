@@ -6,123 +6,152 @@ use basemat::analyses::{PushControl, PushOver, push_over};
 use basemat::bem::{ElasticGround, SpringGround};
 use basemat::coupled::Load;
 use basemat::interface::Coulomb;
-use basemat::structure::RigidBlock;
-use basemat::{Error, Simulation, Soil};
+use basemat::structure::{DofCombination, RigidBlock};
+use basemat::{Error, Result, Simulation, Soil};
 use basemat_problems::table;
 
-const GRAVITY: f64 = 9.81;
+/// Gravity of the table, m/s².
+const TABLE_GRAVITY: f64 = 9.81;
+/// Weight of the block on springs, N/m.
+const BLOCK_WEIGHT: f64 = 80.0e3 * TABLE_GRAVITY;
 
-/// A block 5 m wide and 8 m high on springs; pushed at its middle or top.
-fn pushed(
+/// A block 5 m wide and 8 m high on springs, with the height of the force on it.
+struct BlockOnSprings {
     elements: usize,
     stiffness: f64,
     friction: f64,
-    height: f64,
-    path: &PushControl,
-) -> PushOver {
-    let block = RigidBlock::new(5.0, 8.0, 2000.0).unwrap();
-    let row = block.horizontal_at(height);
-    push_over(&row, path, |force| {
-        Simulation::builder(0.01)
-            .gravity(GRAVITY)
-            .ground(SpringGround::under(&block, elements, stiffness, stiffness)?)
-            .structure(block.clone())
-            .interface(Coulomb::new(friction)?)
-            .load(Load::constant(row.clone(), force))
-            .build()
-    })
-    .unwrap()
+    force_height: f64,
 }
 
-const WEIGHT: f64 = 80.0e3 * GRAVITY;
+impl BlockOnSprings {
+    /// Pushed at its top, with friction that never slips.
+    const ROCKING_SCENE: Self =
+        Self { elements: 100, stiffness: 3.0e7, friction: 5.0, force_height: 8.0 };
+    /// On stiff springs, pushed at its top.
+    const OVERTURNING_SCENE: Self =
+        Self { elements: 50, stiffness: 3.0e9, friction: 5.0, force_height: 8.0 };
+    /// On stiff springs, pushed at a tenth of its height.
+    const SLIDING_SCENE: Self =
+        Self { elements: 50, stiffness: 3.0e9, friction: 0.3, force_height: 0.8 };
 
-/// Moments at the rotations of the table; the middles of 100 cells err by 1/100.
-#[test]
-fn a_block_on_springs_without_tension_has_the_winkler_strips_curve() {
-    let stiffness = 3.0e7;
-    let uplift = WEIGHT / (2.0 * stiffness * 2.5 * 2.5);
-    let mut forces = Vec::new();
-    let mut wanted: Vec<[f64; 3]> = Vec::new();
-    for [ratio, moment, contact] in
+    fn push_over(&self, path: &PushControl) -> PushOver {
+        let block = RigidBlock::new(5.0, 8.0, 2000.0).unwrap();
+        let row = block.horizontal_at(self.force_height);
+        push_over(&row, path, |force| {
+            let stiffness = self.stiffness;
+            Simulation::builder(0.01)
+                .gravity(TABLE_GRAVITY)
+                .ground(SpringGround::under(&block, self.elements, stiffness, stiffness)?)
+                .structure(block.clone())
+                .interface(Coulomb::new(self.friction)?)
+                .load(Load::constant(row.clone(), force))
+                .build()
+        })
+        .unwrap()
+    }
+
+    /// Rotation at which the base starts to uplift.
+    fn uplift_rotation(&self) -> f64 {
+        BLOCK_WEIGHT / (2.0 * self.stiffness * 2.5 * 2.5)
+    }
+}
+
+/// A row of the table of the Winkler strip.
+#[derive(Debug, Clone, Copy)]
+struct WinklerRow {
+    /// Rotation over the rotation at uplift.
+    rotation_ratio: f64,
+    /// Moment over the weight times half the width.
+    moment_ratio: f64,
+    contact_fraction: f64,
+}
+
+/// At most eight rows of the table whose moments grow by 45 % or more.
+fn winkler_rows() -> Vec<WinklerRow> {
+    let mut rows: Vec<WinklerRow> = Vec::new();
+    for [rotation_ratio, moment_ratio, contact_fraction] in
         table("winkler_static_M_theta.csv").rows(["theta_over_thu", "M_over_NB", "contact_over_2B"])
     {
-        if (0.2..6.0).contains(&ratio)
-            && forces.len() < 8
-            && (forces.is_empty() || moment > 1.45 * wanted[wanted.len() - 1][1])
-        {
-            forces.push(moment * WEIGHT * 2.5 / 8.0);
-            wanted.push([ratio, moment, contact]);
+        let grows = rows.last().is_none_or(|last| moment_ratio > 1.45 * last.moment_ratio);
+        if (0.2..6.0).contains(&rotation_ratio) && rows.len() < 8 && grows {
+            rows.push(WinklerRow { rotation_ratio, moment_ratio, contact_fraction });
         }
     }
-    assert!(forces.len() > 3 && wanted.iter().any(|row| row[2] < 0.8), "{wanted:?}");
-    let curve = pushed(100, stiffness, 5.0, 8.0, &PushControl::Forces(forces));
-    assert!(curve.limit.is_none() && curve.points.len() == wanted.len() + 1);
-    for (point, [ratio, moment, contact]) in curve.points[1..].iter().zip(wanted) {
-        let found = -point.base_rotation / uplift;
-        assert!((found / ratio - 1.0).abs() < 0.02, "{found} {ratio}");
-        assert!((1.0 - point.uplifted_fraction - contact).abs() < 0.011, "{point:?}");
-        assert!(
-            (point.base_moment.abs() / (moment * WEIGHT * 2.5) - 1.0).abs() < 1e-6,
-            "{point:?}"
-        );
-        assert!((point.base_shear - point.force).abs() < 1e-6 * WEIGHT);
-        // The base slips by F/k per metre of springs along it, and turns.
-        let shear = point.force / (stiffness * 5.0 * (1.0 - point.uplifted_fraction));
-        let wanted = shear - 8.0 * point.base_rotation;
-        assert!(
-            (point.displacement / wanted - 1.0).abs() < 0.02,
-            "{} {wanted}",
-            point.displacement
-        );
+    assert!(rows.len() > 3 && rows.iter().any(|row| row.contact_fraction < 0.8), "{rows:?}");
+    rows
+}
+
+/// The moments have the rotations of the table; 100 elements err by 1/100.
+#[test]
+fn a_block_on_springs_without_tension_has_the_winkler_strips_curve() {
+    let scene = BlockOnSprings::ROCKING_SCENE;
+    let rows = winkler_rows();
+    let forces = rows.iter().map(|row| row.moment_ratio * BLOCK_WEIGHT * 2.5 / 8.0).collect();
+    let curve = scene.push_over(&PushControl::Forces(forces));
+    assert!(curve.limit.is_none() && curve.points.len() == rows.len() + 1);
+    for (point, row) in curve.points[1..].iter().zip(rows) {
+        let rotation_ratio = -point.base_rotation / scene.uplift_rotation();
+        assert!((rotation_ratio / row.rotation_ratio - 1.0).abs() < 0.02, "{point:?} {row:?}");
+        let contact_fraction = 1.0 - point.uplifted_fraction;
+        assert!((contact_fraction - row.contact_fraction).abs() < 0.011, "{point:?}");
+        let moment = row.moment_ratio * BLOCK_WEIGHT * 2.5;
+        assert!((point.base_moment.abs() / moment - 1.0).abs() < 1e-6, "{point:?}");
+        assert!((point.base_shear - point.force).abs() < 1e-6 * BLOCK_WEIGHT);
+        // The base slips by F/k per metre of closed springs, and turns.
+        let slip = point.force / (scene.stiffness * 5.0 * (1.0 - point.uplifted_fraction));
+        let expected = slip - 8.0 * point.base_rotation;
+        let displacement = point.displacement;
+        assert!((displacement / expected - 1.0).abs() < 0.02, "{displacement} {expected}");
     }
 }
 
-/// Closed form of the tilted strip: M/(N B) = 1 − 2/3 (θ_u/θ)^½ beyond uplift, at prescribed displacements.
+/// Prescribed displacements follow the tilted strip: M/(N B) = 1 − 2/3 (θ_u/θ)^½ beyond uplift.
 #[test]
 fn displacements_are_met_by_their_forces() {
-    let stiffness = 3.0e7;
-    let uplift = WEIGHT / (2.0 * stiffness * 2.5 * 2.5);
+    let scene = BlockOnSprings::ROCKING_SCENE;
     let targets = vec![0.01, 0.03, 0.1, 0.3];
     let path = PushControl::Displacements { targets: targets.clone(), first_force: 20.0e3 };
-    let curve = pushed(100, stiffness, 5.0, 8.0, &path);
+    let curve = scene.push_over(&path);
     assert_eq!(curve.points.len(), targets.len() + 1);
     for (point, target) in curve.points[1..].iter().zip(targets) {
         assert!((point.displacement - target).abs() < 1.01e-4 * target, "{point:?}");
-        let ratio = -point.base_rotation / uplift;
-        let moment = if ratio > 1.0 { 1.0 - 2.0 / 3.0 / ratio.sqrt() } else { ratio / 3.0 };
-        assert!(
-            (point.force * 8.0 / (WEIGHT * 2.5 * moment) - 1.0).abs() < 0.01,
-            "{point:?} {ratio}"
-        );
+        let ratio = -point.base_rotation / scene.uplift_rotation();
+        let moment_ratio = if ratio > 1.0 { 1.0 - 2.0 / 3.0 / ratio.sqrt() } else { ratio / 3.0 };
+        let expected = BLOCK_WEIGHT * 2.5 * moment_ratio;
+        assert!((point.force * 8.0 / expected - 1.0).abs() < 0.01, "{point:?} {ratio}");
     }
-    // The other way it is the mirror image.
-    let back = PushControl::Displacements { targets: vec![-0.03], first_force: -20.0e3 };
-    let mirrored = pushed(100, stiffness, 5.0, 8.0, &back);
+    // The curve of pushing to the left is the mirror image.
+    let to_the_left = PushControl::Displacements { targets: vec![-0.03], first_force: -20.0e3 };
+    let mirrored = scene.push_over(&to_the_left);
     assert!((mirrored.points[1].force / curve.points[2].force + 1.0).abs() < 1e-2);
 }
 
-/// The limit is W times the distance of the middle of the last cell, b/2 less half a cell, from the middle.
+/// Thirty forces that grow by `increment`.
+fn growing_forces(increment: f64) -> PushControl {
+    PushControl::Forces((1..=30).map(|k| increment * f64::from(k)).collect())
+}
+
+/// Overturning needs W times the distance of the outer element from the middle, half an element less than b/2.
 #[test]
 fn the_limits_are_overturning_and_friction() {
-    let path = |factor: f64| PushControl::Forces((1..=30).map(|k| factor * f64::from(k)).collect());
-    let elements = 50;
-    let over = pushed(elements, 3.0e9, 5.0, 8.0, &path(12.0e3));
-    let [found, beyond] = over.limit.unwrap();
-    let wanted = WEIGHT * (2.5 - 0.5 * 5.0 / elements as f64) / 8.0;
-    assert!(found <= wanted * 1.0001 && found > 0.99 * wanted, "{found} {wanted}");
-    assert!(beyond >= found && beyond < found * 1.001);
-    assert!(over.cause.is_some_and(|cause| cause.contains("overturn")));
-    assert!(over.points[over.points.len() - 1].uplifted_fraction > 0.85);
-    // Pushed at a tenth of its height it slides.
-    let slide = pushed(elements, 3.0e9, 0.3, 0.8, &path(20.0e3));
-    let [found, _] = slide.limit.unwrap();
-    let wanted = 0.3 * WEIGHT;
-    assert!((found / wanted - 1.0).abs() < 1e-3, "{found} {wanted}");
-    assert!(slide.cause.is_some_and(|cause| cause.contains("pushes it off")));
-    // By displacements the curve ends there, too.
+    let scene = BlockOnSprings::OVERTURNING_SCENE;
+    let curve = scene.push_over(&growing_forces(12.0e3));
+    let [limit, beyond] = curve.limit.unwrap();
+    let expected = BLOCK_WEIGHT * (2.5 - 0.5 * 5.0 / scene.elements as f64) / 8.0;
+    assert!(limit <= expected * 1.0001 && limit > 0.99 * expected, "{limit} {expected}");
+    assert!(beyond >= limit && beyond < limit * 1.001);
+    assert!(curve.cause.is_some_and(|cause| cause.contains("overturn")));
+    assert!(curve.points[curve.points.len() - 1].uplifted_fraction > 0.85);
+
+    let curve = BlockOnSprings::SLIDING_SCENE.push_over(&growing_forces(20.0e3));
+    let limit = curve.limit.unwrap()[0];
+    let expected = 0.3 * BLOCK_WEIGHT;
+    assert!((limit / expected - 1.0).abs() < 1e-3, "{limit} {expected}");
+    assert!(curve.cause.is_some_and(|cause| cause.contains("pushes it off")));
+    // A curve by displacements ends at the same force.
     let far = PushControl::Displacements { targets: vec![1e-4, 50.0], first_force: 1e3 };
-    let [found, _] = pushed(elements, 3.0e9, 0.3, 0.8, &far).limit.unwrap();
-    assert!((found / wanted - 1.0).abs() < 1e-3, "{found} {wanted}");
+    let limit = BlockOnSprings::SLIDING_SCENE.push_over(&far).limit.unwrap()[0];
+    assert!((limit / expected - 1.0).abs() < 1e-3, "{limit} {expected}");
 }
 
 /// Pushed at half its height, the block slides first at the edge with less pressure.
@@ -131,11 +160,11 @@ fn sliding_spreads_on_elastic_ground() {
     let block = RigidBlock::new(6.0, 6.0, 2000.0).unwrap();
     let row = block.horizontal_at(3.0);
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    let limit = 0.4 * 72.0e3 * GRAVITY;
-    let forces: Vec<f64> = [0.2, 0.4, 0.6, 0.8, 0.95].map(|part| part * limit).to_vec();
+    let limit = 0.4 * 72.0e3 * TABLE_GRAVITY;
+    let forces: Vec<f64> = [0.2, 0.4, 0.6, 0.8, 0.95].map(|ratio| ratio * limit).to_vec();
     let curve = push_over(&row, &PushControl::Forces(forces), |force| {
         Simulation::builder(0.005)
-            .gravity(GRAVITY)
+            .gravity(TABLE_GRAVITY)
             .ground(ElasticGround::under(soil, &block, 12)?)
             .structure(block.clone())
             .interface(Coulomb::new(0.4)?)
@@ -145,33 +174,31 @@ fn sliding_spreads_on_elastic_ground() {
     .unwrap();
     assert_eq!(curve.points.len(), 6);
     let sliding: Vec<f64> = curve.points.iter().map(|point| point.sliding_fraction).collect();
-    assert!(
-        sliding.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12)
-            && sliding[5] > 0.0
-            && sliding[5] > sliding[1],
-        "{sliding:?}"
-    );
+    assert!(sliding.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12), "{sliding:?}");
+    assert!(sliding[5] > 0.0 && sliding[5] > sliding[1], "{sliding:?}");
+}
+
+/// Displacements of the top, from a first force.
+fn displacements(targets: &[f64], first_force: f64) -> PushControl {
+    PushControl::Displacements { targets: targets.to_vec(), first_force }
+}
+
+/// The block on eight springs under a force at its top.
+fn coarse_scene(force: f64) -> Result<Simulation> {
+    let block = RigidBlock::new(5.0, 8.0, 2000.0).unwrap();
+    Simulation::builder(0.01)
+        .ground(SpringGround::under(&block, 8, 3e7, 3e7)?)
+        .load(Load::constant(block.horizontal_at(8.0), force))
+        .structure(block)
+        .interface(Coulomb::new(0.5)?)
+        .build()
 }
 
 #[test]
 fn wrong_paths_are_refused() {
-    let block = RigidBlock::new(5.0, 8.0, 2000.0).unwrap();
-    let row = block.horizontal_at(8.0);
-    let run = |path: PushControl| {
-        push_over(&row, &path, |force| {
-            Simulation::builder(0.01)
-                .ground(SpringGround::under(&block, 8, 3e7, 3e7)?)
-                .structure(block.clone())
-                .interface(Coulomb::new(0.5)?)
-                .load(Load::constant(block.horizontal_at(8.0), force))
-                .build()
-        })
-    };
-    let displacements = |targets: &[f64], first_force| PushControl::Displacements {
-        targets: targets.to_vec(),
-        first_force,
-    };
-    assert!(matches!(run(PushControl::Forces(vec![])), Err(Error::Size { .. })));
+    let top = RigidBlock::new(5.0, 8.0, 2000.0).unwrap().horizontal_at(8.0);
+    let no_forces = push_over(&top, &PushControl::Forces(vec![]), coarse_scene);
+    assert!(matches!(no_forces, Err(Error::Size { .. })));
     for path in [
         PushControl::Forces(vec![f64::NAN]),
         displacements(&[0.1], 0.0),
@@ -179,15 +206,10 @@ fn wrong_paths_are_refused() {
         displacements(&[0.1, -0.2], 1.0),
         displacements(&[f64::INFINITY], 1.0),
     ] {
-        assert!(matches!(run(path.clone()), Err(Error::Input { .. })), "{path:?}");
+        let result = push_over(&top, &path, coarse_scene);
+        assert!(matches!(result, Err(Error::Input { .. })), "{path:?}");
     }
-    let beyond = basemat::structure::DofCombination::from(99);
-    let other = push_over(&beyond, &PushControl::Forces(vec![1.0]), |_| {
-        Simulation::builder(0.01)
-            .ground(SpringGround::under(&block, 8, 3e7, 3e7)?)
-            .structure(block.clone())
-            .interface(Coulomb::new(0.5)?)
-            .build()
-    });
-    assert!(matches!(other, Err(Error::Index { .. })));
+    let unknown_dof = DofCombination::from(99);
+    let result = push_over(&unknown_dof, &PushControl::Forces(vec![1.0]), |_| coarse_scene(0.0));
+    assert!(matches!(result, Err(Error::Index { .. })));
 }

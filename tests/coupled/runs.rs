@@ -1,8 +1,8 @@
-//! GOAL: one summary, however a run is made; an observer may say nothing, stop or fail.
-//! SCENE: a block that rocks and slides under El Centro.
+//! GOAL: a run has the same summary in whatever way it is made; an observer may stop or fail it.
+//! SCENE: a block that rocks and slides under two pulses.
 //! REFERENCE: the same steps by `Simulation::run`; the states.
 
-use std::ops::ControlFlow::{Break, Continue};
+use std::ops::ControlFlow::{self, Break, Continue};
 
 use basemat::coupled::{State, Warning};
 use basemat::results::Run;
@@ -11,23 +11,23 @@ use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SI, block, friction, scene};
 
-const STEPS: usize = 300;
+const RUN_STEPS: usize = 300;
 
-fn simulation() -> Simulation {
+fn rocking_block() -> Simulation {
     scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap()
 }
 
-/// All that a run says, to the last bit, but its wall time.
-fn told(mut run: Run) -> String {
-    // The end is judged where a run was given its steps, and not in a loop of one's own.
-    let at_end =
-        |own: &Warning| matches!(own, Warning::PeakAtEnd { .. } | Warning::EndsEarly { .. });
-    run.warnings.retain(|own| !at_end(own));
+/// Full summary of a run to the last bit, without its wall time.
+fn summary(mut run: Run) -> String {
+    // Only a run of a known number of steps has warnings of its end.
+    run.warnings.retain(|warning| {
+        !matches!(warning, Warning::PeakAtEnd { .. } | Warning::EndsEarly { .. })
+    });
     let page = run.to_string();
     let page: Vec<&str> = page.lines().filter(|line| !line.starts_with("Time taken")).collect();
-    let (page, fields) =
-        (page.join("\n"), (run.trials, run.fallbacks, run.energy_balance, run.warnings.clone()));
-    let parts = (
+    let page = page.join("\n");
+    let fields = (run.trials, run.fallbacks, run.energy_balance, run.warnings.clone());
+    let contact = (
         run.envelope.clone(),
         run.foundations.clone(),
         run.whole.sliding.clone(),
@@ -35,77 +35,89 @@ fn told(mut run: Run) -> String {
     );
     let mut table = Comparison::default();
     table.add("run", run);
-    format!("{page}\n{fields:?}\n{parts:?}\n{}", table.csv())
+    format!("{page}\n{fields:?}\n{contact:?}\n{}", table.csv())
 }
 
 #[test]
-fn all_ways_to_run_tell_the_same() {
-    let mut whole = simulation();
-    let run = whole.run(STEPS, |_| {}).unwrap();
-    assert!(run.steps == STEPS && run.mode_changes > 10 && !run.whole.sliding.events.is_empty());
+fn all_ways_to_run_have_the_same_summary() {
+    let mut whole = rocking_block();
+    let run = whole.run(RUN_STEPS, |_| {}).unwrap();
+    assert_eq!(run.steps, RUN_STEPS);
+    assert!(run.mode_changes > 10 && !run.whole.sliding.events.is_empty());
     assert_eq!((run.start, run.end), (0.0, whole.state().time));
-    let expected = told(run);
+    let expected = summary(run);
 
-    let mut stepped = simulation();
+    let mut stepped = rocking_block();
     let mut run = stepped.begin_run();
-    for _ in 0..STEPS {
+    for _ in 0..RUN_STEPS {
         run.record(stepped.step().unwrap());
     }
-    assert_eq!(told(stepped.end_run(run)), expected);
+    assert_eq!(summary(stepped.end_run(run)), expected);
 
-    // In parts, the run as an observer of them; the histories beside it.
-    let mut parts = simulation();
-    let (mut run, mut time_series) = (parts.begin_run(), Recorder::new().start(&parts).unwrap());
-    for steps in [1, 120, STEPS - 121] {
+    // In parts, which the run and the time series observe.
+    let mut parts = rocking_block();
+    let mut run = parts.begin_run();
+    let mut time_series = Recorder::new().start(&parts).unwrap();
+    for steps in [1, 120, RUN_STEPS - 121] {
         let part = parts.run(steps, |state| {
             run.record(state);
             time_series.record(state).unwrap();
         });
         assert_eq!(part.unwrap().steps, steps);
     }
-    assert_eq!(told(parts.end_run(run)), expected);
-    assert_eq!(time_series.times().len(), STEPS + 1);
+    assert_eq!(summary(parts.end_run(run)), expected);
+    assert_eq!(time_series.times().len(), RUN_STEPS + 1);
+}
+
+fn is_uplifted(state: &State) -> bool {
+    state.uplifted_fraction > 0.0
+}
+
+fn break_at_uplift(state: &State) -> ControlFlow<()> {
+    if is_uplifted(state) { Break(()) } else { Continue(()) }
+}
+
+fn disk_full() -> Error {
+    Error::part("disk", "is full")
 }
 
 #[test]
 fn observers_stop_and_fail() {
-    let uplifted = |state: &State| state.uplifted_fraction > 0.0;
-    let mut stopped = simulation();
-    let run =
-        stopped.run(STEPS, |state| if uplifted(state) { Break(()) } else { Continue(()) }).unwrap();
-    assert!(run.steps > 0 && run.steps < STEPS && run.whole.uplift.count == 1);
-    assert!(uplifted(stopped.state()));
+    let mut stopped = rocking_block();
+    let run = stopped.run(RUN_STEPS, break_at_uplift).unwrap();
+    assert!(run.steps > 0 && run.steps < RUN_STEPS && run.whole.uplift.count == 1);
+    assert!(is_uplifted(stopped.state()));
 
-    // The error is the observer's own; what was seen before it is not lost.
-    let full = || Error::part("disk", "is full");
-    let mut failed = simulation();
-    let mut seen = failed.begin_run();
-    let refused = failed.run(STEPS, |state| {
-        seen.record(state);
-        if uplifted(state) { Err(full()) } else { Ok(()) }
+    // The run returns the observer's error and keeps the steps before it.
+    let mut failed = rocking_block();
+    let mut steps_before = failed.begin_run();
+    let result = failed.run(RUN_STEPS, |state| {
+        steps_before.record(state);
+        if is_uplifted(state) { Err(disk_full()) } else { Ok(()) }
     });
-    assert_eq!(refused.unwrap_err(), full());
+    assert_eq!(result.unwrap_err(), disk_full());
     assert_eq!(failed.state(), stopped.state());
-    assert_eq!(told(failed.end_run(seen)), told(run));
+    assert_eq!(summary(failed.end_run(steps_before)), summary(run));
 
-    // Both at once.
-    let mut both = simulation();
-    let run = both.run(STEPS, |state| {
+    // An observer that may do both.
+    let mut both = rocking_block();
+    let run = both.run(RUN_STEPS, |state| {
         if state.time < 0.0 {
-            return Err(full());
+            return Err(disk_full());
         }
-        Ok(if uplifted(state) { Break(()) } else { Continue(()) })
+        Ok(break_at_uplift(state))
     });
     assert_eq!(run.unwrap().end, stopped.state().time);
 }
 
 #[test]
 fn a_page_names_the_methods_that_were_fallen_back_on() {
-    let mut run = simulation().run(10, |_| {}).unwrap();
+    let mut run = rocking_block().run(10, |_| {}).unwrap();
     let line = "Fallbacks of the search for contact modes: ";
     run.fallbacks = basemat::results::Fallbacks::default();
     assert!(!run.to_string().contains(line), "{run}");
-    (run.fallbacks.gauss_seidel, run.fallbacks.path) = (133, 2);
+    run.fallbacks.gauss_seidel = 133;
+    run.fallbacks.path = 2;
     let both = format!("\n{line}133 steps by Gauss–Seidel, 2 steps by path following");
     assert!(run.to_string().contains(&both), "{run}");
 }

@@ -11,40 +11,38 @@ use basemat::site::TrenchMotion;
 use basemat::structure::{Base, BaseNode, FemModel, Structure, Triplets};
 use basemat::{Result, Simulation, Soil, unobserved};
 
-const HALF: f64 = 5.0;
-const DEPTH: f64 = 5.0;
-const SIDES: [usize; 2] = [6, 8];
-const STEP: f64 = 0.003;
-const STEPS: usize = 150;
+const BLOCK_HALF_WIDTH: f64 = 5.0;
+const BLOCK_DEPTH: f64 = 5.0;
+const MESH_COLUMNS: usize = 6;
+const MESH_ROWS: usize = 8;
+const TIME_STEP: f64 = 0.003;
+const RUN_STEPS: usize = 150;
 
-/// A finite-element model that stands in a trench.
-struct Block {
+/// A block of solids whose base is its outline in a trench.
+struct SolidBlock {
     model: FemModel,
     nodes: Vec<BaseNode>,
 }
 
-impl Block {
+impl SolidBlock {
     fn new(material: Material) -> Result<Self> {
-        let [across, up] = SIDES;
-        let place = |row: usize, column: usize| {
-            let [x, z] = [column as f64 / across as f64, row as f64 / up as f64];
-            [HALF * (2.0 * x - 1.0), DEPTH * (z - 1.0), 0.0]
-        };
         let mut mesh = Mesh::new();
-        let grid = mesh.add_grid(up + 1, across + 1, place)?;
-        for row in 0..up {
-            for column in 0..across {
-                let [low, high] = [grid.row(row), grid.row(row + 1)];
-                let nodes = [low[column], low[column + 1], high[column + 1], high[column]];
+        let grid = mesh.add_grid(MESH_ROWS + 1, MESH_COLUMNS + 1, |row, column| {
+            let x = column as f64 / MESH_COLUMNS as f64;
+            let z = row as f64 / MESH_ROWS as f64;
+            [BLOCK_HALF_WIDTH * (2.0 * x - 1.0), BLOCK_DEPTH * (z - 1.0), 0.0]
+        })?;
+        for row in 0..MESH_ROWS {
+            for column in 0..MESH_COLUMNS {
+                let lower = grid.row(row);
+                let upper = grid.row(row + 1);
+                let nodes = [lower[column], lower[column + 1], upper[column + 1], upper[column]];
                 mesh.add(Quad4::new(nodes, material, QuadFormulation::default()))?;
             }
         }
-        let side = |column: usize| (0..=up).map(move |row| (row, column));
-        let left = side(0).skip(1).map(|(row, column)| grid.row(row)[column]);
-        let mut outline: Vec<usize> = left.collect();
-        outline.reverse();
+        let mut outline: Vec<usize> = (1..=MESH_ROWS).rev().map(|row| grid.row(row)[0]).collect();
         outline.extend(grid.row(0));
-        outline.extend(side(across).skip(1).map(|(row, column)| grid.row(row)[column]));
+        outline.extend((1..=MESH_ROWS).map(|row| grid.row(row)[MESH_COLUMNS]));
         let model = FemModel::new(mesh, grid.row(0))?;
         let nodes = outline.into_iter().map(|node| {
             let [x, z, _] = model.mesh().nodes()[node];
@@ -57,7 +55,7 @@ impl Block {
     }
 }
 
-impl Structure for Block {
+impl Structure for SolidBlock {
     fn dofs(&self) -> usize {
         self.model.dofs()
     }
@@ -75,50 +73,61 @@ impl Structure for Block {
     }
 }
 
-/// Largest difference between the top of the block and the surface over the largest displacement; all elements stuck.
-fn difference(soil: Soil, density: f64, kernels: &SharedKernels) -> (f64, bool) {
+/// Motion of a block in a trench beside the free field.
+#[derive(Debug)]
+struct BlockMotion {
+    /// Largest difference between the top of the block and the surface over the largest displacement.
+    difference: f64,
+    always_stuck: bool,
+}
+
+/// Runs a block with the stiffness of the soil and this density.
+fn block_motion(soil: Soil, density: f64, kernels: &SharedKernels) -> BlockMotion {
     let young = 2.0 * soil.shear_modulus() * (1.0 + soil.poisson());
-    let block = Block::new(Material::new(young, soil.poisson(), density).unwrap()).unwrap();
+    let block = SolidBlock::new(Material::new(young, soil.poisson(), density).unwrap()).unwrap();
     let top = block.nodes[0].horizontal.clone();
-    let elements = Trench::new(-HALF..HALF, DEPTH).unwrap().elements(4, 4).unwrap();
+    let trench = Trench::new(-BLOCK_HALF_WIDTH..BLOCK_HALF_WIDTH, BLOCK_DEPTH).unwrap();
+    let elements = trench.elements(4, 4).unwrap();
     let laws = elements.interfaces(Coulomb::new(0.8).unwrap(), Coulomb::new(0.8).unwrap());
     let ground = TrenchGround::new(soil, elements).unwrap().with_shared_kernels(kernels);
-    // 0.1 g; ωd/c about 1.
-    let second = |time: f64| {
+    // A pulse of 0.1 g with ωd/c of about 1.
+    let pulse = Record::from_fn(0.002, 0.5, |time: f64| {
         let square = (20.0 * (time - 0.2)).powi(2);
         (-6.0 + square * (24.0 - 8.0 * square)) * (-square).exp()
-    };
-    let record = Record::from_fn(0.002, 0.5, second).unwrap().scaled_to_peak(1.0).unwrap();
+    });
+    let record = pulse.unwrap().scaled_to_peak(1.0).unwrap();
     let motion = TrenchMotion::new(&ground, record.clone(), &mut unobserved).unwrap();
-    let mut simulation = Simulation::builder(STEP)
+    let mut simulation = Simulation::builder(TIME_STEP)
         .structure(block)
         .ground(ground)
         .interfaces(laws)
         .motion(motion)
-        .expected_steps(STEPS)
+        .expected_steps(RUN_STEPS)
         .build()
         .unwrap();
-    let [mut apart, mut largest] = [0.0_f64; 2];
-    let mut stuck = true;
+    let mut difference = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut always_stuck = true;
     let run = simulation
-        .run(STEPS, |state| {
+        .run(RUN_STEPS, |state| {
             let surface = record.at(state.time).displacement;
-            let found = top.value(state.absolute_displacement());
-            apart = apart.max((found - surface).abs());
+            let computed = top.value(state.absolute_displacement());
+            difference = difference.max((computed - surface).abs());
             largest = largest.max(surface.abs());
-            stuck &= state.modes.iter().all(|mode| *mode == Mode::Stick);
+            always_stuck &= state.modes.iter().all(|mode| *mode == Mode::Stick);
         })
         .unwrap();
     assert!(run.energy_error < 1e-9);
-    (apart / largest, stuck)
+    BlockMotion { difference: difference / largest, always_stuck }
 }
 
 #[test]
 fn soil_in_its_trench_moves_with_the_free_field() {
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
     let kernels = SharedKernels::default();
-    let [same, heavy] = [1.0, 2.0].map(|ratio| difference(soil, ratio * 1900.0, &kernels));
-    println!("{same:?} {heavy:?}");
-    assert!(same.0 < 0.004 && same.1, "{same:?}");
-    assert!(heavy.0 > 0.1, "{heavy:?}");
+    let soil_block = block_motion(soil, 1900.0, &kernels);
+    let heavy_block = block_motion(soil, 2.0 * 1900.0, &kernels);
+    println!("{soil_block:?} {heavy_block:?}");
+    assert!(soil_block.difference < 0.004 && soil_block.always_stuck, "{soil_block:?}");
+    assert!(heavy_block.difference > 0.1, "{heavy_block:?}");
 }

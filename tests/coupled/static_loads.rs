@@ -1,4 +1,4 @@
-//! GOAL: loads at t = 0 come on by the rule that `GravityStage` states, as weight or as a slow ramp would.
+//! GOAL: loads at t = 0 act as weight or as a slow ramp, by the rule of `GravityStage`.
 //! SCENE: blocks on elastic ground in the plane and in plan, under weight, moment, side load and settlement.
 //! REFERENCE: the closed form of a bonded and of a smooth strip; the same weight as a mass; the same loads as ramps in
 //! time.
@@ -6,22 +6,22 @@
 use std::f64::consts::{PI, TAU};
 
 use basemat::bem::{ContactElement, ElasticGround, Ground};
-use basemat::coupled::{GravityStage, Load, SimulationBuilder, State};
+use basemat::coupled::{GravityStage, Load, State};
 use basemat::interface::{Bonded, Cohesive, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{RigidBlock, RigidBody, Structure};
 use basemat::{Observer, Result, Simulation, Soil};
 
-type Law = Box<dyn InterfaceLaw>;
+type BoxedLaw = Box<dyn InterfaceLaw>;
 
 /// Half the width of both bases, m.
-const HALF: f64 = 4.0;
+const BASE_HALF_WIDTH: f64 = 4.0;
 
 fn soil() -> Soil {
     Soil::new(80.0e6, 0.33, 1900.0).unwrap()
 }
 
-fn laws() -> [(&'static str, Law); 4] {
+fn laws() -> [(&'static str, BoxedLaw); 4] {
     [
         ("bonded", Box::new(Bonded)),
         ("friction 0.9", Box::new(Coulomb::new(0.9).unwrap())),
@@ -30,89 +30,106 @@ fn laws() -> [(&'static str, Law); 4] {
     ]
 }
 
-/// A body, its ground, weight, and numbers of its degrees of freedom: along x, up, rotation about y.
-struct Scene {
+/// A rigid body on its ground, in the plane or in space.
+struct BodyOnGround {
     structure: Box<dyn Structure>,
     ground: ElasticGround,
     weight: f64,
+    /// Degrees of freedom along x, upwards and of the rotation about y.
     dofs: [usize; 3],
 }
 
-fn scene(plan: bool) -> Scene {
-    if plan {
-        let body = RigidBody::cuboid([2.0 * HALF, 2.0 * HALF, 10.0], 1000.0).unwrap();
+fn body_on_ground(in_space: bool) -> BodyOnGround {
+    let width = 2.0 * BASE_HALF_WIDTH;
+    if in_space {
+        let body = RigidBody::cuboid([width, width, 10.0], 1000.0).unwrap();
         let ground = ElasticGround::under(soil(), &body, 6).unwrap();
-        let weight = STANDARD_GRAVITY * 1000.0 * 4.0 * HALF * HALF * 10.0;
-        return Scene { structure: Box::new(body), ground, weight, dofs: [0, 2, 4] };
+        let weight = STANDARD_GRAVITY * 1000.0 * 4.0 * BASE_HALF_WIDTH * BASE_HALF_WIDTH * 10.0;
+        return BodyOnGround { structure: Box::new(body), ground, weight, dofs: [0, 2, 4] };
     }
-    let block = RigidBlock::new(2.0 * HALF, 10.0, 1000.0).unwrap();
+    let block = RigidBlock::new(width, 10.0, 1000.0).unwrap();
     let ground = ElasticGround::under(soil(), &block, 16).unwrap();
     let weight = STANDARD_GRAVITY * block.total_mass();
-    Scene { structure: Box::new(block), ground, weight, dofs: [0, 1, 2] }
+    BodyOnGround { structure: Box::new(block), ground, weight, dofs: [0, 1, 2] }
 }
 
 /// Largest difference of the tractions of two states over the largest pressure.
-fn difference(a: &State, b: &State) -> f64 {
-    let pressure = a.contact.iter().fold(0.0_f64, |most, own| most.max(own.pressure.abs()));
-    let pairs = a.contact.iter().zip(&b.contact);
-    let errors = pairs.flat_map(|(a, b)| {
-        [a.pressure - b.pressure, a.shear - b.shear, a.shear_across - b.shear_across]
-    });
-    errors.fold(0.0_f64, |most, error| most.max(error.abs())) / pressure
+fn traction_difference(a: &State, b: &State) -> f64 {
+    let mut largest_pressure = 0.0_f64;
+    let mut largest_difference = 0.0_f64;
+    for (a, b) in a.contact.iter().zip(&b.contact) {
+        largest_pressure = largest_pressure.max(a.pressure.abs());
+        for difference in
+            [a.pressure - b.pressure, a.shear - b.shear, a.shear_across - b.shear_across]
+        {
+            largest_difference = largest_difference.max(difference.abs());
+        }
+    }
+    largest_difference / largest_pressure
+}
+
+/// The body under its weight, half of which may act as a load instead.
+fn under_weight(
+    in_space: bool,
+    stage: GravityStage,
+    law: BoxedLaw,
+    half_as_load: bool,
+) -> Simulation {
+    let BodyOnGround { structure, ground, weight, dofs } = body_on_ground(in_space);
+    let mut builder = Simulation::builder(0.01)
+        .structure(structure)
+        .ground(ground)
+        .interface(law)
+        .gravity_stage(stage);
+    if half_as_load {
+        let load = Load::weight(dofs[1], -0.5 * weight);
+        builder = builder.gravity(0.5 * STANDARD_GRAVITY).load(load);
+    }
+    builder.build().unwrap()
 }
 
 #[test]
 fn weight_as_a_load_is_weight() {
-    for plan in [false, true] {
+    for in_space in [false, true] {
+        let upwards = body_on_ground(in_space).dofs[1];
         for stage in [GravityStage::Frictionless, GravityStage::Frictional] {
-            for (name, law) in laws() {
-                let build = |builder: SimulationBuilder, law: Law| {
-                    builder.interface(law).gravity_stage(stage).build().unwrap()
-                };
-                let Scene { structure, ground, weight, dofs } = scene(plan);
-                let as_load = Simulation::builder(0.01)
-                    .structure(structure)
-                    .ground(ground)
-                    .gravity(0.5 * STANDARD_GRAVITY)
-                    .load(Load::weight(dofs[1], -0.5 * weight));
-                let as_load = build(as_load, law);
-                let Scene { structure, ground, .. } = scene(plan);
-                let as_mass = Simulation::builder(0.01).structure(structure).ground(ground);
-                let law = laws().into_iter().find(|own| own.0 == name).unwrap().1;
-                let as_mass = build(as_mass, law);
-                let tractions = difference(as_mass.state(), as_load.state());
-                let [mass, load] =
-                    [&as_mass, &as_load].map(|own| own.static_displacement()[dofs[1]]);
+            for ((name, law), (_, same_law)) in laws().into_iter().zip(laws()) {
+                let as_load = under_weight(in_space, stage, law, true);
+                let as_mass = under_weight(in_space, stage, same_law, false);
+                let difference = traction_difference(as_mass.state(), as_load.state());
+                let settlement_by_mass = as_mass.static_displacement()[upwards];
+                let settlement_by_load = as_load.static_displacement()[upwards];
+                let ratio = settlement_by_load / settlement_by_mass;
                 println!(
-                    "plan {plan}, {stage:?}, {name}: tractions {tractions:.1e}, {mass} {load}"
+                    "in space {in_space}, {stage:?}, {name}: tractions {difference:.1e}, {ratio}"
                 );
-                assert!(tractions < 1e-9, "{name}: {tractions}");
-                assert!((load / mass - 1.0).abs() < 1e-9, "{name}: {load} {mass}");
+                assert!(difference < 1e-9, "{name}: {difference}");
+                assert!((ratio - 1.0).abs() < 1e-9, "{name}: {ratio}");
             }
         }
     }
 }
 
-/// The static compliance of another ground, and its relaxation in time.
-struct Relaxing {
+/// Ground that approaches the static displacements of another exponentially in time.
+struct RelaxingGround {
     ground: ElasticGround,
     compliance: Vec<f64>,
     /// Relaxation time over the time step.
-    steps: f64,
+    relaxation_steps: f64,
     displacement: Vec<f64>,
 }
 
 /// Relaxation time, s.
-const RELAXATION: f64 = 0.1;
+const RELAXATION_TIME: f64 = 0.1;
 
-impl Relaxing {
-    fn new(ground: ElasticGround, plan: bool) -> Self {
+impl RelaxingGround {
+    fn new(ground: ElasticGround, in_space: bool) -> Self {
         let count = ground.elements().len();
-        let size = if plan { 3 } else { 2 } * count;
+        let size = if in_space { 3 } else { 2 } * count;
         let mut compliance = vec![0.0; size * size];
         ground.static_compliance(&mut compliance).unwrap();
         // Displacements in the plane have no datum: the farthest element does not move.
-        if !plan {
+        if !in_space {
             for component in 0..2 {
                 let places = component * count..(component + 1) * count;
                 let entries = places
@@ -122,44 +139,50 @@ impl Relaxing {
                 entries.for_each(|at| compliance[at] -= lowest);
             }
         }
-        Self { ground, compliance, steps: 0.0, displacement: vec![0.0; size] }
+        Self { ground, compliance, relaxation_steps: 0.0, displacement: vec![0.0; size] }
     }
 
-    /// S τ = (s₀ + s₁)/2 + r (s₁ − s₀)/Δt: factors of S τ and of s₀.
-    fn factors(&self) -> [f64; 2] {
-        [1.0 / (self.steps + 0.5), (self.steps - 0.5) / (self.steps + 0.5)]
+    /// Factor of the static displacement S τ in S τ = (s₀ + s₁)/2 + r (s₁ − s₀)/Δt, solved for s₁.
+    fn static_factor(&self) -> f64 {
+        1.0 / (self.relaxation_steps + 0.5)
+    }
+
+    /// Factor of the displacement s₀ before the step in the same equation.
+    fn history_factor(&self) -> f64 {
+        (self.relaxation_steps - 0.5) / (self.relaxation_steps + 0.5)
     }
 }
 
-impl Ground for Relaxing {
+impl Ground for RelaxingGround {
     fn elements(&self) -> &[ContactElement] {
         self.ground.elements()
     }
 
     fn prepare(&mut self, step: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
-        self.steps = RELAXATION / step;
+        self.relaxation_steps = RELAXATION_TIME / step;
         self.displacement.fill(0.0);
         Ok(())
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let [gained, _] = self.factors();
-        matrix.iter_mut().zip(&self.compliance).for_each(|(to, from)| *to = gained * from);
+        let factor = self.static_factor();
+        matrix.iter_mut().zip(&self.compliance).for_each(|(to, from)| *to = factor * from);
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let [_, kept] = self.factors();
-        displacement.iter_mut().zip(&self.displacement).for_each(|(to, from)| *to = kept * from);
+        let factor = self.history_factor();
+        displacement.iter_mut().zip(&self.displacement).for_each(|(to, from)| *to = factor * from);
         Ok(())
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        let [gained, kept] = self.factors();
+        let static_factor = self.static_factor();
+        let history_factor = self.history_factor();
         let rows = self.compliance.chunks(traction.len());
-        for (moved, row) in self.displacement.iter_mut().zip(rows) {
+        for (displacement, row) in self.displacement.iter_mut().zip(rows) {
             let product: f64 = row.iter().zip(traction).map(|(s, t)| s * t).sum();
-            *moved = gained * product + kept * *moved;
+            *displacement = static_factor * product + history_factor * *displacement;
         }
     }
 
@@ -169,83 +192,107 @@ impl Ground for Relaxing {
     }
 }
 
-/// The side load and the moment over the width, and the settling load, over the weight.
-const SIDE: f64 = 0.08;
-const DOWN: f64 = 0.3;
+/// Side load over the weight, and moment over the weight times the width.
+const SIDE_LOAD_RATIO: f64 = 0.08;
+/// Additional vertical load over the weight.
+const VERTICAL_LOAD_RATIO: f64 = 0.3;
+/// Duration of the ramp, s.
+const RAMP_DURATION: f64 = 10.0;
 
-/// Largest difference over the largest pressure between the tractions of the static state and of the ramp's end, and
-/// between these and the tractions under weight; number of elements that slid; largest ratio of shear to pressure.
-fn static_state_and_ramp(plan: bool, law: &dyn Fn() -> Law) -> ([f64; 2], usize, f64) {
-    const RAMP: f64 = 10.0;
-    let start = |in_time: bool| {
-        let Scene { structure, ground, weight, dofs } = scene(plan);
-        let forces = [SIDE * weight, -DOWN * weight, SIDE * weight * 2.0 * HALF];
-        let mut builder = Simulation::builder(0.05)
-            .structure(structure)
-            .ground(Relaxing::new(ground, plan))
-            .interface(law());
-        for (dof, force) in dofs.into_iter().zip(forces) {
-            let value =
-                move |time: f64| if in_time { force * (time / RAMP).min(1.0) } else { force };
-            builder = builder.load(Load::new(dof, value));
+/// The body on relaxing ground under loads that act from the start or by a ramp.
+fn under_loads(in_space: bool, law: BoxedLaw, by_ramp: bool) -> Simulation {
+    let BodyOnGround { structure, ground, weight, dofs } = body_on_ground(in_space);
+    let side_load = SIDE_LOAD_RATIO * weight;
+    let moment = SIDE_LOAD_RATIO * weight * 2.0 * BASE_HALF_WIDTH;
+    let mut builder = Simulation::builder(0.05)
+        .structure(structure)
+        .ground(RelaxingGround::new(ground, in_space))
+        .interface(law);
+    for (dof, force) in dofs.into_iter().zip([side_load, -VERTICAL_LOAD_RATIO * weight, moment]) {
+        builder = builder.load(Load::new(dof, move |time: f64| {
+            if by_ramp { force * (time / RAMP_DURATION).min(1.0) } else { force }
+        }));
+    }
+    builder.build().unwrap()
+}
+
+/// Static state under loads beside the end of their slow ramp.
+struct RampComparison {
+    /// Largest difference of the tractions over the largest pressure.
+    error: f64,
+    /// The same difference between the static states with and without loads.
+    change_by_loads: f64,
+    elements_slid: usize,
+    largest_friction_ratio: f64,
+}
+
+impl RampComparison {
+    fn new(in_space: bool, law: &dyn Fn() -> BoxedLaw) -> Self {
+        let static_loads = under_loads(in_space, law(), false);
+        let mut ramp = under_loads(in_space, law(), true);
+        let unloaded = ramp.state().clone();
+        ramp.run(300, |_| {}).unwrap();
+        let contact = &ramp.state().contact;
+        let friction_ratios = contact.iter().map(|element| element.shear.abs() / element.pressure);
+        Self {
+            error: traction_difference(static_loads.state(), ramp.state()),
+            change_by_loads: traction_difference(&unloaded, static_loads.state()),
+            elements_slid: contact.iter().filter(|element| element.slip.abs() > 1e-8).count(),
+            largest_friction_ratio: friction_ratios.fold(0.0, f64::max),
         }
-        builder.build().unwrap()
-    };
-    let at_rest = start(false);
-    let mut in_time = start(true);
-    let before = in_time.state().clone();
-    in_time.run(300, |_| {}).unwrap();
-    let error = difference(at_rest.state(), in_time.state());
-    let change = difference(&before, at_rest.state());
-    let contacts = &in_time.state().contact;
-    let slid = contacts.iter().filter(|contact| contact.slip.abs() > 1e-8).count();
-    let ratios = contacts.iter().map(|contact| contact.shear.abs() / contact.pressure);
-    ([error, change], slid, ratios.fold(0.0, f64::max))
+    }
 }
 
 #[test]
 fn the_static_state_of_loads_is_the_end_of_their_slow_ramp() {
-    for plan in [false, true] {
-        let sticks: [(&str, &dyn Fn() -> Law); 3] = [
+    for in_space in [false, true] {
+        let sticking_laws: [(&str, &dyn Fn() -> BoxedLaw); 3] = [
             ("bonded", &|| Box::new(Bonded)),
             ("friction 0.9", &|| Box::new(Coulomb::new(0.9).unwrap())),
             ("cohesive", &|| Box::new(Cohesive::new(1e9, 1e9, 0.5).unwrap())),
         ];
-        let mut needed = 0.0;
-        for (name, law) in sticks {
-            let ([error, change], slid, ratio) = static_state_and_ramp(plan, law);
-            println!("plan {plan}, {name}: {error:.1e}, change {change:.2}, ratio {ratio:.3}");
-            assert!(change > 0.2 && slid == 0, "{name}: {change} {slid}");
-            assert!(error < 1e-6, "plan {plan}, {name}: {error}");
-            needed = ratio;
+        let mut sticking_friction = 0.0;
+        for (name, law) in sticking_laws {
+            let RampComparison { error, change_by_loads, elements_slid, largest_friction_ratio } =
+                RampComparison::new(in_space, law);
+            println!(
+                "in space {in_space}, {name}: {error:.1e}, change {change_by_loads:.2}, friction \
+                 {largest_friction_ratio:.3}"
+            );
+            assert!(change_by_loads > 0.2, "{name}: {change_by_loads}");
+            assert_eq!(elements_slid, 0, "{name}");
+            assert!(error < 1e-6, "in space {in_space}, {name}: {error}");
+            sticking_friction = largest_friction_ratio;
         }
         // Between the friction at which the whole base would slide, and the friction at which it sticks.
-        let friction = 0.6 * needed + 0.4 * SIDE / (1.0 + DOWN);
-        let law = move || -> Law { Box::new(Coulomb::new(friction).unwrap()) };
-        let ([error, _], slid, _) = static_state_and_ramp(plan, &law);
-        println!("plan {plan}, friction {friction:.3}: {error:.1e}, {slid} elements slid");
-        // Ten increments stand for the ramp.
-        assert!(slid > 0 && error < 0.01, "plan {plan}: {slid} {error}");
+        let friction =
+            0.6 * sticking_friction + 0.4 * SIDE_LOAD_RATIO / (1.0 + VERTICAL_LOAD_RATIO);
+        let RampComparison { error, elements_slid, .. } =
+            RampComparison::new(in_space, &|| Box::new(Coulomb::new(friction).unwrap()));
+        println!("in space {in_space}, friction {friction:.3}: {error:.1e}, {elements_slid} slid");
+        // Ten increments approximate the ramp.
+        assert!(elements_slid > 0 && error < 0.01, "in space {in_space}: {elements_slid} {error}");
     }
 }
 
-/// Rocking stiffness of a rigid strip: π G b²/(2 (1 − ν)) if smooth, and 1 + 4 ε² times as much if bonded, with
+/// Rocking stiffness of a rigid strip is π G b²/(2 (1 − ν)) if smooth, 1 + 4 ε² times as much if bonded.
+///
 /// ε = ln(3 − 4ν)/2π (Muskhelishvili 1953, § 114).
 #[test]
 fn a_bonded_base_is_bonded_under_loads() {
     let soil = soil();
     let exponent = (3.0 - 4.0 * soil.poisson()).ln() / TAU;
-    let smooth = PI * soil.shear_modulus() * HALF * HALF / (2.0 * (1.0 - soil.poisson()));
+    let smooth = PI * soil.shear_modulus() * BASE_HALF_WIDTH * BASE_HALF_WIDTH
+        / (2.0 * (1.0 - soil.poisson()));
     let bonded = smooth * (1.0 + 4.0 * exponent * exponent);
-    let coulomb = |friction: f64| Box::new(Coulomb::new(friction).unwrap());
-    let cases: [(&str, Law, f64); 3] = [
+    let cases: [(&str, BoxedLaw, f64); 3] = [
         ("bonded", Box::new(Bonded), bonded),
-        ("sticks", coulomb(0.5), bonded),
-        ("smooth", coulomb(0.0), smooth),
+        ("sticks", Box::new(Coulomb::new(0.5).unwrap()), bonded),
+        ("smooth", Box::new(Coulomb::new(0.0).unwrap()), smooth),
     ];
     for (name, law, expected) in cases {
-        let Scene { structure, ground, weight, dofs } = scene(false);
-        let moment = 0.1 * weight * 2.0 * HALF;
+        let BodyOnGround { structure, ground, weight, dofs } = body_on_ground(false);
+        let moment = 0.1 * weight * 2.0 * BASE_HALF_WIDTH;
         let simulation = Simulation::builder(0.01)
             .structure(structure)
             .ground(ground)

@@ -1,5 +1,5 @@
-//! GOAL: a builder names the part that is missing, does not fit, or breaks.
-//! SCENE: a complete scene with one part left out, given a bad number, or replaced.
+//! GOAL: a builder names the part that is missing, does not fit, or fails.
+//! SCENE: a complete scene with one part left out, replaced, or with a bad number.
 //! REFERENCE: the fields of the error.
 
 use basemat::bem::SpringGround;
@@ -9,91 +9,112 @@ use basemat::interface::{
     Tolerance,
 };
 use basemat::motion::FreeField;
-use basemat::{Error, Simulation};
+use basemat::{Error, Result, Simulation};
 
-use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused};
+use super::{NEGATIVE_OR_NOT_FINITE, NOT_FINITE, NOT_POSITIVE_FINITE, assert_refused, error_with};
 use basemat_problems::block_on_springs::{bed, block};
 
-/// A scene that is complete, for one thing to be spoilt.
-pub(crate) fn good() -> SimulationBuilder {
+/// A complete scene, in which a test may change one part.
+pub(crate) fn complete_scene() -> SimulationBuilder {
     Simulation::builder(1e-3).structure(block()).ground(bed(4)).interface(Bonded)
 }
 
+/// Error of a scene, whose text must contain `words`.
 #[track_caller]
-pub(crate) fn unbuilt(part: &str, builder: SimulationBuilder) -> Error {
-    error_with(part, builder.build())
+pub(crate) fn build_error(words: &str, builder: SimulationBuilder) -> Error {
+    error_with(words, builder.build())
+}
+
+/// Builds the complete scene with this time step.
+fn build_with_time_step(time_step: f64) -> Result<()> {
+    let builder = Simulation::builder(time_step).structure(block()).ground(bed(4));
+    builder.interface(Bonded).build().map(drop)
 }
 
 #[test]
 fn builders_refuse_missing_parts_and_bad_numbers() {
-    assert!(good().build().is_ok());
-    let step = |x| {
-        Simulation::builder(x).structure(block()).ground(bed(4)).interface(Bonded).build().map(drop)
-    };
-    refused("time step", &BAD, step);
-    for x in [1e300, 1e155, 1e-300] {
-        error_with("square of the time step", step(x));
+    assert!(complete_scene().build().is_ok());
+    assert_refused("time step", &NOT_POSITIVE_FINITE, build_with_time_step);
+    for time_step in [1e300, 1e155, 1e-300] {
+        error_with("square of the time step", build_with_time_step(time_step));
     }
-    refused("gravity", &NEGATIVE, |x| good().gravity(x).build().map(drop));
-    refused("moment center", &NOT_FINITE, |x| good().moment_center(x).build().map(drop));
+    assert_refused("gravity", &NEGATIVE_OR_NOT_FINITE, |x| {
+        complete_scene().gravity(x).build().map(drop)
+    });
+    assert_refused("moment center", &NOT_FINITE, |x| {
+        complete_scene().moment_center(x).build().map(drop)
+    });
 
     let empty = Simulation::builder(1e-3);
-    assert!(matches!(unbuilt("structure", empty), Error::Scene { .. }));
-    let groundless = Simulation::builder(1e-3).structure(block());
-    assert!(matches!(unbuilt("ground", groundless), Error::Scene { .. }));
-    let lawless = Simulation::builder(1e-3).structure(block()).ground(bed(4));
-    assert!(matches!(unbuilt("interface", lawless), Error::Scene { .. }));
+    assert!(matches!(build_error("structure", empty), Error::Scene { .. }));
+    let without_ground = Simulation::builder(1e-3).structure(block());
+    assert!(matches!(build_error("ground", without_ground), Error::Scene { .. }));
+    let without_law = Simulation::builder(1e-3).structure(block()).ground(bed(4));
+    assert!(matches!(build_error("interface", without_law), Error::Scene { .. }));
+}
+
+fn bonded_laws(count: usize) -> Vec<Box<dyn InterfaceLaw>> {
+    (0..count).map(|_| Box::new(Bonded) as Box<dyn InterfaceLaw>).collect()
 }
 
 #[test]
 fn builders_refuse_parts_that_do_not_fit() {
-    let laws = |count: usize| -> Vec<Box<dyn InterfaceLaw>> {
-        (0..count).map(|_| Box::new(Bonded) as Box<dyn InterfaceLaw>).collect()
-    };
-    assert!(good().interfaces(laws(4)).build().is_ok());
+    assert!(complete_scene().interfaces(bonded_laws(4)).build().is_ok());
     for found in [2, 3, 5] {
-        let error = unbuilt("interface laws", good().interfaces(laws(found)));
+        let error = build_error("interface laws", complete_scene().interfaces(bonded_laws(found)));
         assert_eq!(error, Error::Size { quantity: "list of interface laws", found, needed: 4 });
     }
-    assert!(matches!(unbuilt("interface law", good().interfaces(vec![])), Error::Scene { .. }));
+    assert!(matches!(
+        build_error("interface law", complete_scene().interfaces(vec![])),
+        Error::Scene { .. }
+    ));
 
     let probe = Probe::velocity("far", 3);
-    let error = unbuilt("probe", good().probe(probe));
+    let error = build_error("probe", complete_scene().probe(probe));
     let source = Box::new(Error::Index { quantity: "degree of freedom", index: 3, bound: 3 });
     assert_eq!(error, Error::Item { item: "probe 'far'".to_owned(), source });
-    for bad in NOT_FINITE {
-        let probe = Probe::displacement("bad", (0, bad));
-        let error = unbuilt("probe 'bad': weight of a degree of freedom", good().probe(probe));
+    for weight in NOT_FINITE {
+        let probe = Probe::displacement("bad", (0, weight));
+        let error = build_error(
+            "probe 'bad': weight of a degree of freedom",
+            complete_scene().probe(probe),
+        );
         assert!(
             matches!(error, Error::Item { source, .. } if matches!(*source, Error::Input { .. }))
         );
     }
 
-    // Two probes of one name: which would `Run::probe` tell of?
+    // `Run::probe` could not distinguish two probes of one name.
     let probes = [Probe::displacement("u", 0), Probe::velocity("v", 0), Probe::velocity("u", 1)];
-    let error = unbuilt("called 'u'", good().probes(probes.clone()));
+    let error = build_error("called 'u'", complete_scene().probes(probes.clone()));
     assert_eq!(error, Error::DuplicateName { quantity: "probe", name: "u".to_owned() });
-    assert!(good().probes(probes[..2].to_vec()).build().is_ok());
+    assert!(complete_scene().probes(probes[..2].to_vec()).build().is_ok());
 
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
-    let error = unbuilt("reaches beyond the structure's base, -2 to 2 m", good().ground(wide));
+    let error = build_error(
+        "reaches beyond the structure's base, -2 to 2 m",
+        complete_scene().ground(wide),
+    );
     assert!(matches!(error, Error::Part { .. }));
-    refused("free field at t = 0", &NOT_FINITE, |x| good().motion(Standing(x)).build().map(drop));
+    assert_refused("free field at t = 0", &NOT_FINITE, |x| {
+        complete_scene().motion(ConstantField(x)).build().map(drop)
+    });
 }
 
-/// A free field that never moves, wherever it stands.
-struct Standing(f64);
+/// A free field with a constant horizontal displacement.
+struct ConstantField(f64);
 
-impl FreeField for Standing {
+impl FreeField for ConstantField {
     fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
         [self.0, 0.0]
     }
 }
 
-struct NoModes;
+/// A law with an empty list of modes.
+struct LawWithoutModes;
 
-impl PlaneLaw for NoModes {
+impl PlaneLaw for LawWithoutModes {
     fn modes(&self) -> &[Mode] {
         &[]
     }
@@ -107,9 +128,10 @@ impl PlaneLaw for NoModes {
     }
 }
 
-struct NotANumber;
+/// A scheme with a coefficient that is NaN.
+struct SchemeWithNan;
 
-impl TimeScheme for NotANumber {
+impl TimeScheme for SchemeWithNan {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
         SchemeCoefficients {
             acceleration: [f64::NAN, 0.0, 0.0],
@@ -119,8 +141,12 @@ impl TimeScheme for NotANumber {
 }
 
 #[test]
-fn builders_refuse_broken_plugins() {
-    assert!(matches!(unbuilt("modes", good().interface(InPlane(NoModes))), Error::Scene { .. }));
-    let error = unbuilt("coefficient of the time scheme", good().scheme(NotANumber));
+fn builders_refuse_defective_laws_and_schemes() {
+    assert!(matches!(
+        build_error("modes", complete_scene().interface(InPlane(LawWithoutModes))),
+        Error::Scene { .. }
+    ));
+    let error =
+        build_error("coefficient of the time scheme", complete_scene().scheme(SchemeWithNan));
     assert!(matches!(error, Error::Input { .. }), "{error:?}");
 }

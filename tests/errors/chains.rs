@@ -1,5 +1,5 @@
-//! GOAL: an error printed alone is complete, and printed with its sources it says nothing twice.
-//! SCENE: a sample of every error that holds another one; files that are not there.
+//! GOAL: an error printed alone is complete; printed with its sources it repeats nothing.
+//! SCENE: a sample of every error that contains another one; files that do not exist.
 //! REFERENCE: the text of the error inside.
 
 use std::error::Error as StandardError;
@@ -13,9 +13,9 @@ use basemat::structure::{RigidBlock, Triplets};
 use basemat::sweep::CaseError;
 use basemat::{Error, FileError, FileFault, MemoryError, Simulation};
 
-/// `error` prints `inside` once, alone and with its sources.
+/// Checks that `error` prints `inside` once, alone and with its sources.
 #[track_caller]
-fn says_once(error: &dyn StandardError, inside: &str) {
+fn assert_printed_once(error: &dyn StandardError, inside: &str) {
     let alone = error.to_string();
     assert!(alone.contains(inside), "'{inside}' is not in '{alone}'");
     let mut texts = vec![alone];
@@ -28,50 +28,64 @@ fn says_once(error: &dyn StandardError, inside: &str) {
     assert_eq!(chain.matches(inside).count(), 1, "{chain}");
 }
 
-fn part() -> Error {
+fn inner_error() -> Error {
     Error::part("my part", "has torn")
+}
+
+fn load_error() -> StepError {
+    StepError::Part { quantity: "load", source: Box::new(inner_error()) }
+}
+
+fn history_error() -> StepError {
+    StepError::Part { quantity: "history of the ground", source: Box::new(inner_error()) }
+}
+
+fn error_in_step(source: StepError) -> Error {
+    Error::Step { step: 3, time: 0.03, source }
+}
+
+fn error_in_file(line: usize, fault: FileFault) -> Error {
+    Error::File(FileError { file: "file".to_owned(), line, fault })
+}
+
+fn error_of_probe(source: Error) -> Error {
+    Error::Item { item: "probe 'roof'".to_owned(), source: Box::new(source) }
 }
 
 #[test]
 fn errors_print_what_is_inside_them_once() {
-    let torn = "my part: has torn";
-    let step = |source| Error::Step { step: 3, time: 0.03, source };
-    let in_structure = || StepError::Part { quantity: "load", source: Box::new(part()) };
-    let record = FileFault::Unusable(Box::new(part()));
-    let in_file = |line, fault| Error::File(FileError { file: "file".to_owned(), line, fault });
+    let text = "my part: has torn";
+    let unusable = FileFault::Unusable(Box::new(inner_error()));
     for error in [
-        Error::Item { item: "probe 'roof'".to_owned(), source: Box::new(part()) },
-        step(StepError::Part { quantity: "history of the ground", source: Box::new(part()) }),
-        step(in_structure()),
-        // A probe inside a step inside a record.
-        in_file(0, record.clone()),
-        Error::Item { item: "probe 'roof'".to_owned(), source: Box::new(step(in_structure())) },
+        error_of_probe(inner_error()),
+        error_in_step(history_error()),
+        error_in_step(load_error()),
+        error_in_file(0, unusable.clone()),
+        error_of_probe(error_in_step(load_error())),
     ] {
-        says_once(&error, torn);
-        says_once(&CaseError::Failed(error), torn);
+        assert_printed_once(&error, text);
+        assert_printed_once(&CaseError::Failed(error), text);
     }
-    says_once(&in_structure(), torn);
-    says_once(
-        &StepError::Part { quantity: "history of the ground", source: Box::new(part()) },
-        torn,
-    );
-    says_once(&record, torn);
+    assert_printed_once(&load_error(), text);
+    assert_printed_once(&history_error(), text);
+    assert_printed_once(&unusable, text);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
-    says_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
-    let standing = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
-    says_once(&Error::Stability(Box::new(standing.clone())), &standing.to_string());
-    let (quantity, remedy) = ("rows", "less");
+    assert_printed_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
+    let uplift = StabilityError::Uplift { ends: [0.0, 1.0], across: None, upward: 1.0 };
+    assert_printed_once(&Error::Stability(Box::new(uplift.clone())), &uplift.to_string());
+    let quantity = "rows";
+    let remedy = "less";
     for fault in [
         FileFault::Missing { quantity: "header".to_owned() },
         FileFault::Unreadable(std::io::ErrorKind::NotFound),
         FileFault::Memory(MemoryError { quantity, asked: 1.0, needed: 2.0, limit: 1.0, remedy }),
     ] {
-        says_once(&in_file(0, fault.clone()), &fault.to_string());
-        says_once(&in_file(1, fault.clone()), &fault.to_string());
+        assert_printed_once(&error_in_file(0, fault.clone()), &fault.to_string());
+        assert_printed_once(&error_in_file(1, fault.clone()), &fault.to_string());
     }
 }
 
-/// Numbers of a law are errors of steps, and of the crate.
+/// Errors of laws are errors of steps, and of the crate.
 #[test]
 fn errors_of_laws_are_printed_once() {
     let mut simulation = Simulation::builder(0.01)
@@ -89,13 +103,13 @@ fn errors_of_laws_are_printed_once() {
     for error in
         [&error as &dyn StandardError, &StepError::Law(law.clone()), &Error::Law(law.clone())]
     {
-        says_once(error, &text);
+        assert_printed_once(error, &text);
     }
 }
 
-/// A file as a whole has no line.
+/// An error of a whole file has no line.
 #[test]
-fn files_that_are_not_there_have_no_line() {
+fn errors_of_missing_files_have_no_line() {
     let name = "there/is/no.file";
     let format = ColumnFormat::new(AccelerationUnit::Gal);
     for error in [

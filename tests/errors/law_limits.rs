@@ -1,6 +1,6 @@
 //! GOAL: a limit of an interface law that is not possible is named, with its value and the element.
-//! SCENE: one limit of one element's law spoilt, from the start or once the block has moved; in the plane, by laws with
-//! and without modes of their own, and in plan.
+//! SCENE: one limit of one element's law is wrong, from the start or once the block has moved; in the plane and in space, by
+//! laws with some modes or all.
 //! REFERENCE: the fields of the error, and the state before the step.
 
 use basemat::bem::SpringGround;
@@ -8,40 +8,42 @@ use basemat::bem::plan::Plan;
 use basemat::coupled::{GravityStage, SimulationBuilder, StepError};
 use basemat::interface::{InterfaceLaw, LawError, Limits, Mode, PreviousContact};
 use basemat::structure::{RigidBlock, RigidBody};
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Result};
 
 use basemat_problems::scenes::{SI, scene};
 
 /// Words of a quantity, the values that it cannot have, and the limits with such a value.
-type Spoilt = (&'static str, &'static [f64], fn(f64) -> Limits);
+type WrongLimit = (&'static str, &'static [f64], fn(f64) -> Limits);
 
-const NEGATIVE: &[f64] = &[-1.0, f64::NEG_INFINITY, f64::NAN];
+const NOT_A_COEFFICIENT: &[f64] = &[-1.0, f64::NEG_INFINITY, f64::NAN];
 const NOT_A_STRENGTH: &[f64] = &[-1e3, -1e-9, f64::NAN, f64::INFINITY];
 
-fn sound() -> Limits {
+fn valid() -> Limits {
     Limits { friction: 0.4, ..Limits::default() }
 }
 
-const LIMITS: [Spoilt; 6] = [
-    ("friction coefficient", NEGATIVE, |friction| Limits { friction, ..sound() }),
-    ("greatest pressure", NEGATIVE, |pressure_cap| Limits { pressure_cap, ..sound() }),
-    ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..sound() }),
-    ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits { shear_strength, ..sound() }),
-    ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..sound() }),
-    ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits { gap_offset, ..sound() }),
+const WRONG_LIMITS: [WrongLimit; 6] = [
+    ("friction coefficient", NOT_A_COEFFICIENT, |friction| Limits { friction, ..valid() }),
+    ("greatest pressure", NOT_A_COEFFICIENT, |pressure_cap| Limits { pressure_cap, ..valid() }),
+    ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..valid() }),
+    ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits { shear_strength, ..valid() }),
+    ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..valid() }),
+    ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits { gap_offset, ..valid() }),
 ];
 
-/// A law that gives limits, spoilt from a slip velocity on; with all modes or with its own.
+/// A law whose limits are wrong from a slip velocity on.
 #[derive(Clone, Copy)]
-struct Law {
+struct LawWithWrongLimits {
     limits: Limits,
-    from: f64,
-    has_modes: bool,
+    /// Slip velocity from which the limits apply, m/s.
+    min_slip_rate: f64,
+    /// Whether it has the modes of friction only, or those of yielding, too.
+    has_friction_modes: bool,
 }
 
-impl InterfaceLaw for Law {
+impl InterfaceLaw for LawWithWrongLimits {
     fn modes(&self) -> &[Mode] {
-        if self.has_modes {
+        if self.has_friction_modes {
             &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
         } else {
             &[
@@ -57,28 +59,30 @@ impl InterfaceLaw for Law {
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        Ok(if start.slip_rate.abs() >= self.from { self.limits } else { sound() })
+        Ok(if start.slip_rate.abs() >= self.min_slip_rate { self.limits } else { valid() })
     }
 }
 
-/// The element whose law is spoilt.
-const ELEMENT: usize = 2;
+/// Index of the element whose law has wrong limits.
+const DEFECTIVE_ELEMENT: usize = 2;
 
-fn with_laws(builder: SimulationBuilder, law: Law) -> SimulationBuilder {
-    let sound = Law { limits: sound(), ..law };
-    let law =
-        |e: usize| -> Box<dyn InterfaceLaw> { Box::new(if e == ELEMENT { law } else { sound }) };
-    builder.interfaces((0..4).map(law).collect())
+fn with_laws(builder: SimulationBuilder, law: LawWithWrongLimits) -> SimulationBuilder {
+    let valid_law = LawWithWrongLimits { limits: valid(), ..law };
+    let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
+    for e in 0..4 {
+        laws.push(Box::new(if e == DEFECTIVE_ELEMENT { law } else { valid_law }));
+    }
+    builder.interfaces(laws)
 }
 
-fn in_the_plane(law: Law) -> SimulationBuilder {
+fn in_the_plane(law: LawWithWrongLimits) -> SimulationBuilder {
     let ground = SpringGround::new(-2.0..2.0, 4, 5e7, 4e7).unwrap();
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let ground = ground.with_dashpots(4e5, 3e5).unwrap();
     with_laws(scene(SI, 2.0).structure(block).ground(ground), law)
 }
 
-fn in_plan(law: Law) -> SimulationBuilder {
+fn in_space(law: LawWithWrongLimits) -> SimulationBuilder {
     let plan = Plan::rectangle(-2.0..2.0, -2.0..2.0, 2).unwrap();
     let ground = SpringGround::in_plan(plan, [5e7, 4e7, 4e7]).unwrap();
     let body = RigidBody::cuboid([4.0, 4.0, 3.0], 2000.0).unwrap();
@@ -87,28 +91,35 @@ fn in_plan(law: Law) -> SimulationBuilder {
 }
 
 fn assert_named(error: &LawError, name: &str, value: f64) {
-    let Error::Input { quantity, value: found, .. } = &*error.reason else { panic!("{error:?}") };
-    assert!(error.element == ELEMENT && quantity.contains(name), "{name} of {value}: {error}");
-    assert!(*found == value || found.is_nan() && value.is_nan(), "{found} for {value}");
+    let Error::Input { quantity, value: reported, .. } = &*error.reason else {
+        panic!("{error:?}")
+    };
+    assert_eq!(error.element, DEFECTIVE_ELEMENT, "{name} of {value}: {error}");
+    assert!(quantity.contains(name), "{name} of {value}: {error}");
+    assert!(*reported == value || reported.is_nan() && value.is_nan(), "{reported} for {value}");
+}
+
+/// Checks that a build or the first step names this limit.
+fn assert_named_at_start(builder: SimulationBuilder, name: &str, value: f64) {
+    let result = builder.build().and_then(|mut simulation| simulation.run(1, |_| {}));
+    match result {
+        Err(Error::Law(error) | Error::Step { step: 1, source: StepError::Law(error), .. }) => {
+            assert_named(&error, name, value);
+        }
+        other => panic!("{name} of {value}: {other:?}"),
+    }
 }
 
 #[test]
 fn impossible_limits_are_named() {
-    for builder in [in_the_plane, in_plan] {
-        for (name, values, limits) in LIMITS {
+    for scene in [in_the_plane, in_space] {
+        for (name, values, limits) in WRONG_LIMITS {
             for &value in values {
-                for has_modes in [false, true] {
-                    let law = Law { limits: limits(value), from: 0.0, has_modes };
+                for has_friction_modes in [false, true] {
+                    let limits = limits(value);
+                    let law = LawWithWrongLimits { limits, min_slip_rate: 0.0, has_friction_modes };
                     for stage in [GravityStage::Frictionless, GravityStage::Frictional] {
-                        let built = builder(law).gravity_stage(stage).build();
-                        let error = built.and_then(|mut simulation| simulation.run(1, |_| {}));
-                        match error {
-                            Err(Error::Law(error)) => assert_named(&error, name, value),
-                            Err(Error::Step { step: 1, source: StepError::Law(error), .. }) => {
-                                assert_named(&error, name, value);
-                            }
-                            other => panic!("{name} of {value}: {other:?}"),
-                        }
+                        assert_named_at_start(scene(law).gravity_stage(stage), name, value);
                     }
                 }
             }
@@ -118,16 +129,20 @@ fn impossible_limits_are_named() {
 
 #[test]
 fn limits_that_become_impossible_are_named_and_nothing_is_committed() {
-    for builder in [in_the_plane, in_plan] {
-        for (name, values, limits) in LIMITS {
+    for scene in [in_the_plane, in_space] {
+        for (name, values, limits) in WRONG_LIMITS {
             let value = values[0];
-            let law = Law { limits: limits(value), from: 0.02, has_modes: false };
-            let mut simulation: Simulation = builder(law).build().unwrap();
+            let law = LawWithWrongLimits {
+                limits: limits(value),
+                min_slip_rate: 0.02,
+                has_friction_modes: false,
+            };
+            let mut simulation = scene(law).build().unwrap();
             let error = loop {
-                let before = simulation.state().clone();
-                assert!(before.step < 600, "{name} of {value} was accepted");
+                let state = simulation.state().clone();
+                assert!(state.step < 600, "{name} of {value} was accepted");
                 if let Err(error) = simulation.step() {
-                    assert_eq!(*simulation.state(), before);
+                    assert_eq!(*simulation.state(), state);
                     break error;
                 }
             };

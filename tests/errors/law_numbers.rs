@@ -1,7 +1,6 @@
-//! GOAL: a number that an interface law returns and that is not finite is named by element and mode,
-//! and nothing of its step is committed.
-//! SCENE: one number of one element's law spoilt, from the start or once the element has slid; in a
-//! simulation and in the contact problem of a host.
+//! GOAL: numbers of an interface law that are not finite are named by element and mode, with nothing committed.
+//! SCENE: one wrong number of one element's law, from the start or once the element has slid; in a simulation and in the
+//! contact problem of a host.
 //! REFERENCE: the fields of the error, and the state before the step.
 
 use basemat::bem::SpringGround;
@@ -13,48 +12,51 @@ use basemat::interface::{
     Condition, ContactState, Coulomb, InPlane, InterfaceLaw, Mode, PlaneLaw, PreviousContact,
     Tolerance,
 };
-use basemat::{Error, Simulation};
+use basemat::{Error, Result, Simulation};
 
 use super::NOT_FINITE;
 use basemat_problems::scenes::{SI, block, scene};
 
+/// The number of a law that is wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Place {
+enum WrongNumber {
+    /// Number of this index in both conditions of a mode.
     Condition(usize),
     Compliance,
-    InitialMemory,
-    Memory,
+    InitialStateVariable,
+    StateVariable,
 }
 
-/// Coulomb's law that also remembers the distance slid, with one number spoilt beyond `slid`.
+/// Coulomb's law with the distance slid as state variable, and one wrong number.
 #[derive(Debug, Clone, Copy)]
-struct Spoilt {
-    place: Option<Place>,
+struct DefectiveLaw {
+    number: Option<WrongNumber>,
     value: f64,
-    slid: f64,
+    /// Distance slid from which the number is wrong, m.
+    min_distance: f64,
 }
 
 fn coulomb() -> Coulomb {
     Coulomb::new(0.2).unwrap()
 }
 
-impl Spoilt {
-    fn breaks(&self, place: Place, slid: f64) -> bool {
-        self.place == Some(place) && slid >= self.slid
+impl DefectiveLaw {
+    fn is_wrong(&self, number: WrongNumber, distance: f64) -> bool {
+        self.number == Some(number) && distance >= self.min_distance
     }
 }
 
-impl PlaneLaw for Spoilt {
+impl PlaneLaw for DefectiveLaw {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let mut pair = coulomb().conditions(mode, start);
-        for number in 0..10 {
-            if self.breaks(Place::Condition(number), start.state_variables[0]) {
-                let Condition { gap, slip, pressure, shear, value } = &mut pair[number / 5];
-                *[gap, slip, pressure, shear, value][number % 5] = self.value;
+        for index in 0..10 {
+            if self.is_wrong(WrongNumber::Condition(index), start.state_variables[0]) {
+                let Condition { gap, slip, pressure, shear, value } = &mut pair[index / 5];
+                *[gap, slip, pressure, shear, value][index % 5] = self.value;
             }
         }
         pair
@@ -71,8 +73,8 @@ impl PlaneLaw for Spoilt {
     }
 
     fn compliance(&self, _: Mode, start: &PreviousContact) -> [f64; 2] {
-        let broken = self.breaks(Place::Compliance, start.state_variables[0]);
-        [0.0, if broken { self.value } else { 0.0 }]
+        let is_wrong = self.is_wrong(WrongNumber::Compliance, start.state_variables[0]);
+        [0.0, if is_wrong { self.value } else { 0.0 }]
     }
 
     fn state_variables(&self) -> usize {
@@ -80,7 +82,7 @@ impl PlaneLaw for Spoilt {
     }
 
     fn initial_state_variables(&self, _: &PreviousContact, state_variables: &mut [f64]) {
-        if self.breaks(Place::InitialMemory, f64::INFINITY) {
+        if self.is_wrong(WrongNumber::InitialStateVariable, f64::INFINITY) {
             state_variables[1] = self.value;
         }
     }
@@ -93,113 +95,126 @@ impl PlaneLaw for Spoilt {
         state_variables: &mut [f64],
     ) {
         state_variables[0] += (end.slip - start.state.slip).abs();
-        if self.breaks(Place::Memory, state_variables[0]) {
+        if self.is_wrong(WrongNumber::StateVariable, state_variables[0]) {
             state_variables[1] = self.value;
         }
     }
 }
 
-/// The element whose law is spoilt.
-const ELEMENT: usize = 2;
+/// Index of the element whose law is defective.
+const DEFECTIVE_ELEMENT: usize = 2;
 
-fn simulation(spoilt: Spoilt) -> basemat::Result<Simulation> {
-    let law = |e: usize| -> Box<dyn InterfaceLaw> {
-        let place = spoilt.place.filter(|_| e == ELEMENT);
-        Box::new(InPlane(Spoilt { place, ..spoilt }))
-    };
+/// A block on four springs, one of them with a defective law.
+fn simulation(law: DefectiveLaw) -> Result<Simulation> {
     let ground = SpringGround::new(-2.0..2.0, 4, 5e7, 4e7)?.with_dashpots(4e5, 3e5)?;
-    let laws = (0..4).map(law).collect();
+    let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
+    for e in 0..4 {
+        let number = law.number.filter(|_| e == DEFECTIVE_ELEMENT);
+        laws.push(Box::new(InPlane(DefectiveLaw { number, ..law })));
+    }
     scene(SI, 0.6).structure(block(SI)).ground(ground).interfaces(laws).build()
 }
 
-fn places() -> Vec<Place> {
-    let mut places: Vec<Place> = (0..10).map(Place::Condition).collect();
-    places.extend([Place::Compliance, Place::Memory]);
-    places
+/// All numbers of conditions, and the compliance.
+fn numbers_of_a_step() -> Vec<WrongNumber> {
+    let mut numbers: Vec<WrongNumber> = (0..10).map(WrongNumber::Condition).collect();
+    numbers.push(WrongNumber::Compliance);
+    numbers
 }
 
-fn expected(place: Place) -> &'static str {
-    match place {
-        Place::Condition(number) => [
+/// The quantity by which an error names this number.
+fn quantity_of(number: WrongNumber) -> &'static str {
+    match number {
+        WrongNumber::Condition(index) => [
             "coefficient of the gap",
             "coefficient of the slip",
             "coefficient of the pressure",
             "coefficient of the shear traction",
             "right-hand side of a condition",
-        ][number % 5],
-        Place::Compliance => "shear compliance",
-        Place::InitialMemory | Place::Memory => "state variable",
+        ][index % 5],
+        WrongNumber::Compliance => "shear compliance",
+        WrongNumber::InitialStateVariable | WrongNumber::StateVariable => "state variable",
     }
 }
 
-fn assert_named(error: &LawError, place: Place, value: f64) {
+fn assert_named(error: &LawError, number: WrongNumber, value: f64) {
     let LawError { element, mode, reason } = error;
-    let Error::Input { quantity, value: found, needed: "finite" } = &**reason else {
+    let Error::Input { quantity, value: reported, needed: "finite" } = &**reason else {
         panic!("{error:?}")
     };
-    assert_eq!((*element, *quantity), (ELEMENT, expected(place)), "{error}");
-    assert_eq!(found.to_bits(), value.to_bits());
+    assert_eq!((*element, *quantity), (DEFECTIVE_ELEMENT, quantity_of(number)), "{error}");
+    assert_eq!(reported.to_bits(), value.to_bits());
     let message = error.to_string();
     let mode = format!("mode {mode}");
-    for part in ["element 2", &mode, quantity, &value.to_string()] {
-        assert!(message.contains(part), "'{part}' is not in '{message}'");
+    for words in ["element 2", &mode, quantity, &value.to_string()] {
+        assert!(message.contains(words), "'{words}' is not in '{message}'");
     }
 }
 
-#[test]
-fn numbers_that_break_in_a_step_are_named_and_nothing_is_committed() {
-    for place in places() {
-        for value in NOT_FINITE {
-            let mut simulation =
-                simulation(Spoilt { place: Some(place), value, slid: 1e-3 }).unwrap();
-            let error = loop {
-                let before = simulation.state().clone();
-                assert!(before.step < 600, "{place:?} of {value} was accepted");
-                let state_variables: Vec<f64> =
-                    (0..4).flat_map(|e| simulation.state().state_variables(e).to_vec()).collect();
-                assert!(state_variables.iter().all(|number| number.is_finite()));
-                if let Err(error) = simulation.step() {
-                    assert_eq!(*simulation.state(), before);
-                    // Tried again, it fails from the same state.
-                    assert!(simulation.step().is_err());
-                    assert_eq!(*simulation.state(), before);
-                    break error;
-                }
-            };
-            let Error::Step { step, source: StepError::Law(error), .. } = error else {
-                panic!("{place:?} of {value}: {error:?}");
-            };
-            assert!(step > 10);
-            assert_named(&error, place, value);
+/// Error of the first step that fails, which must change nothing in two attempts.
+fn failing_step_error(simulation: &mut Simulation) -> Error {
+    loop {
+        let state = simulation.state().clone();
+        assert!(state.step < 600, "no step fails");
+        for e in 0..4 {
+            assert!(state.state_variables(e).iter().all(|variable| variable.is_finite()));
+        }
+        if let Err(error) = simulation.step() {
+            assert_eq!(*simulation.state(), state);
+            assert!(simulation.step().is_err());
+            assert_eq!(*simulation.state(), state);
+            return error;
         }
     }
 }
 
 #[test]
-fn numbers_that_are_broken_from_the_start_are_named_by_build() {
-    let mut places = places();
-    places.retain(|place| *place != Place::Memory);
-    places.push(Place::InitialMemory);
-    for place in places {
-        let spoilt = Spoilt { place: Some(place), value: f64::NAN, slid: 0.0 };
-        let Err(Error::Law(error)) = simulation(spoilt) else { panic!("{place:?}") };
-        assert_named(&error, place, f64::NAN);
+fn numbers_that_become_wrong_are_named_and_nothing_is_committed() {
+    let mut numbers = numbers_of_a_step();
+    numbers.push(WrongNumber::StateVariable);
+    for number in numbers {
+        for value in NOT_FINITE {
+            let law = DefectiveLaw { number: Some(number), value, min_distance: 1e-3 };
+            let error = failing_step_error(&mut simulation(law).unwrap());
+            let Error::Step { step, source: StepError::Law(error), .. } = error else {
+                panic!("{number:?} of {value}: {error:?}");
+            };
+            assert!(step > 10);
+            assert_named(&error, number, value);
+        }
     }
-    // While the weight comes on.
-    let spoilt = Spoilt { place: Some(Place::Condition(0)), value: f64::NAN, slid: 0.0 };
+}
+
+/// A law with a number that is NaN from the start.
+fn defective_from_start(number: WrongNumber) -> DefectiveLaw {
+    DefectiveLaw { number: Some(number), value: f64::NAN, min_distance: 0.0 }
+}
+
+#[test]
+fn numbers_that_are_wrong_from_the_start_are_named_by_build() {
+    let mut numbers = numbers_of_a_step();
+    numbers.push(WrongNumber::InitialStateVariable);
+    for number in numbers {
+        let Err(Error::Law(error)) = simulation(defective_from_start(number)) else {
+            panic!("{number:?}")
+        };
+        assert_named(&error, number, f64::NAN);
+    }
+    // While the weight is applied.
+    let law = InPlane(defective_from_start(WrongNumber::Condition(0)));
     let ground = SpringGround::new(-2.0..2.0, 1, 5e7, 4e7).unwrap();
-    let built = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(InPlane(spoilt));
-    let Err(Error::Law(error)) = built.gravity_stage(GravityStage::Frictional).build() else {
+    let builder = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(law);
+    let Err(Error::Law(error)) = builder.gravity_stage(GravityStage::Frictional).build() else {
         panic!("accepted");
     };
     assert_eq!((error.element, error.mode), (0, "stick"));
     assert!(matches!(*error.reason, Error::Input { needed: "finite", .. }), "{error}");
 }
 
-/// Remembers as many numbers as it is told to.
-struct Memorious(usize);
+/// A bonded law with so many state variables.
+struct LawWithStateVariables(usize);
 
-impl PlaneLaw for Memorious {
+impl PlaneLaw for LawWithStateVariables {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }
@@ -218,55 +233,72 @@ impl PlaneLaw for Memorious {
 }
 
 #[test]
-fn more_numbers_than_memory_holds_are_refused() {
-    for many in [268_435_457, usize::MAX / 3, usize::MAX] {
-        let builder = scene(SI, 0.6).structure(block(SI)).interface(InPlane(Memorious(many)));
+fn more_state_variables_than_memory_holds_are_refused() {
+    for count in [268_435_457, usize::MAX / 3, usize::MAX] {
+        let builder =
+            scene(SI, 0.6).structure(block(SI)).interface(InPlane(LawWithStateVariables(count)));
         let built = builder.build().map(drop);
-        let host =
-            ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![Box::new(InPlane(Memorious(many)))]);
-        for found in [built, host.map(drop)] {
-            let Err(Error::Memory(error)) = found else { panic!("{found:?}") };
+        let law = Box::new(InPlane(LawWithStateVariables(count)));
+        let problem = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![law]).map(drop);
+        for result in [built, problem] {
+            let Err(Error::Memory(error)) = result else { panic!("{result:?}") };
             assert!(error.quantity.contains("remember") && error.asked > 1e8, "{error}");
         }
     }
 }
 
+/// The contact problem of one element with this law.
+fn one_element_problem(law: impl InterfaceLaw + 'static) -> ContactProblem {
+    ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)]).unwrap()
+}
+
+/// An element that sticks under a pressure.
+fn pressed_element() -> PreviousContact<'static> {
+    let state = ContactState { pressure: 1e4, ..ContactState::default() };
+    PreviousContact::new(state, Mode::Stick, 0.01)
+}
+
 #[test]
-fn hosts_are_told_too_and_keep_their_start() {
-    let unit = || vec![1e-7, 0.0, 0.0, 1e-7];
-    let pressed = ContactState { pressure: 1e4, ..ContactState::default() };
-    let element = PreviousContact::new(pressed, Mode::Stick, 0.01);
-    for place in [Place::Condition(9), Place::Memory] {
-        let spoilt = Spoilt { place: Some(place), value: f64::NAN, slid: 0.0 };
-        let problem = ContactProblem::new(unit(), vec![Box::new(InPlane(spoilt))]).unwrap();
+fn wrong_numbers_are_named_to_hosts_which_keep_their_start() {
+    for number in [WrongNumber::Condition(9), WrongNumber::StateVariable] {
+        let problem = one_element_problem(InPlane(defective_from_start(number)));
         let mut problem = problem.with_static_tractions(vec![1e4, 0.0]).unwrap();
-        let mut start = problem.start(&[element]).unwrap();
-        let before = start.clone();
-        let done = problem.solve(&[0.0, -1e-3], &start).and_then(|found| found.commit(&mut start));
-        let Err(Error::Step { step: 1, source: StepError::Law(error), .. }) = done else {
-            panic!("{place:?}: {done:?}");
+        let mut start = problem.start(&[pressed_element()]).unwrap();
+        let initial_start = start.clone();
+        let result =
+            problem.solve(&[0.0, -1e-3], &start).and_then(|solution| solution.commit(&mut start));
+        let Err(Error::Step { step: 1, source: StepError::Law(error), .. }) = result else {
+            panic!("{number:?}: {result:?}");
         };
         let Error::Input { quantity, needed: "finite", .. } = *error.reason else {
             panic!("{error:?}")
         };
-        assert_eq!((error.element, quantity), (0, expected(place)));
-        assert_eq!(start, before);
+        assert_eq!((error.element, quantity), (0, quantity_of(number)));
+        assert_eq!(start, initial_start);
     }
-    let spoilt = Spoilt { place: Some(Place::InitialMemory), value: f64::NAN, slid: 0.0 };
-    let problem = ContactProblem::new(unit(), vec![Box::new(InPlane(spoilt))]).unwrap();
-    assert!(matches!(problem.start(&[element]), Err(Error::Law(_))));
-    let mut remembers = element;
-    remembers.state_variables = &[f64::NAN, 0.0];
-    assert!(matches!(problem.start(&[remembers]), Err(Error::Input { .. })));
-    remembers.state_variables = &[0.0];
-    assert!(matches!(problem.start(&[remembers]), Err(Error::Size { .. })));
-    // The start of a problem whose laws remember something else.
-    let other = ContactProblem::new(unit(), vec![Box::new(coulomb())]).unwrap();
-    let mut other = other.start(&[element]).unwrap();
-    let sound = Spoilt { place: None, value: 0.0, slid: 0.0 };
-    let mut problem = ContactProblem::new(unit(), vec![Box::new(InPlane(sound))]).unwrap();
-    assert!(matches!(problem.solve(&[0.0; 2], &other), Err(Error::Scene { .. })));
-    let own = problem.start(&[element]).unwrap();
-    let solution = problem.solve(&[0.0; 2], &own).unwrap();
-    assert!(matches!(solution.commit(&mut other), Err(Error::Scene { .. })));
+}
+
+#[test]
+fn wrong_state_variables_of_a_host_are_refused() {
+    let law = InPlane(defective_from_start(WrongNumber::InitialStateVariable));
+    let problem = one_element_problem(law);
+    assert!(matches!(problem.start(&[pressed_element()]), Err(Error::Law(_))));
+    let mut element = pressed_element();
+    element.state_variables = &[f64::NAN, 0.0];
+    assert!(matches!(problem.start(&[element]), Err(Error::Input { .. })));
+    element.state_variables = &[0.0];
+    assert!(matches!(problem.start(&[element]), Err(Error::Size { .. })));
+}
+
+/// The start of a problem with other state variables is refused.
+#[test]
+fn starts_of_other_problems_are_refused() {
+    let other_problem = one_element_problem(coulomb());
+    let mut other_start = other_problem.start(&[pressed_element()]).unwrap();
+    let valid_law = InPlane(DefectiveLaw { number: None, value: 0.0, min_distance: 0.0 });
+    let mut problem = one_element_problem(valid_law);
+    assert!(matches!(problem.solve(&[0.0; 2], &other_start), Err(Error::Scene { .. })));
+    let start = problem.start(&[pressed_element()]).unwrap();
+    let solution = problem.solve(&[0.0; 2], &start).unwrap();
+    assert!(matches!(solution.commit(&mut other_start), Err(Error::Scene { .. })));
 }

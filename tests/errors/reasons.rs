@@ -1,6 +1,6 @@
-//! GOAL: the reason of a structure's own for refusing a matrix, a load, a force or a tangent arrives,
-//! with nothing committed; a nonlinear force that is shown by half is refused.
-//! SCENE: a block on springs that refuses one thing from a time or a displacement on.
+//! GOAL: a structure's error of a matrix, a load, a force or a tangent is reported, with nothing committed; a nonlinear
+//! force with only one of its two accessors is refused.
+//! SCENE: a block on springs that refuses one part from a time or a displacement on.
 //! REFERENCE: the reason itself; the state before the step.
 
 use std::sync::Arc;
@@ -10,17 +10,17 @@ use basemat::coupled::StepError;
 use basemat::interface::Bonded;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::{
-    Base, BaseNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup,
-    Triplets, WithSprings,
+    Base, BaseNode, Bilinear, CraigBampton, ModalDamping, NonlinearForce, Structure,
+    StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
 
 use basemat_problems::block_on_springs::bed;
 
-/// The one thing that is refused.
+/// The part that a structure refuses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
-    Nothing,
+enum RefusedPart {
+    None,
     Mass,
     Stiffness,
     Damping,
@@ -29,29 +29,39 @@ enum Part {
     Tangent,
 }
 
-struct Refusing {
-    part: Part,
-    /// Load from this time on (s), force and tangent from this sway on (m).
-    from: f64,
-    shown: [bool; 2],
+/// Two masses joined by a nonlinear spring, of which one part is refused.
+struct RefusingStructure {
+    part: RefusedPart,
+    /// Time from which the load is refused (s), or drift from which force and tangent are (m).
+    threshold: f64,
+    /// Whether `nonlinear` returns the structure.
+    has_force: bool,
+    /// Whether `nonlinear_mut` returns the structure.
+    has_mutable_force: bool,
     commits: Arc<AtomicUsize>,
 }
 
-fn reason() -> Error {
+fn refusal() -> Error {
     Error::part("my structure", "a spring of it has torn")
 }
 
-impl Refusing {
-    fn new(part: Part, from: f64) -> Self {
-        Self { part, from, shown: [true; 2], commits: Arc::default() }
+impl RefusingStructure {
+    fn new(part: RefusedPart, threshold: f64) -> Self {
+        let commits = Arc::default();
+        Self { part, threshold, has_force: true, has_mutable_force: true, commits }
     }
 
-    fn answer(&self, part: Part, reached: f64) -> Result<()> {
-        if self.part == part && reached >= self.from { Err(reason()) } else { Ok(()) }
+    /// A structure that refuses nothing.
+    fn intact() -> Self {
+        Self::new(RefusedPart::None, 0.0)
+    }
+
+    fn check(&self, part: RefusedPart, value: f64) -> Result<()> {
+        if self.part == part && value >= self.threshold { Err(refusal()) } else { Ok(()) }
     }
 }
 
-impl Structure for Refusing {
+impl Structure for RefusingStructure {
     fn dofs(&self) -> usize {
         4
     }
@@ -62,42 +72,42 @@ impl Structure for Refusing {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         (0..4).for_each(|i| matrix.add(i, i, 1e4));
-        self.answer(Part::Mass, 0.0)
+        self.check(RefusedPart::Mass, 0.0)
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         matrix.add_spring(0, 3, 1e6);
-        self.answer(Part::Stiffness, 0.0)
+        self.check(RefusedPart::Stiffness, 0.0)
     }
 
     fn damping(&self, _: &mut Triplets) -> Result<()> {
-        self.answer(Part::Damping, 0.0)
+        self.check(RefusedPart::Damping, 0.0)
     }
 
     fn load(&self, time: f64, _: &mut [f64]) -> Result<()> {
-        self.answer(Part::Load, time)
+        self.check(RefusedPart::Load, time)
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.shown[0].then_some(self)
+        self.has_force.then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        self.shown[1].then_some(self)
+        self.has_mutable_force.then_some(self)
     }
 }
 
-impl NonlinearForce for Refusing {
+impl NonlinearForce for RefusingStructure {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
-        let stretch = u[3] - u[0];
-        force[3] += 1e8 * stretch.powi(3);
-        force[0] -= 1e8 * stretch.powi(3);
-        self.answer(Part::Force, stretch.abs())
+        let drift = u[3] - u[0];
+        force[3] += 1e8 * drift.powi(3);
+        force[0] -= 1e8 * drift.powi(3);
+        self.check(RefusedPart::Force, drift.abs())
     }
 
     fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> Result<()> {
         matrix.add_spring(0, 3, 3e8 * (u[3] - u[0]).powi(2));
-        self.answer(Part::Tangent, (u[3] - u[0]).abs())
+        self.check(RefusedPart::Tangent, (u[3] - u[0]).abs())
     }
 
     fn commit(&mut self, _: &[f64]) {
@@ -115,84 +125,102 @@ fn build(structure: impl Structure + 'static) -> Result<Simulation> {
 }
 
 #[test]
-fn matrices_and_the_static_load_are_refused_with_the_structures_reason() {
-    for part in [Part::Mass, Part::Stiffness, Part::Damping, Part::Load, Part::Force, Part::Tangent]
-    {
-        let refusing = || Refusing::new(part, 0.0);
-        assert_eq!(build(refusing()).unwrap_err(), reason(), "{part:?}");
-        let group = StructureGroup::new().with(refusing(), 0.0).unwrap();
-        assert_eq!(build(group).unwrap_err(), reason(), "{part:?}");
-        assert_eq!(build(WithSprings::new(refusing())).unwrap_err(), reason(), "{part:?}");
+fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
+    for part in [
+        RefusedPart::Mass,
+        RefusedPart::Stiffness,
+        RefusedPart::Damping,
+        RefusedPart::Load,
+        RefusedPart::Force,
+        RefusedPart::Tangent,
+    ] {
+        let [alone, member, with_springs] = [(); 3].map(|()| RefusingStructure::new(part, 0.0));
+        assert_eq!(build(alone).unwrap_err(), refusal(), "{part:?}");
+        let group = StructureGroup::new().with(member, 0.0).unwrap();
+        assert_eq!(build(group).unwrap_err(), refusal(), "{part:?}");
+        let with_springs = WithSprings::new(with_springs);
+        assert_eq!(build(with_springs).unwrap_err(), refusal(), "{part:?}");
     }
-    let damped = ModalDamping::new(&[0.05]).unwrap();
-    assert_eq!(damped.on(Refusing::new(Part::Stiffness, 0.0)).unwrap_err(), reason());
-    let linear = Refusing { shown: [false; 2], ..Refusing::new(Part::Mass, 0.0) };
-    assert_eq!(CraigBampton::new(0).reduce(linear).unwrap_err(), reason());
+    let damping = ModalDamping::new(&[0.05]).unwrap();
+    let structure = RefusingStructure::new(RefusedPart::Stiffness, 0.0);
+    assert_eq!(damping.on(structure).unwrap_err(), refusal());
+    let linear = RefusingStructure {
+        has_force: false,
+        has_mutable_force: false,
+        ..RefusingStructure::new(RefusedPart::Mass, 0.0)
+    };
+    assert_eq!(CraigBampton::new(0).reduce(linear).unwrap_err(), refusal());
 }
 
 #[test]
 fn a_step_that_the_structure_refuses_commits_nothing() {
-    for (part, from, name) in [
-        (Part::Load, 0.0205, "load of the structure"),
-        (Part::Force, 1e-4, "nonlinear force of the structure"),
-        (Part::Tangent, 1e-4, "tangent of the structure"),
+    for (part, threshold, quantity) in [
+        (RefusedPart::Load, 0.0205, "load of the structure"),
+        (RefusedPart::Force, 1e-4, "nonlinear force of the structure"),
+        (RefusedPart::Tangent, 1e-4, "tangent of the structure"),
     ] {
-        let structure = Refusing::new(part, from);
+        let structure = RefusingStructure::new(part, threshold);
         let commits = Arc::clone(&structure.commits);
         let mut simulation = build(structure).unwrap();
-        // The static state.
+        // The static state is committed once.
         assert_eq!(commits.swap(0, Ordering::Relaxed), 1, "{part:?}");
-        let mut accepted = 0;
+        let mut accepted_steps = 0;
         let error = loop {
-            let before = simulation.state().clone();
+            let state = simulation.state().clone();
             if let Err(error) = simulation.step() {
-                assert_eq!(*simulation.state(), before, "{part:?}");
+                assert_eq!(*simulation.state(), state, "{part:?}");
                 break error;
             }
-            accepted += 1;
-            assert!(accepted < 1000, "{part:?} is never refused");
+            accepted_steps += 1;
+            assert!(accepted_steps < 1000, "{part:?} is never refused");
         };
-        assert_eq!(commits.load(Ordering::Relaxed), accepted, "{part:?}");
+        assert_eq!(commits.load(Ordering::Relaxed), accepted_steps, "{part:?}");
         let Error::Step { step, source, .. } = &error else { panic!("{error:?}") };
-        assert_eq!(*step, accepted + 1);
-        let expected = StepError::Part { quantity: name, source: Box::new(reason()) };
+        assert_eq!(*step, accepted_steps + 1);
+        let expected = StepError::Part { quantity, source: Box::new(refusal()) };
         assert_eq!(*source, expected);
-        assert!(error.to_string().contains(&format!("{name}: my structure: a spring")), "{error}");
-        // Again: the same error, and still nothing committed.
+        let text = format!("{quantity}: my structure: a spring");
+        assert!(error.to_string().contains(&text), "{error}");
+        // Another attempt has the same error, and commits nothing.
         assert_eq!(simulation.step().unwrap_err(), error);
-        assert_eq!(commits.load(Ordering::Relaxed), accepted, "{part:?}");
+        assert_eq!(commits.load(Ordering::Relaxed), accepted_steps, "{part:?}");
     }
 }
 
+/// A structure with only one of the two accessors of its nonlinear force.
+fn with_one_accessor(is_mutable: bool) -> RefusingStructure {
+    RefusingStructure {
+        has_force: !is_mutable,
+        has_mutable_force: is_mutable,
+        ..RefusingStructure::intact()
+    }
+}
+
+fn group_of(first: RefusingStructure, second: RefusingStructure) -> StructureGroup {
+    StructureGroup::new().with(first, -2.0).unwrap().with(second, 4.0).unwrap()
+}
+
 #[test]
-fn a_nonlinear_force_that_is_shown_by_half_is_refused() {
-    for shown in [[true, false], [false, true]] {
-        let half = || Refusing { shown, ..Refusing::new(Part::Nothing, 0.0) };
-        let whole = || Refusing::new(Part::Nothing, 0.0);
-        let group = |first, second| {
-            let group = StructureGroup::new().with(first, -2.0).unwrap();
-            group.with(second, 4.0).unwrap()
-        };
-        let sprung = |structure: Refusing| {
-            let law = basemat::structure::Bilinear::new(1e6, 1e4, 0.1).unwrap();
-            WithSprings::new(structure).spring(vec![(0, -1.0), (3, 1.0)], law).unwrap()
-        };
-        let damped = ModalDamping::new(&[0.05]).unwrap().on(half()).unwrap();
-        let all: Vec<Box<dyn Structure>> = vec![
-            Box::new(half()),
-            Box::new(WithSprings::new(half())),
-            Box::new(sprung(half())),
-            Box::new(damped),
-            Box::new(group(half(), whole())),
-            Box::new(group(whole(), half())),
+fn a_nonlinear_force_with_one_accessor_is_refused() {
+    for is_mutable in [false, true] {
+        let structure = || with_one_accessor(is_mutable);
+        let spring = Bilinear::new(1e6, 1e4, 0.1).unwrap();
+        let with_spring = WithSprings::new(structure()).spring(vec![(0, -1.0), (3, 1.0)], spring);
+        let structures: [Box<dyn Structure>; 6] = [
+            Box::new(structure()),
+            Box::new(WithSprings::new(structure())),
+            Box::new(with_spring.unwrap()),
+            Box::new(ModalDamping::new(&[0.05]).unwrap().on(structure()).unwrap()),
+            Box::new(group_of(structure(), RefusingStructure::intact())),
+            Box::new(group_of(RefusingStructure::intact(), structure())),
         ];
-        for (k, structure) in all.into_iter().enumerate() {
+        for (index, structure) in structures.into_iter().enumerate() {
             let Err(Error::Scene { quantity, .. }) = build(structure) else {
-                panic!("{shown:?}, structure {k} was not refused");
+                panic!("mutable {is_mutable}, structure {index} was not refused");
             };
             assert_eq!(quantity, "nonlinear force of the structure");
         }
-        assert!(CraigBampton::new(0).reduce(half()).is_err());
+        assert!(CraigBampton::new(0).reduce(structure()).is_err());
     }
-    build(Refusing::new(Part::Nothing, 0.0)).unwrap();
+    build(RefusingStructure::intact()).unwrap();
 }

@@ -1,6 +1,6 @@
-//! GOAL: choices are read as they are printed; the error for another spelling has the right one, for other words all.
-//! SCENE: every choice; capitals, blanks, hyphens, numbers that do not fit. REFERENCE: the choice
-//! itself.
+//! GOAL: choices are read as they are printed; an error names the right spelling, or all choices for another word.
+//! SCENE: every choice; capitals, blanks, hyphens, numbers that do not fit.
+//! REFERENCE: the choice itself.
 
 use std::fmt::{Debug, Display};
 use std::str::FromStr;
@@ -15,13 +15,13 @@ use basemat::interface::{FrictionLimit, Mode, SlipSense};
 use basemat::motion::{AccelerationUnit, Baseline};
 use basemat::results::{Criterion, Quantity};
 
-/// Shown, each of `all` is read again; other spellings and other words are refused.
+/// Checks that each choice is read as it is printed, and that other spellings and words are refused.
 #[track_caller]
-fn check<T>(quantity: &str, all: &[T])
+fn assert_spelling<T>(quantity: &str, choices: &[T])
 where
     T: FromStr<Err = Error> + Display + Debug + PartialEq + Copy,
 {
-    for choice in all {
+    for choice in choices {
         let word = choice.to_string();
         let spaced = format!("  {} ", word.replace('_', " "));
         for text in [word.to_uppercase(), word.replace('_', "-"), spaced] {
@@ -32,39 +32,40 @@ where
             assert!(known == [&word[..]] || word.contains('('), "{text}: {known:?}");
         }
     }
-    check_words(quantity, all);
+    assert_words(quantity, choices);
 }
 
-/// Shown, each of `all` is read again; other words are refused.
+/// Whether a list of words contains this choice, up to its parameters.
+fn names_choice(words: &[String], choice: &impl Display) -> bool {
+    let printed = choice.to_string();
+    let name = printed.split('(').next();
+    words.iter().any(|word| word.split('(').next() == name)
+}
+
+/// Checks that each choice is read as it is printed, and that other words are refused.
 #[track_caller]
-fn check_words<T>(quantity: &str, all: &[T])
+fn assert_words<T>(quantity: &str, choices: &[T])
 where
     T: FromStr<Err = Error> + Display + Debug + PartialEq + Copy,
 {
-    for choice in all {
+    for choice in choices {
         let word = choice.to_string();
         assert_eq!(word.parse(), Ok(*choice));
         assert_eq!(format!("{choice:>30}").len() - word.len(), 30 - word.chars().count());
     }
     for text in ["", "nonsense", "auto(", "auto)", "reduced()", "reduced(inf)", "stick(1)", "é"] {
-        let Err(Error::Name { quantity: named, name: given, known }) = text.parse::<T>() else {
+        let Err(Error::Name { quantity: named_quantity, name, known }) = text.parse::<T>() else {
             panic!("{quantity} '{text}' was read")
         };
-        assert_eq!((named, &given[..]), (quantity, text));
+        assert_eq!((named_quantity, &name[..]), (quantity, text));
         let message = text.parse::<T>().unwrap_err().to_string();
         assert!(message.contains(quantity) && known.iter().all(|word| message.contains(word)));
-        // Every choice is named.
-        let named = |choice: &T| {
-            let word = choice.to_string();
-            let word = word.split('(').next().unwrap_or_default();
-            known.iter().any(|known| known.split('(').next() == Some(word))
-        };
-        assert!(all.iter().all(named), "{known:?}");
+        assert!(choices.iter().all(|choice| names_choice(&known, choice)), "{known:?}");
     }
 }
 
 #[test]
-fn choices_are_read_as_they_are_shown() {
+fn choices_are_read_as_they_are_printed() {
     use Baseline::{
         DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
     };
@@ -77,7 +78,7 @@ fn choices_are_read_as_they_are_shown() {
     use SearchMethod::{ActiveSet, GaussSeidel, Newton, Path, Proximal};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
-    check(
+    assert_spelling(
         "contact mode",
         &[
             Stick,
@@ -100,32 +101,32 @@ fn choices_are_read_as_they_are_shown() {
         HistoryMethod::Exponentials,
         HistoryMethod::default(),
     ];
-    check("history", &histories);
-    check("grading", &[Grading::Uniform, Grading::Cosine]);
-    check("gravity stage", &[Frictionless, Frictional, Unloaded]);
-    check("search method", &[ActiveSet, GaussSeidel, Path, Newton, Proximal]);
-    check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
-    check("friction limit", &[Total, Lagged, Static, Dynamic]);
-    check("sense of slip", &[Inelastic, Velocity, LastVelocity]);
-    check("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
-    check("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
-    check("quantity", &Quantity::ALL);
+    assert_spelling("history", &histories);
+    assert_spelling("grading", &[Grading::Uniform, Grading::Cosine]);
+    assert_spelling("gravity stage", &[Frictionless, Frictional, Unloaded]);
+    assert_spelling("search method", &[ActiveSet, GaussSeidel, Path, Newton, Proximal]);
+    assert_spelling("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
+    assert_spelling("friction limit", &[Total, Lagged, Static, Dynamic]);
+    assert_spelling("sense of slip", &[Inelastic, Velocity, LastVelocity]);
+    assert_spelling("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
+    assert_spelling("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
+    assert_spelling("quantity", &Quantity::ALL);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
     let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
-    check("kind of coordinates", &[Coordinates::Physical, Coordinates::Modes]);
+    assert_spelling("kind of coordinates", &[Coordinates::Physical, Coordinates::Modes]);
     for choice in reduced.iter().chain(&[Coordinates::Auto]) {
         assert_eq!(choice.to_string().parse(), Ok(*choice));
     }
     let searches =
         [1, 50, 9_000_000_000_000_000].map(|n| ContactSearch::FlowChart { iterations: n });
-    check("contact search", &[ContactSearch::Robust]);
-    check("contact search", &searches);
+    assert_spelling("contact search", &[ContactSearch::Robust]);
+    assert_spelling("contact search", &searches);
     let degree = 4;
-    check(
+    assert_spelling(
         "baseline treatment",
         &[Baseline::None, RemoveMean, NewmarkParabola, RestToRest { degree }],
     );
-    check(
+    assert_spelling(
         "baseline treatment",
         &[VelocityPolynomial { degree }, DisplacementPolynomial { degree }],
     );
@@ -135,24 +136,24 @@ fn choices_are_read_as_they_are_shown() {
 }
 
 #[test]
-fn units_of_acceleration() {
+fn units_of_acceleration_are_read_as_they_are_printed() {
     use AccelerationUnit::{
         FootPerSecondSquared, Gal, InchPerSecondSquared, MetrePerSecondSquared,
         MillimetrePerSecondSquared, StandardGravity,
     };
     let metric = [MetrePerSecondSquared, MillimetrePerSecondSquared, StandardGravity, Gal];
-    check_words("unit of acceleration", &metric);
-    check_words("unit of acceleration", &[FootPerSecondSquared, InchPerSecondSquared]);
+    assert_words("unit of acceleration", &metric);
+    assert_words("unit of acceleration", &[FootPerSecondSquared, InchPerSecondSquared]);
     for (text, unit) in [("m/s2", MetrePerSecondSquared), ("cm/s²", Gal), ("G", StandardGravity)] {
         assert_eq!(text.parse(), Ok(unit));
     }
 }
 
 #[test]
-fn columns_of_quantities() {
+fn columns_of_quantities_have_units() {
     let columns: Vec<_> =
         Quantity::recorded(false).map(|quantity| quantity.column(false)).collect();
-    let known = [
+    let expected = [
         "base_shear_n_per_m",
         "base_moment_n_m_per_m",
         "normal_force_n_per_m",
@@ -165,5 +166,5 @@ fn columns_of_quantities() {
         "sliding_safety",
         "overturning_safety",
     ];
-    assert_eq!(columns, known);
+    assert_eq!(columns, expected);
 }

@@ -1,4 +1,4 @@
-//! GOAL: a finite element of one's own.
+//! GOAL: a finite element of a user works in a model.
 //! SCENE: a tripod of struts on a block of quadrilaterals.
 //! REFERENCE: a run with a closed energy balance.
 
@@ -6,13 +6,13 @@ use basemat::fem::{Direction, Element, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 
-use super::scene::{run, shaken};
+use super::scene::{complete_run, shaken};
 use basemat_problems::block_on_springs::bed;
 
-/// A column that is only a spring between two heights.
-struct Column([usize; 2]);
+/// A strut along its axis, exact under rigid motions.
+struct Strut([usize; 2]);
 
-impl Element for Column {
+impl Element for Strut {
     fn nodes(&self) -> &[usize] {
         &self.0
     }
@@ -22,8 +22,8 @@ impl Element for Column {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        // A strut along its axis, exact under rigid motions.
-        let [dx, dy] = [0, 1].map(|k| coordinates[1][k] - coordinates[0][k]);
+        let dx = coordinates[1][0] - coordinates[0][0];
+        let dy = coordinates[1][1] - coordinates[0][1];
         let length = dx.hypot(dy);
         let axis = [-dx / length, -dy / length, dx / length, dy / length];
         for i in 0..4 {
@@ -41,18 +41,17 @@ impl Element for Column {
 }
 
 #[test]
-fn own_element() {
+fn an_element_of_a_user_carries_loads() {
     let concrete = Material::new(20.0e9, 0.2, 2400.0).unwrap();
     let mut mesh = Mesh::layered_block(-2.0..2.0, 4, &[Layer::new(1.0, 1, concrete)]).unwrap();
-    // A tripod of struts on the block.
     let top = mesh.add_node(0.0, 4.0).unwrap();
     for x in [-2.0, 2.0] {
         let foot = mesh.node_at(x, 1.0).unwrap();
-        mesh.add(Column([foot, top])).unwrap();
+        mesh.add(Strut([foot, top])).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
     let tip = model.dof(top, Direction::X).unwrap();
     let scene = shaken().structure(model).ground(bed(4)).interface(Coulomb::new(0.6).unwrap());
-    let (_, simulation) = run(scene);
+    let simulation = complete_run(scene).simulation;
     assert!(simulation.state().absolute_displacement()[tip].is_finite());
 }

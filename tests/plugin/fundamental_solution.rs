@@ -1,5 +1,5 @@
-//! GOAL: a fundamental solution of one's own.
-//! SCENE: a toy with a front, behind the trait.
+//! GOAL: a fundamental solution of a user works behind the trait.
+//! SCENE: a displacement with a front that solves no equation.
 //! REFERENCE: causality and typed errors.
 
 use basemat::fundamental::{FundamentalSolution, LoadHistory};
@@ -7,12 +7,14 @@ use basemat::{Error, Result, Soil};
 
 use super::scene::soil;
 
-/// Kelvin's plane in antiplane disguise: not a solution of anything, but it has the shape of one.
-struct Toy(Soil);
+/// Constant displacement behind a pressure-wave front.
+struct StepFront {
+    soil: Soil,
+}
 
-impl FundamentalSolution for Toy {
+impl FundamentalSolution for StepFront {
     fn soil(&self) -> Soil {
-        self.0
+        self.soil
     }
 
     fn displacement(&self, offset: [f64; 2], time: f64, _: LoadHistory) -> Result<[[f64; 2]; 2]> {
@@ -24,9 +26,9 @@ impl FundamentalSolution for Toy {
                 needed: "finite and above zero",
             });
         }
-        let arrived = time * self.0.pressure_wave_speed() > distance;
-        let u = if arrived { 1.0 / self.0.shear_modulus() } else { 0.0 };
-        Ok([[u, 0.0], [0.0, u]])
+        let has_arrived = time * self.soil.pressure_wave_speed() > distance;
+        let displacement = if has_arrived { 1.0 / self.soil.shear_modulus() } else { 0.0 };
+        Ok([[displacement, 0.0], [0.0, displacement]])
     }
 
     fn traction(&self, _: [f64; 2], _: [f64; 2], _: f64, _: LoadHistory) -> Result<[[f64; 2]; 2]> {
@@ -35,13 +37,13 @@ impl FundamentalSolution for Toy {
 }
 
 #[test]
-fn own_fundamental_solution() {
-    let solutions: Vec<Box<dyn FundamentalSolution>> = vec![Box::new(Toy(soil()))];
-    let speed = soil().pressure_wave_speed();
-    for solution in &solutions {
-        let at = |time| solution.displacement([3.0, 4.0], time, LoadHistory::Step).unwrap();
-        assert_eq!(at(4.9 / speed), [[0.0; 2]; 2], "nothing before the first arrival");
-        assert!(at(5.1 / speed)[0][0] > 0.0);
-        assert!(solution.displacement([0.0; 2], 1.0, LoadHistory::Step).is_err());
-    }
+fn a_fundamental_solution_of_a_user_is_causal() {
+    let solution: Box<dyn FundamentalSolution> = Box::new(StepFront { soil: soil() });
+    let arrival = 5.0 / soil().pressure_wave_speed();
+    let offset = [3.0, 4.0];
+    let before = solution.displacement(offset, 0.98 * arrival, LoadHistory::Step).unwrap();
+    assert_eq!(before, [[0.0; 2]; 2], "nothing before the first arrival");
+    let after = solution.displacement(offset, 1.02 * arrival, LoadHistory::Step).unwrap();
+    assert!(after[0][0] > 0.0);
+    assert!(solution.displacement([0.0; 2], 1.0, LoadHistory::Step).is_err());
 }

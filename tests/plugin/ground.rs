@@ -1,28 +1,33 @@
-//! GOAL: a ground of one's own.
+//! GOAL: a ground of a user works as one of the crate.
 //! SCENE: independent springs under a block that slides.
 //! REFERENCE: `SpringGround`.
 
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
-use basemat::{Observer, Result};
+use basemat::{Observer, Result, Simulation};
 
-use super::scene::{assert_same_motion, run, shaken};
+use super::scene::{assert_same_motion, complete_run, shaken};
 use basemat_problems::block_on_springs::block;
 
-/// Springs that know nothing of the crate's own bed.
-pub(crate) struct Bed {
-    pub(crate) elements: Vec<ContactElement>,
-    pub(crate) stiffness: [f64; 2],
-    pub(crate) displacement: Vec<f64>,
+/// Independent springs by the midpoint rule of traction = k s: ½k (s₀ + s₁) = traction.
+pub(crate) struct IndependentSprings {
+    elements: Vec<ContactElement>,
+    /// Normal and tangential stiffness, Pa/m.
+    stiffness: [f64; 2],
+    displacement: Vec<f64>,
 }
 
-impl Bed {
-    /// Midpoint rule of traction = k s: ½k (s₀ + s₁) = traction.
-    fn stiffness(&self, i: usize) -> f64 {
-        self.stiffness[usize::from(i >= self.elements.len())]
+impl IndependentSprings {
+    pub(crate) fn new(elements: Vec<ContactElement>, stiffness: [f64; 2]) -> Self {
+        let displacement = vec![0.0; 2 * elements.len()];
+        Self { elements, stiffness, displacement }
     }
 
-    fn diagonal(&self, matrix: &mut [f64], factor: f64) {
+    fn stiffness(&self, component: usize) -> f64 {
+        self.stiffness[usize::from(component >= self.elements.len())]
+    }
+
+    fn fill_diagonal(&self, matrix: &mut [f64], factor: f64) {
         let size = self.displacement.len();
         matrix.fill(0.0);
         for i in 0..size {
@@ -31,7 +36,7 @@ impl Bed {
     }
 }
 
-impl Ground for Bed {
+impl Ground for IndependentSprings {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
     }
@@ -42,13 +47,13 @@ impl Ground for Bed {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.diagonal(matrix, 2.0);
+        self.fill_diagonal(matrix, 2.0);
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        for (out, s) in displacement.iter_mut().zip(&self.displacement) {
-            *out = -s;
+        for (history, previous) in displacement.iter_mut().zip(&self.displacement) {
+            *history = -previous;
         }
         Ok(())
     }
@@ -61,18 +66,21 @@ impl Ground for Bed {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.diagonal(matrix, 1.0);
+        self.fill_diagonal(matrix, 1.0);
         Ok(())
     }
 }
 
+/// Motion of a sliding block on this ground.
+fn block_on(ground: impl Ground + 'static) -> Simulation {
+    let builder = shaken().structure(block()).interface(Coulomb::new(0.4).unwrap());
+    complete_run(builder.ground(ground)).simulation
+}
+
 #[test]
-fn own_ground() {
+fn springs_of_a_user_move_as_the_spring_ground() {
     let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();
-    let own = Bed { elements, stiffness: [4.0e7, 2.0e7], displacement: vec![0.0; 8] };
-    let scene = || shaken().structure(block()).interface(Coulomb::new(0.4).unwrap());
-    let (_, own) = run(scene().ground(own));
-    let (_, crate_bed) =
-        run(scene().ground(SpringGround::new(-2.0..2.0, 4, 4.0e7, 2.0e7).unwrap()));
-    assert_same_motion(&own, &crate_bed, 1e-7);
+    let computed = block_on(IndependentSprings::new(elements, [4.0e7, 2.0e7]));
+    let expected = block_on(SpringGround::new(-2.0..2.0, 4, 4.0e7, 2.0e7).unwrap());
+    assert_same_motion(&computed, &expected, 1e-7);
 }

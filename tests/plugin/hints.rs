@@ -1,6 +1,6 @@
-//! GOAL: a known number of steps makes no more convolution weights than the steps need. SCENE: four elements on the
-//! half-plane, with late weights as exponentials and without (as with damping). REFERENCE: the lags that the march
-//! requests without a known end.
+//! GOAL: with a known number of steps no more convolution weights are computed than the steps need.
+//! SCENE: four elements on the half-plane, with late weights as exponentials and without (as with damping).
+//! REFERENCE: the lags that are requested when the end is not known.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -13,30 +13,30 @@ use basemat::{Observer, Result, unobserved};
 
 use super::scene::soil;
 
-/// The closed form, and the lags requested from it.
-#[derive(Clone)]
-struct Counted {
-    late: bool,
-    /// Coefficients of one kind, of all classes together.
-    made: Arc<AtomicUsize>,
-    /// Latest lag that was announced.
-    prepared: Arc<AtomicUsize>,
+/// Convolution weights of the half-plane that count what is requested from them.
+#[derive(Clone, Default)]
+struct CountingWeights {
+    has_late_weights: bool,
+    /// Number of coefficients of one kind, of all classes together.
+    computed: Arc<AtomicUsize>,
+    /// Largest number of lags to prepare.
+    prepared_lags: Arc<AtomicUsize>,
     kernel: Option<Arc<PatchKernel>>,
 }
 
-impl Counted {
-    fn own(&self) -> &PatchKernel {
+impl CountingWeights {
+    fn kernel(&self) -> &PatchKernel {
         self.kernel.as_ref().unwrap()
     }
 }
 
-impl ConvolutionWeights for Counted {
+impl ConvolutionWeights for CountingWeights {
     fn classes(&self) -> &PairClasses {
-        self.own().classes()
+        self.kernel().classes()
     }
 
     fn prepare(&self, lags: usize, _: &mut Observer<'_>) -> Result<()> {
-        self.prepared.fetch_max(lags, Ordering::Relaxed);
+        self.prepared_lags.fetch_max(lags, Ordering::Relaxed);
         Ok(())
     }
 
@@ -46,16 +46,16 @@ impl ConvolutionWeights for Counted {
         first_lag: usize,
         values: &mut [&mut [f64]],
     ) -> Result<()> {
-        self.made.fetch_add(values[0].len(), Ordering::Relaxed);
-        self.own().coefficients(class, first_lag, values)
+        self.computed.fetch_add(values[0].len(), Ordering::Relaxed);
+        self.kernel().coefficients(class, first_lag, values)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
-        self.own().last_coupling_lag(class)
+        self.kernel().last_coupling_lag(class)
     }
 
     fn late_weights(&self) -> Option<&dyn LateWeights> {
-        self.own().late_weights().filter(|_| self.late)
+        self.kernel().late_weights().filter(|_| self.has_late_weights)
     }
 
     fn spectra(&self) -> Option<&SharedSpectra> {
@@ -63,7 +63,7 @@ impl ConvolutionWeights for Counted {
     }
 }
 
-impl WeightsSource for Counted {
+impl WeightsSource for CountingWeights {
     fn kernel(
         &self,
         elements: &[ContactElement],
@@ -79,52 +79,58 @@ impl WeightsSource for Counted {
     }
 }
 
-/// Requests of a march.
-struct March {
-    /// Coefficients before the first step and in all.
-    made: [usize; 2],
-    prepared: usize,
-    history: HistoryMethod,
+/// Requests of weights in a number of steps.
+struct Requests {
+    computed_before_first_step: usize,
+    computed: usize,
+    prepared_lags: usize,
+    method: HistoryMethod,
 }
 
-fn march(late: bool, steps: usize, known: bool) -> March {
-    let counter = || Arc::new(AtomicUsize::new(0));
-    let source = Counted { late, made: counter(), prepared: counter(), kernel: None };
+/// Requests of so many steps, whose number may be known before the first.
+fn requests(has_late_weights: bool, steps: usize, is_known: bool) -> Requests {
+    let source = CountingWeights { has_late_weights, ..CountingWeights::default() };
     let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();
     let mut ground = WeightsGround::new(source.clone(), elements).unwrap();
-    ground.prepare(2e-3, known.then_some(steps), &mut unobserved).unwrap();
-    let made = || source.made.load(Ordering::Relaxed);
-    let before = made();
+    ground.prepare(2e-3, is_known.then_some(steps), &mut unobserved).unwrap();
+    let computed_before_first_step = source.computed.load(Ordering::Relaxed);
     let mut displacement = [0.0; 8];
     for step in 0..steps {
         ground.history(&mut displacement).unwrap();
         ground.commit(&[1.0 + step as f64; 8]);
     }
-    let prepared = source.prepared.load(Ordering::Relaxed);
-    let history = ground.description().history.unwrap().kind;
-    March { made: [before, made()], prepared, history }
+    Requests {
+        computed_before_first_step,
+        computed: source.computed.load(Ordering::Relaxed),
+        prepared_lags: source.prepared_lags.load(Ordering::Relaxed),
+        method: ground.description().history.unwrap().kind,
+    }
 }
 
 #[test]
-fn a_known_end_makes_no_more_weights_than_steps_need() {
-    for (steps, late) in [(2_000_usize, true), (2_000, false), (50_000, true), (50_000, false)] {
-        let (without, with) = (march(late, steps, false), march(late, steps, true));
-        let March { made, history, .. } = with;
-        println!("late {late}, {steps} steps: {:?}, told {made:?} {history}", without.made);
-        assert_eq!(without.history, history);
-        assert_eq!(history == HistoryMethod::Exponentials, late);
-        // All before the first step.
-        assert_eq!(made[0], made[1]);
-        if late {
-            assert_eq!(made, without.made);
+fn a_known_end_requests_no_more_weights_than_steps_need() {
+    for (steps, has_late_weights) in
+        [(2_000_usize, true), (2_000, false), (50_000, true), (50_000, false)]
+    {
+        let unknown_end = requests(has_late_weights, steps, false);
+        let known_end = requests(has_late_weights, steps, true);
+        let label = format!(
+            "late {has_late_weights}, {steps} steps: {} weights, {} with a known end, {}",
+            unknown_end.computed, known_end.computed, known_end.method
+        );
+        println!("{label}");
+        assert_eq!(unknown_end.method, known_end.method);
+        assert_eq!(known_end.method == HistoryMethod::Exponentials, has_late_weights);
+        assert_eq!(known_end.computed_before_first_step, known_end.computed);
+        if has_late_weights {
+            let before = unknown_end.computed_before_first_step;
+            assert_eq!(known_end.computed_before_first_step, before);
+            assert_eq!(known_end.computed, unknown_end.computed);
         } else {
-            // Without a known end, some are made again while memory grows.
-            assert!(
-                without.made[0] == 0 && made[1] <= without.made[1],
-                "{made:?} {:?}",
-                without.made
-            );
-            assert_eq!(with.prepared, steps.next_power_of_two());
+            // Without a known end, some are computed again while memory grows.
+            assert_eq!(unknown_end.computed_before_first_step, 0, "{label}");
+            assert!(known_end.computed <= unknown_end.computed, "{label}");
+            assert_eq!(known_end.prepared_lags, steps.next_power_of_two());
         }
     }
 }

@@ -1,11 +1,10 @@
-//! GOAL: a convolution history of one's own.
+//! GOAL: a convolution history of a user works as one of the crate.
 //! SCENE: the plain sum in a half-plane ground under a block.
 //! REFERENCE: the histories of the crate.
 
 use std::sync::Arc;
 
 use basemat::bem::{ElasticGround, PatchKernel, Strip};
-use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory};
 use basemat::interface::Coulomb;
 use basemat::{Observer, Result, Simulation};
@@ -13,13 +12,35 @@ use basemat::{Observer, Result, Simulation};
 use super::scene::{assert_same_motion, push, soil};
 use basemat_problems::block_on_springs::block;
 
-/// The convolution as a triple loop over the kernel's classes, with its own store.
-struct Plain {
+/// The convolution as a plain sum over pairs of elements and past steps.
+struct PlainSum {
     kernel: Arc<dyn ConvolutionWeights>,
+    /// Tractions of all past steps.
     past: Vec<Vec<f64>>,
 }
 
-impl ConvolutionHistory for Plain {
+impl PlainSum {
+    fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
+        Self { kernel, past: Vec::new() }
+    }
+
+    /// Weights zz, xx and zx of each class for the lags from 2 on.
+    fn late_weights(&self) -> Result<Vec<[Vec<f64>; 3]>> {
+        let past = self.past.len();
+        let mut weights = Vec::new();
+        for class in 0..self.kernel.classes().count() {
+            let mut lists = [vec![0.0; past], vec![0.0; past], vec![0.0; past]];
+            if past > 0 {
+                let mut values = lists.each_mut().map(Vec::as_mut_slice);
+                self.kernel.coefficients(class, 2, &mut values)?;
+            }
+            weights.push(lists);
+        }
+        Ok(weights)
+    }
+}
+
+impl ConvolutionHistory for PlainSum {
     fn steps(&self) -> usize {
         self.past.len()
     }
@@ -31,23 +52,17 @@ impl ConvolutionHistory for Plain {
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         displacement.fill(0.0);
-        let (count, past) = (self.kernel.classes().elements().len(), self.past.len());
-        let mut lags = Vec::new();
-        for class in 0..self.kernel.classes().count() {
-            let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; past]);
-            if past > 0 {
-                self.kernel.coefficients(class, 2, &mut [&mut zz, &mut xx, &mut zx])?;
-            }
-            lags.push([zz, xx, zx]);
-        }
-        for (m, traction) in self.past.iter().enumerate() {
-            let lag = past - 1 - m;
+        let count = self.kernel.classes().elements().len();
+        let weights = self.late_weights()?;
+        for (step, traction) in self.past.iter().enumerate() {
+            let lag = self.past.len() - 1 - step;
             for (p, pairs) in self.kernel.classes().pairs().chunks(count).enumerate() {
                 for (q, pair) in pairs.iter().enumerate() {
-                    let [zz, xx, zx] = [0, 1, 2].map(|k| pair.scale * lags[pair.class][k][lag]);
-                    displacement[p] += zz * traction[q] + pair.sign * zx * traction[count + q];
+                    let weight = [0, 1, 2].map(|k| pair.scale * weights[pair.class][k][lag]);
+                    let coupling = pair.sign * weight[2];
+                    displacement[p] += weight[0] * traction[q] + coupling * traction[count + q];
                     displacement[count + p] +=
-                        xx * traction[count + q] - pair.sign * zx * traction[q];
+                        weight[1] * traction[count + q] - coupling * traction[q];
                 }
             }
         }
@@ -60,21 +75,29 @@ impl ConvolutionHistory for Plain {
     }
 }
 
+fn half_plane() -> ElasticGround {
+    ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 4).unwrap()).unwrap()
+}
+
+/// Motion of a block on this ground after 120 steps.
+fn block_on(ground: ElasticGround) -> Simulation {
+    let mut simulation = Simulation::builder(1e-2)
+        .motion(push())
+        .gravity(9.81)
+        .ground(ground)
+        .structure(block())
+        .interface(Coulomb::new(0.4).unwrap())
+        .build()
+        .unwrap();
+    simulation.run(120, |_| {}).unwrap();
+    simulation
+}
+
 #[test]
-fn own_history() {
-    let inner = || ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 4).unwrap()).unwrap();
-    let march = |scene: SimulationBuilder| {
-        let law = Coulomb::new(0.4).unwrap();
-        let mut simulation = scene.structure(block()).interface(law).build().unwrap();
-        simulation.run(120, |_| {}).unwrap();
-        simulation
-    };
-    let scene = || Simulation::builder(1e-2).motion(push()).gravity(9.81);
-    let plain =
-        |kernel| Box::new(Plain { kernel, past: Vec::new() }) as Box<dyn ConvolutionHistory>;
-    let own = march(scene().ground(inner().with_own_history(plain)));
-    let crate_history = march(scene().ground(inner()));
-    assert_same_motion(&own, &crate_history, 1e-6);
+fn a_history_of_a_user_moves_as_the_one_of_the_crate() {
+    let by_plain_sum = half_plane()
+        .with_own_history(|kernel| Box::new(PlainSum::new(kernel)) as Box<dyn ConvolutionHistory>);
+    assert_same_motion(&block_on(by_plain_sum), &block_on(half_plane()), 1e-6);
 }
 
 #[test]
@@ -82,14 +105,17 @@ fn histories_agree_with_the_direct_sum() {
     let elements = Strip::uniform(0.0..3.0, 3).unwrap().elements();
     let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
-    let mut plain = Plain { kernel: Arc::clone(&kernel), past: Vec::new() };
+    let mut plain = PlainSum::new(Arc::clone(&kernel));
     let mut direct = DirectHistory::new(kernel);
-    let (mut a, mut b) = ([f64::NAN; 6], [f64::NAN; 6]);
+    let mut expected = [f64::NAN; 6];
+    let mut computed = [f64::NAN; 6];
     for step in 0..40 {
-        plain.evaluate(&mut a).unwrap();
-        direct.evaluate(&mut b).unwrap();
-        let largest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        assert!(a.iter().zip(&b).all(|(x, y)| (x - y).abs() <= 1e-12 * largest), "{a:?} {b:?}");
+        plain.evaluate(&mut expected).unwrap();
+        direct.evaluate(&mut computed).unwrap();
+        let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        for (a, b) in expected.iter().zip(&computed) {
+            assert!((a - b).abs() <= 1e-12 * largest, "{expected:?} {computed:?}");
+        }
         let traction: [f64; 6] = std::array::from_fn(|i| (1.7 * (i + 7 * step) as f64).sin());
         plain.push(&traction);
         direct.push(&traction);

@@ -19,28 +19,32 @@ mod state_variables;
 mod structure;
 mod structure_with_memory;
 mod threads_and_texts;
+mod voigt_springs;
 
 use std::sync::Arc;
 
 use basemat::Simulation;
 use basemat::bem::Strip;
 use basemat::interface::InPlane;
-use free_field::Passing;
-use ground::Bed;
-use law::Glaze;
-use scene::STEP;
+use free_field::PassingWave;
+use ground::IndependentSprings;
+use law::GlazedFriction;
+use scene::TIME_STEP;
 use scheme::AverageAcceleration;
-use structure::{Hardening, SPRING};
+use structure::{HardeningOscillator, SPRING_STIFFNESS};
 
 #[test]
-fn all_of_one_s_own_together() {
+fn parts_of_a_user_work_together() {
     let elements = Strip::uniform(-2.0..2.0, 4).unwrap().elements();
-    let ground = Bed { elements, stiffness: [4.0e7, 2.0e7], displacement: vec![0.0; 8] };
-    let scene = Simulation::builder(STEP)
-        .structure(Hardening { cubic: 100.0 * SPRING, commits: Arc::default() })
+    let ground = IndependentSprings::new(elements, [4.0e7, 2.0e7]);
+    let scene = Simulation::builder(TIME_STEP)
+        .structure(HardeningOscillator {
+            cubic_stiffness: 100.0 * SPRING_STIFFNESS,
+            commits: Arc::default(),
+        })
         .ground(ground)
-        .interface(InPlane(Glaze(0.4)))
-        .motion(Passing { speed: 80.0 })
+        .interface(InPlane(GlazedFriction { coefficient: 0.4 }))
+        .motion(PassingWave { speed: 80.0 })
         .scheme(AverageAcceleration)
         .gravity(9.81);
     let mut simulation = scene.build().unwrap();

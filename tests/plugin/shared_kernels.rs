@@ -1,10 +1,9 @@
-//! GOAL: a store of kernels may be asked while one of them is made, by its source and by other
-//! threads, and never stands still.
-//! SCENE: sources that take kernels from the store that keeps their own; two threads.
+//! GOAL: a store of kernels answers its sources and other threads while it makes a kernel, without deadlock.
+//! SCENE: sources that take kernels from the store that keeps theirs; two threads.
 //! REFERENCE: the number of kernels made; an end within ten seconds.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Barrier, mpsc};
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use basemat::bem::{
@@ -15,20 +14,25 @@ use basemat::{Error, Result, unobserved};
 
 use super::scene::soil;
 
-/// A source that first has the store make the kernels of `others`, and `meets` another thread.
+/// A source that has the store make the kernels of `others`.
 #[derive(Clone)]
-struct Asking {
+struct DependentSource {
     number: f64,
-    others: Vec<Asking>,
+    others: Vec<DependentSource>,
     kernels: SharedKernels,
+    /// Number of kernels that this source has made.
     made: Arc<AtomicUsize>,
-    meets: Option<Arc<Barrier>>,
 }
 
-impl Asking {
+impl DependentSource {
     fn new(kernels: &SharedKernels, number: f64) -> Self {
         let made = Arc::default();
-        Self { number, others: vec![], kernels: kernels.clone(), made, meets: None }
+        Self { number, others: vec![], kernels: kernels.clone(), made }
+    }
+
+    /// A source that depends on another of this number.
+    fn depending_on(kernels: &SharedKernels, number: f64, other: f64) -> Self {
+        Self { others: vec![Self::new(kernels, other)], ..Self::new(kernels, number) }
     }
 
     fn prepare(&self) -> Result<()> {
@@ -38,17 +42,14 @@ impl Asking {
     }
 }
 
-impl WeightsSource for Asking {
+impl WeightsSource for DependentSource {
     fn kernel(
         &self,
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
         self.made.fetch_add(1, Ordering::Relaxed);
-        if let Some(barrier) = &self.meets {
-            barrier.wait();
-        }
-        self.others.iter().try_for_each(Asking::prepare)?;
+        self.others.iter().try_for_each(DependentSource::prepare)?;
         Ok(Arc::new(PatchKernel::new(soil(), elements.to_vec(), time_step)?))
     }
 
@@ -62,22 +63,23 @@ impl WeightsSource for Asking {
     }
 }
 
-/// Results of `works`, each run on a thread of its own.
-fn in_time<T: Send + 'static>(works: Vec<Box<dyn FnOnce() -> T + Send>>) -> Vec<T> {
-    let receivers: Vec<_> = works
-        .into_iter()
-        .map(|work| {
-            let (sender, receiver) = mpsc::channel();
-            std::thread::spawn(move || sender.send(work()));
-            receiver
-        })
-        .collect();
-    let wait = |receiver: mpsc::Receiver<T>| receiver.recv_timeout(Duration::from_secs(10));
-    receivers.into_iter().map(|receiver| wait(receiver).expect("stands still")).collect()
+/// Results of `works`, each in a new thread, within ten seconds.
+fn results_in_time<T: Send + 'static>(works: Vec<Box<dyn FnOnce() -> T + Send>>) -> Vec<T> {
+    let mut receivers = Vec::new();
+    for work in works {
+        let (sender, receiver) = mpsc::channel();
+        std::thread::spawn(move || sender.send(work()));
+        receivers.push(receiver);
+    }
+    let mut results = Vec::new();
+    for receiver in receivers {
+        results.push(receiver.recv_timeout(Duration::from_secs(10)).expect("a deadlock"));
+    }
+    results
 }
 
 #[track_caller]
-fn refused(result: &Result<()>) {
+fn assert_refused(result: &Result<()>) {
     let Err(Error::Scene { quantity: "kernel source", needed }) = result else {
         panic!("{result:?}")
     };
@@ -85,74 +87,77 @@ fn refused(result: &Result<()>) {
 }
 
 #[test]
-fn a_source_may_ask_its_own_store_for_others() {
+fn a_source_may_request_others_from_its_store() {
     let kernels = SharedKernels::default();
-    let mut source = Asking::new(&kernels, 1.0);
-    source.others = vec![Asking::new(&kernels, 2.0), Asking::new(&kernels, 3.0)];
-    let made = in_time(vec![Box::new(move || (source.prepare(), source.prepare()))]);
-    assert_eq!(made, [(Ok(()), Ok(()))]);
+    let mut source = DependentSource::new(&kernels, 1.0);
+    source.others = vec![DependentSource::new(&kernels, 2.0), DependentSource::new(&kernels, 3.0)];
+    let results = results_in_time(vec![Box::new(move || (source.prepare(), source.prepare()))]);
+    assert_eq!(results, [(Ok(()), Ok(()))]);
     assert_eq!(kernels.count(), 3);
 }
 
 #[test]
-fn a_source_that_asks_for_itself_is_refused() {
+fn a_source_that_requests_itself_is_refused() {
     let kernels = SharedKernels::default();
-    let (one, two) = (Asking::new(&kernels, 1.0), Asking::new(&kernels, 2.0));
-    let direct = Asking { others: vec![one.clone()], ..one.clone() };
-    let between = Asking { others: vec![one.clone()], ..two };
-    let indirect = Asking { others: vec![between], ..one.clone() };
+    let first = DependentSource::new(&kernels, 1.0);
+    let direct = DependentSource::depending_on(&kernels, 1.0, 1.0);
+    let intermediate = DependentSource::depending_on(&kernels, 2.0, 1.0);
+    let indirect = DependentSource { others: vec![intermediate], ..first.clone() };
     for source in [direct, indirect] {
-        refused(&in_time(vec![Box::new(move || source.prepare())])[0]);
+        assert_refused(&results_in_time(vec![Box::new(move || source.prepare())])[0]);
         assert_eq!(kernels.count(), 0);
     }
-    // Nothing of it is left behind.
-    assert_eq!(in_time(vec![Box::new(move || one.prepare())]), [Ok(())]);
+    // The store still makes the kernel afterwards.
+    assert_eq!(results_in_time(vec![Box::new(move || first.prepare())]), [Ok(())]);
 }
 
 #[test]
-fn what_another_thread_makes_is_waited_for() {
+fn a_kernel_that_another_thread_makes_is_shared() {
     let kernels = SharedKernels::default();
-    let source = Asking::new(&kernels, 1.0);
-    let work = || -> Box<dyn FnOnce() -> Result<()> + Send> {
+    let source = DependentSource::new(&kernels, 1.0);
+    let mut works: Vec<Box<dyn FnOnce() -> Result<()> + Send>> = Vec::new();
+    for _ in 0..16 {
         let source = source.clone();
-        Box::new(move || source.prepare())
-    };
-    assert!(in_time((0..16).map(|_| work()).collect()).iter().all(Result::is_ok));
-    assert_eq!((source.made.load(Ordering::Relaxed), kernels.count()), (1, 1));
+        works.push(Box::new(move || source.prepare()));
+    }
+    assert!(results_in_time(works).iter().all(Result::is_ok));
+    assert_eq!(source.made.load(Ordering::Relaxed), 1);
+    assert_eq!(kernels.count(), 1);
+}
 
-    // One that panics leaves the work to the next.
-    let broken = Asking { meets: Some(Arc::new(Barrier::new(1))), ..Asking::new(&kernels, 4.0) };
-    let panics = Panicking(broken.clone());
-    let elements = Strip::uniform(-1.0..1.0, 2).unwrap().elements();
+/// Prepares a ground of this source with the kernels of a store.
+fn prepare_ground(source: impl WeightsSource + 'static, kernels: &SharedKernels) -> Result<()> {
+    let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
+    let ground = WeightsGround::new(source, elements)?;
+    ground.with_shared_kernels(kernels).prepare(1e-3, None, &mut unobserved)
+}
+
+/// A kernel whose source panics is made by the next source of the same identity.
+#[test]
+fn a_source_that_panics_leaves_its_kernel_to_the_next() {
+    let kernels = SharedKernels::default();
+    let source = DependentSource::new(&kernels, 4.0);
+    let panicking = PanickingSource(source.clone());
     let store = kernels.clone();
-    let caught = std::thread::spawn(move || {
-        let ground = WeightsGround::new(panics, elements).unwrap();
-        ground.with_shared_kernels(&store).prepare(1e-3, None, &mut unobserved)
-    });
-    assert!(caught.join().is_err());
-    let again = Panicking(Asking { number: -4.0, ..broken });
+    let thread = std::thread::spawn(move || prepare_ground(panicking, &store));
+    assert!(thread.join().is_err());
+    let succeeding = PanickingSource(DependentSource { number: -4.0, ..source });
     let store = kernels.clone();
-    let made = in_time(vec![Box::new(move || {
-        let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
-        WeightsGround::new(again, elements)?.with_shared_kernels(&store).prepare(
-            1e-3,
-            None,
-            &mut unobserved,
-        )
-    })]);
-    assert_eq!((made, kernels.count()), (vec![Ok(())], 2));
+    let results = results_in_time(vec![Box::new(move || prepare_ground(succeeding, &store))]);
+    assert_eq!(results, [Ok(())]);
+    assert_eq!(kernels.count(), 1);
 }
 
 /// Panics while it makes a kernel whose number is positive; its identity has no sign.
-struct Panicking(Asking);
+struct PanickingSource(DependentSource);
 
-impl WeightsSource for Panicking {
+impl WeightsSource for PanickingSource {
     fn kernel(
         &self,
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
-        assert!(self.0.number < 0.0, "as it should");
+        assert!(self.0.number < 0.0, "a panic on purpose");
         self.0.kernel(elements, time_step)
     }
 

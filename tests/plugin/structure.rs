@@ -1,4 +1,4 @@
-//! GOAL: a structure of one's own, linear and nonlinear, and one that wraps another.
+//! GOAL: structures of a user work, linear and nonlinear, and where they wrap another.
 //! SCENE: a mass on a hardening spring on a rigid base; a wrapped block.
 //! REFERENCE: the linear limit; the block itself; one commit per accepted step.
 
@@ -9,29 +9,31 @@ use basemat::Simulation;
 use basemat::interface::Coulomb;
 use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 
-use super::scene::{assert_same_motion, run, shaken};
+use super::scene::{CompletedRun, assert_same_motion, complete_run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
 use basemat_problems::own_force;
 use basemat_problems::wrapped::Bare;
 
-/// A mass on a hardening spring on a rigid base: force k d + 4 d³ · k per m².
-pub(crate) struct Hardening {
-    pub(crate) cubic: f64,
+/// A mass on a hardening spring on a rigid base: force k d + k₃ d³.
+pub(crate) struct HardeningOscillator {
+    pub(crate) cubic_stiffness: f64,
+    /// Number of committed steps.
     pub(crate) commits: Arc<AtomicUsize>,
 }
 
-pub(crate) const SPRING: f64 = 4.0e6;
+/// Linear stiffness k of the spring, N/m.
+pub(crate) const SPRING_STIFFNESS: f64 = 4.0e6;
 
-/// Drift: displacement of the mass, minus the displacement of the base, plus height × rotation.
-const DRIFT: [(usize, f64); 3] = [(3, 1.0), (0, -1.0), (2, 3.0)];
+/// Weights of the drift: displacement of the mass, minus the displacement of the base, plus height × rotation.
+const DRIFT_WEIGHTS: [(usize, f64); 3] = [(3, 1.0), (0, -1.0), (2, 3.0)];
 
-impl Hardening {
+impl HardeningOscillator {
     fn drift(displacement: &[f64]) -> f64 {
-        DRIFT.iter().map(|&(index, weight)| weight * displacement[index]).sum()
+        DRIFT_WEIGHTS.iter().map(|&(index, weight)| weight * displacement[index]).sum()
     }
 }
 
-impl Structure for Hardening {
+impl Structure for HardeningOscillator {
     fn dofs(&self) -> usize {
         4
     }
@@ -41,31 +43,32 @@ impl Structure for Hardening {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        for (unknown, mass) in [1.0e4, 3.0e4, 8.0e4, 2.0e4].into_iter().enumerate() {
-            matrix.add(unknown, unknown, mass);
+        for (dof, mass) in [1.0e4, 3.0e4, 8.0e4, 2.0e4].into_iter().enumerate() {
+            matrix.add(dof, dof, mass);
         }
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        matrix.add_outer(DRIFT, SPRING);
+        matrix.add_outer(DRIFT_WEIGHTS, SPRING_STIFFNESS);
         Ok(())
     }
 
     own_force!();
 }
 
-impl NonlinearForce for Hardening {
+impl NonlinearForce for HardeningOscillator {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> basemat::Result<()> {
-        let f = self.cubic * Self::drift(displacement).powi(3);
-        for (index, weight) in DRIFT {
-            force[index] += weight * f;
+        let spring_force = self.cubic_stiffness * Self::drift(displacement).powi(3);
+        for (index, weight) in DRIFT_WEIGHTS {
+            force[index] += weight * spring_force;
         }
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
-        matrix.add_outer(DRIFT, 3.0 * self.cubic * Self::drift(displacement).powi(2));
+        let tangent = 3.0 * self.cubic_stiffness * Self::drift(displacement).powi(2);
+        matrix.add_outer(DRIFT_WEIGHTS, tangent);
         Ok(())
     }
 
@@ -75,30 +78,39 @@ impl NonlinearForce for Hardening {
     }
 }
 
+/// Run of a structure on six springs with friction.
+fn run_on_springs(structure: impl Structure + 'static) -> CompletedRun {
+    let law = Coulomb::new(0.5).unwrap();
+    complete_run(shaken().ground(bed(6)).interface(law).structure(structure))
+}
+
+fn drift(simulation: &Simulation) -> f64 {
+    HardeningOscillator::drift(simulation.state().absolute_displacement())
+}
+
 #[test]
-fn own_structure_linear_and_nonlinear() {
+fn structures_of_a_user_are_linear_or_nonlinear() {
     let commits = Arc::new(AtomicUsize::new(0));
-    let structure = |cubic| Hardening { cubic, commits: Arc::clone(&commits) };
-    let scene = || shaken().ground(bed(6)).interface(Coulomb::new(0.5).unwrap());
-    let (_, linear) = run(scene().structure(Bare(structure(0.0))));
+    let oscillator =
+        |cubic_stiffness| HardeningOscillator { cubic_stiffness, commits: Arc::clone(&commits) };
+    let linear = run_on_springs(Bare(oscillator(0.0))).simulation;
     assert_eq!(commits.load(Ordering::Relaxed), 0, "a wrapper without `commit`");
-    let (_, soft) = run(scene().structure(structure(0.0)));
-    assert_eq!(
-        commits.load(Ordering::Relaxed),
-        601,
-        "for the static state, and once per accepted step"
-    );
+    let soft = run_on_springs(oscillator(0.0)).simulation;
+    let count = commits.load(Ordering::Relaxed);
+    assert_eq!(count, 601, "for the static state, and once per accepted step");
     assert_same_motion(&linear, &soft, 1e-7);
-    let (run, hard) = run(scene().structure(structure(1.0e4 * SPRING)));
-    let drift =
-        |simulation: &Simulation| Hardening::drift(simulation.state().absolute_displacement());
-    assert!((drift(&hard) - drift(&soft)).abs() > 1e-5, "the cubic term acts: {run}");
+    let hard = run_on_springs(oscillator(1.0e4 * SPRING_STIFFNESS));
+    let difference = drift(&hard.simulation) - drift(&soft);
+    assert!(difference.abs() > 1e-5, "the cubic term acts: {}", hard.run);
+}
+
+/// Motion of a structure on four springs with little friction.
+fn motion_on_springs(structure: impl Structure + 'static) -> Simulation {
+    let law = Coulomb::new(0.4).unwrap();
+    complete_run(shaken().ground(bed(4)).interface(law).structure(structure)).simulation
 }
 
 #[test]
 fn a_wrapped_block_is_the_block() {
-    let scene = || shaken().ground(bed(4)).interface(Coulomb::new(0.4).unwrap());
-    let (_, own) = run(scene().structure(Bare(block())));
-    let (_, plain) = run(scene().structure(block()));
-    assert_same_motion(&own, &plain, 0.0);
+    assert_same_motion(&motion_on_springs(Bare(block())), &motion_on_springs(block()), 0.0);
 }

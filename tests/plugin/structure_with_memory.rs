@@ -1,4 +1,4 @@
-//! GOAL: a structure of one's own that yields: internal variables, checkpoints, a limit of its own.
+//! GOAL: a structure of a user yields, with internal variables, checkpoints and a limit of its displacement.
 //! SCENE: a mass on a Bouc–Wen isolator, its slab bonded to rock, under El Centro 1940.
 //! REFERENCE: the differential equation by central differences in steps of 20 µs; the uninterrupted run.
 
@@ -14,38 +14,50 @@ use basemat::{Error, Result, Simulation};
 
 use basemat_problems::own_force;
 
-const MASS: f64 = 2.0e4;
-/// First stiffness (N/m), yield force (N), and the share of the stiffness that stays.
-const STIFFNESS: f64 = 1.2e6;
-const STRENGTH: f64 = 1.0e4;
-const HARDENING: f64 = 0.1;
-const YIELD: f64 = STRENGTH / STIFFNESS;
+/// Mass on the isolator, kg.
+const ISOLATED_MASS: f64 = 2.0e4;
+/// Initial stiffness of the isolator, N/m.
+const INITIAL_STIFFNESS: f64 = 1.2e6;
+/// Force at which the isolator yields, N.
+const YIELD_FORCE: f64 = 1.0e4;
+/// Stiffness after yield over the initial one.
+const HARDENING_RATIO: f64 = 0.1;
+const YIELD_DRIFT: f64 = YIELD_FORCE / INITIAL_STIFFNESS;
 
-/// Degrees of freedom: slab to the right, up and turning, mass to the right.
-const DRIFT: [(usize, f64); 2] = [(3, 1.0), (0, -1.0)];
+/// Weights of the drift; degrees of freedom are slab to the right, up and rotation, mass to the right.
+const DRIFT_WEIGHTS: [(usize, f64); 2] = [(3, 1.0), (0, -1.0)];
 
-/// Bouc and Wen's law with n = 1, A = 1, β = γ = ½: dz/dd = 1 − |z| while loading, 1 while
-/// unloading, over the yield displacement.
+/// A mass on an isolator by Bouc and Wen's law with n = 1, A = 1, β = γ = ½.
+///
+/// dz/dd is 1 − |z| while loading and 1 while unloading, over the yield drift.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Isolator {
-    /// Drift (m) and z of the last committed step.
+struct BoucWenIsolator {
+    /// Drift of the last committed step, m.
     drift: f64,
+    /// z of the last committed step.
     z: f64,
-    /// Drift (m) at which the plate ends.
-    plate: f64,
+    /// Drift at which the plate ends, m.
+    plate_size: f64,
 }
 
-impl Isolator {
-    /// z and dz/dd on the way straight from the committed drift, in closed form.
-    fn led_to(&self, drift: f64) -> [f64; 2] {
+/// Hysteretic variable z and its slope dz/dd.
+struct HystereticState {
+    z: f64,
+    slope: f64,
+}
+
+impl BoucWenIsolator {
+    /// z after monotonic motion from the committed drift, in closed form.
+    fn state_at(&self, drift: f64) -> HystereticState {
         let sign = if drift < self.drift { -1.0 } else { 1.0 };
-        let (way, begin) = ((drift - self.drift).abs() / YIELD, sign * self.z);
-        if way <= -begin {
-            return [sign * (begin + way), 1.0 / YIELD];
+        let distance = (drift - self.drift).abs() / YIELD_DRIFT;
+        let start = sign * self.z;
+        if distance <= -start {
+            return HystereticState { z: sign * (start + distance), slope: 1.0 / YIELD_DRIFT };
         }
-        let [way, begin] = [way - (-begin).max(0.0), begin.max(0.0)];
-        let rest = (1.0 - begin) * (-way).exp();
-        [sign * (1.0 - rest), rest / YIELD]
+        let loading_distance = distance - (-start).max(0.0);
+        let complement = (1.0 - start.max(0.0)) * (-loading_distance).exp();
+        HystereticState { z: sign * (1.0 - complement), slope: complement / YIELD_DRIFT }
     }
 }
 
@@ -53,7 +65,7 @@ fn drift(u: &[f64]) -> f64 {
     u[3] - u[0]
 }
 
-impl Structure for Isolator {
+impl Structure for BoucWenIsolator {
     fn dofs(&self) -> usize {
         4
     }
@@ -63,45 +75,44 @@ impl Structure for Isolator {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        for (unknown, mass) in [1.0e4, 3.0e4, 4.0e4, MASS].into_iter().enumerate() {
-            matrix.add(unknown, unknown, mass);
+        for (dof, mass) in [1.0e4, 3.0e4, 4.0e4, ISOLATED_MASS].into_iter().enumerate() {
+            matrix.add(dof, dof, mass);
         }
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        matrix.add_outer(DRIFT, HARDENING * STIFFNESS);
+        matrix.add_outer(DRIFT_WEIGHTS, HARDENING_RATIO * INITIAL_STIFFNESS);
         Ok(())
     }
 
     own_force!();
 }
 
-impl NonlinearForce for Isolator {
+impl NonlinearForce for BoucWenIsolator {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
-        if drift(u).abs() > self.plate {
-            let plate = self.plate;
-            return Err(Error::part(
-                "isolator",
-                format!("{:.4} m is off its plate of {plate} m", drift(u)),
-            ));
+        let drift = drift(u);
+        let plate_size = self.plate_size;
+        if drift.abs() > plate_size {
+            let reason = format!("{drift:.4} m is off its plate of {plate_size} m");
+            return Err(Error::part("isolator", reason));
         }
-        let [z, _] = self.led_to(drift(u));
-        for (unknown, weight) in DRIFT {
-            force[unknown] += weight * (1.0 - HARDENING) * STRENGTH * z;
+        let z = self.state_at(drift).z;
+        for (dof, weight) in DRIFT_WEIGHTS {
+            force[dof] += weight * (1.0 - HARDENING_RATIO) * YIELD_FORCE * z;
         }
         Ok(())
     }
 
     fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> Result<()> {
-        let [_, slope] = self.led_to(drift(u));
-        matrix.add_outer(DRIFT, (1.0 - HARDENING) * STRENGTH * slope);
+        let slope = self.state_at(drift(u)).slope;
+        matrix.add_outer(DRIFT_WEIGHTS, (1.0 - HARDENING_RATIO) * YIELD_FORCE * slope);
         Ok(())
     }
 
     fn commit(&mut self, u: &[f64]) {
-        let [z, _] = self.led_to(drift(u));
-        *self = Self { drift: drift(u), z, ..*self };
+        self.z = self.state_at(drift(u)).z;
+        self.drift = drift(u);
     }
 
     fn save(&self) -> Result<Vec<f64>> {
@@ -117,49 +128,63 @@ impl NonlinearForce for Isolator {
     }
 }
 
-fn on_rock(plate: f64, time_step: f64) -> Simulation {
+/// The isolator on a plate of this size on rock under El Centro.
+fn isolator_on_rock(plate_size: f64, time_step: f64) -> Simulation {
     Simulation::builder(time_step)
-        .structure(Isolator { plate, ..Isolator::default() })
+        .structure(BoucWenIsolator { plate_size, ..BoucWenIsolator::default() })
         .ground(SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap())
         .interface(Bonded)
         .motion(el_centro_1940())
-        .probe(Probe::displacement("drift", DRIFT))
+        .probe(Probe::displacement("drift", DRIFT_WEIGHTS))
         .build()
         .unwrap()
 }
 
-fn isolator(simulation: &Simulation) -> Isolator {
+/// The isolator in its present state.
+fn isolator(simulation: &Simulation) -> BoucWenIsolator {
     let structure: &dyn Any = simulation.structure();
     *structure.downcast_ref().unwrap()
 }
 
-/// Drift at multiples of `every` steps of `h`: m d̈ = −m a_g − α k d − (1 − α) F_y z, the rate of z by
-/// Heun's rule.
-fn by_central_differences(record: &Record, h: f64, every: usize, count: usize) -> Vec<f64> {
-    let rate = |z: f64, v: f64| (1.0 - if z * v > 0.0 { z.abs() } else { 0.0 }) / YIELD;
-    let (mut d, mut v, mut z, mut drifts) = (0.0, 0.0, 0.0, Vec::new());
-    for step in 0..every * count {
-        let force = HARDENING * STIFFNESS * d + (1.0 - HARDENING) * STRENGTH * z;
-        let a = -record.at(step as f64 * h).acceleration - force / MASS;
-        v += if step == 0 { 0.5 * h * a } else { h * a };
-        let first = rate(z, v);
-        z += 0.5 * h * v * (first + rate(z + h * v * first, v));
-        d += h * v;
-        if (step + 1) % every == 0 {
-            drifts.push(d);
+/// dz/dd at a velocity.
+fn hysteretic_rate(z: f64, velocity: f64) -> f64 {
+    (1.0 - if z * velocity > 0.0 { z.abs() } else { 0.0 }) / YIELD_DRIFT
+}
+
+/// Drifts at intervals of 20 ms by central differences, with z by Heun's rule.
+///
+/// They solve m d̈ = −m a_g − α k d − (1 − α) F_y z in steps of 20 µs.
+fn drifts_by_central_differences(record: &Record, count: usize) -> Vec<f64> {
+    let step = 2e-5;
+    let steps_per_drift = 1000;
+    let mut drift = 0.0;
+    let mut velocity = 0.0;
+    let mut z = 0.0;
+    let mut drifts = Vec::new();
+    for n in 0..steps_per_drift * count {
+        let force =
+            HARDENING_RATIO * INITIAL_STIFFNESS * drift + (1.0 - HARDENING_RATIO) * YIELD_FORCE * z;
+        let acceleration = -record.at(n as f64 * step).acceleration - force / ISOLATED_MASS;
+        velocity += if n == 0 { 0.5 * step * acceleration } else { step * acceleration };
+        let first = hysteretic_rate(z, velocity);
+        let second = hysteretic_rate(z + step * velocity * first, velocity);
+        z += 0.5 * step * velocity * (first + second);
+        drift += step * velocity;
+        if (n + 1) % steps_per_drift == 0 {
+            drifts.push(drift);
         }
     }
     drifts
 }
 
 #[test]
-fn an_isolator_of_ones_own_follows_its_differential_equation() {
-    // Every 0.02 s, for 8 s.
-    let exact = by_central_differences(&el_centro_1940(), 2e-5, 1000, 400);
-    let largest = exact.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
-    assert!(largest > 5.0 * YIELD, "it yields: {largest}");
+fn an_isolator_of_a_user_follows_its_differential_equation() {
+    // For 8 s.
+    let exact = drifts_by_central_differences(&el_centro_1940(), 400);
+    let largest = exact.iter().fold(0.0_f64, |largest, drift| largest.max(drift.abs()));
+    assert!(largest > 5.0 * YIELD_DRIFT, "it yields: {largest}");
     let errors = [2, 4, 8, 16, 32].map(|steps| {
-        let mut simulation = on_rock(1.0, 0.02 / steps as f64);
+        let mut simulation = isolator_on_rock(1.0, 0.02 / steps as f64);
         let mut error = 0.0_f64;
         let run = simulation.run(400 * steps, |state| {
             if state.step % steps == 0 {
@@ -171,47 +196,48 @@ fn an_isolator_of_ones_own_follows_its_differential_equation() {
     });
     println!("peak drift {largest:.4} m, errors {errors:?}");
     assert!(errors[4] < 1e-5, "{errors:?}");
-    // The mean order over four halvings; single ones wander with where in a step the motion turns.
+    // The mean order over four halvings: a single one depends on where in a step the motion reverses.
     let order = (errors[0] / errors[4]).log2() / 4.0;
     assert!((order - 2.0).abs() < 0.3, "order {order}, {errors:?}");
 }
 
 #[test]
-fn an_isolator_of_ones_own_resumes_to_the_last_bit() {
-    let mut whole = on_rock(1.0, 0.005);
-    whole.run(500, |_| {}).unwrap();
-    let saved = whole.checkpoint().unwrap();
-    let before = isolator(&whole);
-    assert!(before.z != 0.0);
-    whole.run(500, |_| {}).unwrap();
-    let mut other = on_rock(1.0, 0.005);
-    other.resume(&saved).unwrap();
-    assert_eq!(isolator(&other), before);
-    other.run(500, |_| {}).unwrap();
-    assert_eq!(other.state(), whole.state());
-    assert_eq!(isolator(&other), isolator(&whole));
+fn an_isolator_of_a_user_resumes_to_the_last_bit() {
+    let mut uninterrupted = isolator_on_rock(1.0, 0.005);
+    uninterrupted.run(500, |_| {}).unwrap();
+    let checkpoint = uninterrupted.checkpoint().unwrap();
+    let saved_isolator = isolator(&uninterrupted);
+    assert!(saved_isolator.z != 0.0);
+    uninterrupted.run(500, |_| {}).unwrap();
+    let mut resumed = isolator_on_rock(1.0, 0.005);
+    resumed.resume(&checkpoint).unwrap();
+    assert_eq!(isolator(&resumed), saved_isolator);
+    resumed.run(500, |_| {}).unwrap();
+    assert_eq!(resumed.state(), uninterrupted.state());
+    assert_eq!(isolator(&resumed), isolator(&uninterrupted));
 }
 
-/// The refused step leaves no trace: on a longer plate, the run goes on as if never stopped.
+/// A refused step changes nothing: on a larger plate the run continues to the same bits.
 #[test]
-fn an_isolator_off_its_plate_ends_the_step_with_its_own_reason() {
-    let mut short = on_rock(0.03, 0.005);
-    let error = short.run(4000, |_| {}).unwrap_err();
+fn an_isolator_off_its_plate_ends_the_step_with_its_reason() {
+    let mut on_small_plate = isolator_on_rock(0.03, 0.005);
+    let error = on_small_plate.run(4000, |_| {}).unwrap_err();
     let Error::Step { step, source, .. } = &error else { panic!("{error:?}") };
     let StepError::Part { source, .. } = source else { panic!("{error:?}") };
     assert!(matches!(&**source, Error::Part { part, .. } if part == "isolator"), "{error:?}");
     assert!(error.to_string().contains("is off its plate of 0.03 m"), "{error}");
 
-    let accepted = short.state().step;
-    assert_eq!(*step, accepted + 1);
-    let mut long = on_rock(1.0, 0.005);
-    long.run(accepted, |_| {}).unwrap();
-    assert_eq!(short.state(), long.state());
-    assert_eq!(Isolator { plate: 1.0, ..isolator(&short) }, isolator(&long));
-    let mut resumed = on_rock(1.0, 0.005);
-    resumed.resume(&short.checkpoint().unwrap()).unwrap();
-    for simulation in [&mut resumed, &mut long] {
+    let accepted_steps = on_small_plate.state().step;
+    assert_eq!(*step, accepted_steps + 1);
+    let mut on_large_plate = isolator_on_rock(1.0, 0.005);
+    on_large_plate.run(accepted_steps, |_| {}).unwrap();
+    assert_eq!(on_small_plate.state(), on_large_plate.state());
+    let moved_isolator = BoucWenIsolator { plate_size: 1.0, ..isolator(&on_small_plate) };
+    assert_eq!(moved_isolator, isolator(&on_large_plate));
+    let mut resumed = isolator_on_rock(1.0, 0.005);
+    resumed.resume(&on_small_plate.checkpoint().unwrap()).unwrap();
+    for simulation in [&mut resumed, &mut on_large_plate] {
         simulation.run(500, |_| {}).unwrap();
     }
-    assert_eq!(resumed.state(), long.state());
+    assert_eq!(resumed.state(), on_large_plate.state());
 }

@@ -1,21 +1,21 @@
-//! GOAL: a checkpoint carries the convolution history; an approximate history books
-//! its error.
-//! SCENE: grounds that choose, with much memory and little; corrupt counts of steps.
+//! GOAL: a checkpoint contains the convolution history; the energy balance contains the error of an approximate one.
+//! SCENE: grounds that choose their history, with much memory and little; corrupt counts of steps.
 //! REFERENCE: the saved run to the last bit; typed errors for another choice; the energy balance.
 
 use std::sync::Arc;
 
-use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
+use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::{CheckpointError, StepError};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, HistoryMethod,
     HistoryOptions, RelaxedFftHistory,
 };
+use basemat::results::Run;
 use basemat::soil::SoilProfile;
 use basemat::{Error, MemoryError, Simulation};
 
-use super::{STEPS, carried, half_plane, refusal};
+use super::{RUN_STEPS, half_plane, refusal, through_text};
 use basemat_problems::scenes::{SI, block, friction, scene, soil, states};
 
 /// A chosen history in at most these bytes.
@@ -24,51 +24,60 @@ fn within(memory: usize) -> HistoryOptions {
 }
 
 /// A block on equal elements whose ground has a history by these options.
-fn by(elements: usize, options: impl Into<HistoryOptions>) -> SimulationBuilder {
+fn with_history(elements: usize, options: impl Into<HistoryOptions>) -> SimulationBuilder {
     let ground =
         ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, elements).unwrap()).unwrap();
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-    // Not chosen by the number of steps.
+    // Coordinates that do not depend on the number of steps.
     let base = base.coordinates(Coordinates::Physical);
     base.ground(ground.with_history(options).unwrap())
 }
 
 /// A block on equal elements whose ground chooses its history, in at most these bytes.
 pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
-    by(elements, within(memory))
+    with_history(elements, within(memory))
 }
 
-const GIB: usize = 1 << 30;
-/// Too little for exponentials under ten elements, and enough for transforms of 64 steps.
-const LITTLE: usize = 50_000;
+/// Memory that is enough for every history of these tests, bytes.
+const AMPLE_MEMORY: usize = 1 << 30;
+/// Memory that is too little for exponentials of ten elements, and enough for transforms of 64 steps, bytes.
+const SCARCE_MEMORY: usize = 50_000;
 
 fn kind(simulation: &Simulation) -> HistoryMethod {
     simulation.ground().description().history.unwrap().kind
 }
 
+/// A run of so many steps whose ground has chosen its history.
+fn auto_run(elements: usize, memory: usize, steps: usize) -> Simulation {
+    let mut simulation = auto(elements, memory).build().unwrap();
+    simulation.run(steps, |_| {}).unwrap();
+    simulation
+}
+
 #[test]
-fn a_checkpoint_brings_its_history() {
-    for (elements, memory, expected, steps, wanted) in [
+fn a_checkpoint_contains_its_history() {
+    for (elements, memory, expected_steps, steps, expected_kind) in [
         // By wavenumbers and by pairs.
-        (10, GIB, 0, 50, HistoryMethod::Exponentials),
-        (4, GIB, 0, 50, HistoryMethod::Exponentials),
-        (10, LITTLE, 0, 20, HistoryMethod::RelaxedFft),
-        // Their poles depend on the steps that were expected, which are no part of the scene.
-        (10, GIB, 1 << 30, 100, HistoryMethod::Exponentials),
+        (10, AMPLE_MEMORY, 0, 50, HistoryMethod::Exponentials),
+        (4, AMPLE_MEMORY, 0, 50, HistoryMethod::Exponentials),
+        (10, SCARCE_MEMORY, 0, 20, HistoryMethod::RelaxedFft),
+        // The poles depend on the expected steps, which are no part of the scene.
+        (10, AMPLE_MEMORY, 1 << 30, 100, HistoryMethod::Exponentials),
     ] {
-        let case = format!("{elements} elements, {memory} bytes, {expected} steps expected");
-        let mut whole = auto(elements, memory).expected_steps(expected).build().unwrap();
-        whole.run(steps, |_| {}).unwrap();
-        assert_eq!(kind(&whole), wanted, "{case}");
-        let saved = carried(&whole.checkpoint().unwrap());
-        let later = states(&mut whole, 30);
-        let mut used = auto(elements, memory).build().unwrap();
-        used.run(steps + 10, |_| {}).unwrap();
-        for mut other in [auto(elements, memory).build().unwrap(), used] {
-            other.resume(&saved).unwrap_or_else(|e| panic!("{case}: {e}"));
-            assert_eq!(kind(&other), wanted, "{case}");
-            assert_eq!(other.checkpoint().unwrap(), saved, "{case}");
-            assert_eq!(states(&mut other, 30)[1..], later[1..], "{case}");
+        let label = format!("{elements} elements, {memory} bytes, {expected_steps} steps expected");
+        let mut uninterrupted =
+            auto(elements, memory).expected_steps(expected_steps).build().unwrap();
+        uninterrupted.run(steps, |_| {}).unwrap();
+        assert_eq!(kind(&uninterrupted), expected_kind, "{label}");
+        let checkpoint = through_text(&uninterrupted.checkpoint().unwrap());
+        let later_states = states(&mut uninterrupted, 30);
+        let new = auto(elements, memory).build().unwrap();
+        let used = auto_run(elements, memory, steps + 10);
+        for mut resumed in [new, used] {
+            resumed.resume(&checkpoint).unwrap_or_else(|error| panic!("{label}: {error}"));
+            assert_eq!(kind(&resumed), expected_kind, "{label}");
+            assert_eq!(resumed.checkpoint().unwrap(), checkpoint, "{label}");
+            assert_eq!(states(&mut resumed, 30)[1..], later_states[1..], "{label}");
         }
     }
 }
@@ -78,156 +87,177 @@ fn a_checkpoint_brings_its_history() {
 #[test]
 fn exponentials_differ_by_rounding() {
     for elements in [4, 10] {
-        let run = |method| {
-            let mut simulation = by(elements, HistoryOptions::from(method)).build().unwrap();
-            simulation.run(300, |_| {}).unwrap();
-            simulation
-        };
-        let (exact, chosen) = (run(HistoryMethod::RelaxedFft), run(HistoryMethod::Auto));
-        assert_eq!(kind(&chosen), HistoryMethod::Exponentials);
-        let bound = chosen.ground().description().history.unwrap().error_bound;
+        let by_transforms = run_in_parts(elements, HistoryMethod::RelaxedFft, &[300], 0);
+        let by_exponentials = run_in_parts(elements, HistoryMethod::Auto, &[300], 0);
+        assert_eq!(kind(&by_exponentials), HistoryMethod::Exponentials);
+        let bound = by_exponentials.ground().description().history.unwrap().error_bound;
         assert!(bound > 0.0 && bound <= 1e-12, "{bound:e}");
-        let (exact, chosen) = (exact.state(), chosen.state());
-        assert_eq!(exact.modes, chosen.modes);
+        let exact = by_transforms.state();
+        let computed = by_exponentials.state();
+        assert_eq!(exact.modes, computed.modes);
         let weight: f64 = exact.normal_force;
-        for (exact, chosen) in [
-            (exact.base_shear, chosen.base_shear),
-            (exact.base_moment, chosen.base_moment),
-            (exact.normal_force, chosen.normal_force),
+        for (exact, computed) in [
+            (exact.base_shear, computed.base_shear),
+            (exact.base_moment, computed.base_moment),
+            (exact.normal_force, computed.normal_force),
         ] {
-            assert!((exact - chosen).abs() < 1e-9 * weight, "{elements}: {exact} {chosen}");
+            assert!((exact - computed).abs() < 1e-9 * weight, "{elements}: {exact} {computed}");
         }
-        assert!((exact.mean_slip - chosen.mean_slip).abs() < 1e-9 * exact.mean_slip.abs());
-        assert!(chosen.energy_balance.soil_error_bound > 0.0);
+        assert!((exact.mean_slip - computed.mean_slip).abs() < 1e-9 * exact.mean_slip.abs());
+        assert!(computed.energy_balance.soil_error_bound > 0.0);
     }
 }
 
-/// GOAL: how a run is cut into pieces changes no bit, nor does what was announced of it.
-/// SCENE: exponentials, and transforms by wavenumbers and by pairs; pieces shorter and longer than their blocks.
+/// A simulation after runs of so many steps each, with a total number of steps that it expects.
+fn run_in_parts(
+    elements: usize,
+    method: HistoryMethod,
+    parts: &[usize],
+    expected_steps: usize,
+) -> Simulation {
+    let builder = with_history(elements, method).expected_steps(expected_steps);
+    let mut simulation = builder.build().unwrap();
+    for steps in parts {
+        simulation.run(*steps, |_| {}).unwrap();
+    }
+    simulation
+}
+
+/// GOAL: neither the parts of a run nor its expected steps change its results.
+/// SCENE: exponentials, and transforms by wavenumbers and by pairs; parts shorter and longer than their blocks.
 #[test]
-fn a_run_may_be_cut_anywhere() {
+fn a_run_may_be_divided_anywhere() {
     for (elements, method) in [
         (4, HistoryMethod::Auto),
         (4, HistoryMethod::RelaxedFft),
         (10, HistoryMethod::Auto),
         (10, HistoryMethod::RelaxedFft),
     ] {
-        let run = |cuts: &[usize], expected: usize| {
-            let mut simulation = by(elements, method).expected_steps(expected).build().unwrap();
-            for steps in cuts {
-                simulation.run(*steps, |_| {}).unwrap();
-            }
-            simulation
-        };
-        let whole = run(&[300], 0);
-        let (state, saved) = (whole.state(), whole.checkpoint().unwrap());
-        let cuts: [&[usize]; 7] =
+        let undivided = run_in_parts(elements, method, &[300], 0);
+        let expected = undivided.state();
+        let checkpoint = undivided.checkpoint().unwrap();
+        let divisions: [&[usize]; 7] =
             [&[50, 250], &[64, 236], &[65, 235], &[1, 299], &[299, 1], &[30; 10], &[1; 300]];
-        for cuts in cuts {
-            for expected in [0, 40, 300, 1000] {
-                let cut = run(cuts, expected);
-                assert_eq!(cut.state(), state, "{elements} elements, {cuts:?}, {expected}");
-                assert_eq!(cut.checkpoint().unwrap(), saved);
+        for parts in divisions {
+            for expected_steps in [0, 40, 300, 1000] {
+                let divided = run_in_parts(elements, method, parts, expected_steps);
+                let label = format!("{elements} elements, {parts:?}, {expected_steps}");
+                assert_eq!(divided.state(), expected, "{label}");
+                assert_eq!(divided.checkpoint().unwrap(), checkpoint, "{label}");
             }
         }
-        // Steps of one's own loop, of which nothing is announced.
-        let mut own = run(&[], 0);
+        // Single steps, whose number the simulation does not know.
+        let mut stepped = run_in_parts(elements, method, &[], 0);
         for _ in 0..300 {
-            own.step().unwrap();
+            stepped.step().unwrap();
         }
-        assert_eq!(own.state(), state, "{elements} elements");
-        assert_eq!(own.ground().description().history.unwrap().steps, None);
-        let mut resumed = run(&[20], 0);
-        resumed.resume(&saved).unwrap();
-        assert_eq!(resumed.state().probes, state.probes);
+        assert_eq!(stepped.state(), expected, "{elements} elements");
+        assert_eq!(stepped.ground().description().history.unwrap().steps, None);
+        let mut resumed = run_in_parts(elements, method, &[20], 0);
+        resumed.resume(&checkpoint).unwrap();
+        assert_eq!(resumed.state().probes, expected.probes);
     }
 }
 
-/// Whatever the first run announced, a checkpoint of the same scene fits.
+/// A simulation resumes a checkpoint of the same scene after runs of any length.
 #[test]
 fn a_used_simulation_resumes_the_same_scene() {
-    let run = |steps: usize| {
-        let mut simulation = auto(10, GIB).build().unwrap();
-        simulation.run(steps, |_| {}).unwrap();
-        simulation
-    };
-    for (first, second) in [(50, 300), (300, 50)] {
-        let (mut one, mut other) = (run(first), run(second));
-        other.resume(&one.checkpoint().unwrap()).unwrap();
-        assert_eq!(kind(&other), kind(&one));
-        assert_eq!(states(&mut other, 40)[1..], states(&mut one, 40)[1..]);
+    for (saved_steps, used_steps) in [(50, 300), (300, 50)] {
+        let mut saved = auto_run(10, AMPLE_MEMORY, saved_steps);
+        let mut used = auto_run(10, AMPLE_MEMORY, used_steps);
+        used.resume(&saved.checkpoint().unwrap()).unwrap();
+        assert_eq!(kind(&used), kind(&saved));
+        assert_eq!(states(&mut used, 40)[1..], states(&mut saved, 40)[1..]);
     }
 }
 
-/// GOAL: steps that need more memory than is allowed are refused: by a build and a run that know their number before
-/// the first of them, by a step of one's own loop when it comes; a checkpoint goes on with more. SCENE: histories that
-/// were requested and chosen; layers. REFERENCE: the run with memory enough, to the bit.
+/// A block on this ground in coordinates that do not depend on the number of steps.
+fn block_on(ground: ElasticGround) -> SimulationBuilder {
+    let builder = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    builder.ground(ground).coordinates(Coordinates::Physical)
+}
+
+fn on_layers(memory: usize) -> SimulationBuilder {
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil(SI), 6.0).unwrap();
+    let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
+    block_on(ground.with_history(within(memory)).unwrap())
+}
+
+/// On a half-plane with a requested history.
+fn on_half_plane(method: HistoryMethod, memory: usize) -> SimulationBuilder {
+    block_on(half_plane(HistoryOptions { memory, ..HistoryOptions::from(method) }))
+}
+
+fn assert_memory_error(error: &Error, memory: usize) {
+    let Error::Memory(MemoryError { needed, limit, .. }) = error else { panic!("{error}") };
+    assert!(*limit == memory as f64 && needed > limit, "{needed}");
+}
+
+/// Steps until one is refused for its memory, after the first fifty.
+fn assert_step_is_refused(simulation: &mut Simulation, memory: usize) {
+    let error = (50..400).find_map(|_| simulation.step().err()).unwrap();
+    let Error::Step { step, source: StepError::Part { quantity, source: cause }, .. } = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!(quantity, "history of the ground");
+    assert_memory_error(&cause, memory);
+    let completed = simulation.state().step;
+    assert!((64..400).contains(&completed) && step == completed + 1, "{step}");
+}
+
+/// GOAL: steps that need more memory than is allowed are refused, and a checkpoint resumes with more.
+///
+/// A build and a run that know their number refuse them before the first step, a single step when it comes.
+/// SCENE: histories that were requested and chosen; layers.
+/// REFERENCE: the run with enough memory, to the bit.
 #[test]
 fn steps_beyond_the_memory_are_refused() {
-    // Modes would be taken for some numbers of steps and not for others.
-    let over = |ground: Box<dyn Ground>| {
-        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-        base.ground(ground).coordinates(Coordinates::Physical)
-    };
-    let layers = |memory| {
-        let profile = SoilProfile::on_rigid_bedrock().with_layer(soil(SI), 6.0).unwrap();
-        let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
-        over(Box::new(ground.with_history(within(memory)).unwrap()))
-    };
-    let asked = |history, memory| {
-        over(Box::new(half_plane(HistoryOptions { memory, ..HistoryOptions::from(history) })))
-    };
-    let scenes: [(usize, &dyn Fn(usize) -> SimulationBuilder); 3] = [
-        (30_000, &layers),
-        (100_000, &|memory| asked(HistoryMethod::RelaxedFft, memory)),
-        (100_000, &|memory| asked(HistoryMethod::Direct, memory)),
+    let scenes: [(usize, fn(usize) -> SimulationBuilder); 3] = [
+        (30_000, on_layers),
+        (100_000, |memory| on_half_plane(HistoryMethod::RelaxedFft, memory)),
+        (100_000, |memory| on_half_plane(HistoryMethod::Direct, memory)),
     ];
-    let of_memory = |error: Error, memory: usize| {
-        let Error::Memory(MemoryError { needed, limit, .. }) = error else { panic!("{error}") };
-        assert!(limit == memory as f64 && needed > limit, "{needed}");
-    };
-    for (number, (memory, make)) in scenes.into_iter().enumerate() {
-        let wanted = states(&mut make(GIB).build().unwrap(), 400);
-        of_memory(make(memory).expected_steps(400).build().err().unwrap(), memory);
-        let mut short = make(memory).build().unwrap();
-        of_memory(short.run(400, |_| {}).unwrap_err(), memory);
-        assert_eq!(short.state().step, 0);
-        short.run(50, |_| {}).unwrap();
-        of_memory(short.run(350, |_| {}).unwrap_err(), memory);
-        assert!(*short.state() == wanted[50], "{number}");
-        let error = (50..400).find_map(|_| short.step().err()).unwrap();
-        let Error::Step { step, source: StepError::Part { quantity, source: cause }, .. } = error
-        else {
-            panic!("{number}: {error}");
-        };
-        assert_eq!(quantity, "history of the ground");
-        of_memory(*cause, memory);
-        let seen = short.state().step;
-        assert!((64..400).contains(&seen) && step == seen + 1, "{number}: {step}");
-        assert!(*short.state() == wanted[seen], "{number}");
-        // It stays so.
-        assert!(short.step().is_err() && short.state().step == seen);
-        let mut other = make(GIB).build().unwrap();
-        other.resume(&short.checkpoint().unwrap()).unwrap();
-        other.run(400 - seen, |_| {}).unwrap();
-        assert!(*other.state() == wanted[400], "{number}");
+    for (number, (memory, builder)) in scenes.into_iter().enumerate() {
+        let expected = states(&mut builder(AMPLE_MEMORY).build().unwrap(), 400);
+        let error = builder(memory).expected_steps(400).build().err().unwrap();
+        assert_memory_error(&error, memory);
+        let mut limited = builder(memory).build().unwrap();
+        assert_memory_error(&limited.run(400, |_| {}).unwrap_err(), memory);
+        assert_eq!(limited.state().step, 0);
+        limited.run(50, |_| {}).unwrap();
+        assert_memory_error(&limited.run(350, |_| {}).unwrap_err(), memory);
+        assert!(*limited.state() == expected[50], "{number}");
+        assert_step_is_refused(&mut limited, memory);
+        let completed = limited.state().step;
+        assert!(*limited.state() == expected[completed], "{number}");
+        // Another attempt is refused, too.
+        assert!(limited.step().is_err() && limited.state().step == completed);
+        let mut resumed = builder(AMPLE_MEMORY).build().unwrap();
+        resumed.resume(&limited.checkpoint().unwrap()).unwrap();
+        resumed.run(400 - completed, |_| {}).unwrap();
+        assert!(*resumed.state() == expected[400], "{number}");
     }
 }
 
 #[test]
 fn another_kind_is_refused_and_changes_nothing() {
-    let run = |memory| {
-        let mut simulation = auto(10, memory).build().unwrap();
-        simulation.run(50, |_| {}).unwrap();
-        simulation.checkpoint().unwrap()
-    };
-    let [transforms, exponentials] = [run(LITTLE), run(GIB)];
+    let transforms = auto_run(10, SCARCE_MEMORY, 50).checkpoint().unwrap();
+    let exponentials = auto_run(10, AMPLE_MEMORY, 50).checkpoint().unwrap();
     let quantity = "kind of history";
-    for (memory, checkpoint) in [(GIB, &transforms), (LITTLE, &exponentials)] {
-        let mut fresh = auto(10, memory).build().unwrap();
-        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
-        fresh.run(50, |_| {}).unwrap();
-        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
+    for (memory, checkpoint) in [(AMPLE_MEMORY, &transforms), (SCARCE_MEMORY, &exponentials)] {
+        let mut simulation = auto(10, memory).build().unwrap();
+        assert_eq!(refusal(&mut simulation, checkpoint), CheckpointError::OtherScene { quantity });
+        simulation.run(50, |_| {}).unwrap();
+        assert_eq!(refusal(&mut simulation, checkpoint), CheckpointError::OtherScene { quantity });
+    }
+}
+
+/// Checks that a history refuses large counts of steps whose tractions are missing.
+fn assert_counts_are_corrupt(history: &mut dyn ConvolutionHistory) {
+    for steps in [1 << 40, 1 << 47, usize::MAX] {
+        let error = history.restore(steps, &[0.0; 16]).unwrap_err();
+        assert!(matches!(error, Error::Checkpoint(CheckpointError::Corrupt { .. })));
     }
 }
 
@@ -238,39 +268,33 @@ fn a_step_count_without_tractions_takes_no_memory() {
         let elements = Strip::uniform(-2.0..2.0, count).unwrap().elements();
         let kernel: Arc<dyn ConvolutionWeights> =
             Arc::new(PatchKernel::new(soil(SI), elements, 0.01).unwrap());
-        let corrupt = |history: &mut dyn ConvolutionHistory| {
-            for steps in [1 << 40, 1 << 47, usize::MAX] {
-                let error = history.restore(steps, &[0.0; 16]).unwrap_err();
-                assert!(matches!(error, Error::Checkpoint(CheckpointError::Corrupt { .. })));
-            }
-        };
-        corrupt(&mut DirectHistory::new(Arc::clone(&kernel)));
-        corrupt(&mut RelaxedFftHistory::new(Arc::clone(&kernel)));
-        corrupt(&mut ExponentialHistory::new(kernel, 1e-6).unwrap());
+        assert_counts_are_corrupt(&mut DirectHistory::new(Arc::clone(&kernel)));
+        assert_counts_are_corrupt(&mut RelaxedFftHistory::new(Arc::clone(&kernel)));
+        assert_counts_are_corrupt(&mut ExponentialHistory::new(kernel, 1e-6).unwrap());
     }
+}
+
+/// Runs a block on a half-plane whose history has this tolerance.
+fn run_with_tolerance(method: HistoryMethod, tolerance: f64) -> Run {
+    let tolerance = Some(tolerance);
+    let ground = half_plane(HistoryOptions { tolerance, ..HistoryOptions::from(method) });
+    let builder = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    builder.ground(ground).build().unwrap().run(RUN_STEPS, |_| {}).unwrap()
 }
 
 #[test]
 fn an_approximate_history_is_in_the_energy_balance() {
-    let run = |history, tolerance| {
-        let ground = half_plane(HistoryOptions {
-            tolerance: Some(tolerance),
-            ..HistoryOptions::from(history)
-        });
-        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-        base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
-    };
-    let exact = run(HistoryMethod::Direct, 1e-3);
+    let exact = run_with_tolerance(HistoryMethod::Direct, 1e-3);
     assert_eq!(exact.energy_balance.soil_error_bound, 0.0);
-    let mut last = f64::INFINITY;
+    let mut previous_bound = f64::INFINITY;
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        let run = run(HistoryMethod::Exponentials, tolerance);
+        let run = run_with_tolerance(HistoryMethod::Exponentials, tolerance);
         let bound = run.energy_balance.soil_error_bound;
         println!("{tolerance:e}: soil {:e} within {bound:e}", run.energy_balance.soil);
         assert!(bound > 0.0 && bound < 100.0 * tolerance * run.energy_balance.soil);
-        assert!(bound < 0.1 * last);
+        assert!(bound < 0.1 * previous_bound);
         assert!(run.energy_error < 1e-10, "{:e}", run.energy_error);
         assert!(run.to_string().contains("soil within"));
-        last = bound;
+        previous_bound = bound;
     }
 }

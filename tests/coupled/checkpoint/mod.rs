@@ -18,8 +18,8 @@ use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SI, soil};
 
-/// Longer than the window of the exponentials and several leaves of the transforms.
-const STEPS: usize = 260;
+/// Steps of a run, longer than the window of the exponentials and several leaves of the transforms.
+const RUN_STEPS: usize = 260;
 
 fn half_plane(history: impl Into<HistoryOptions>) -> ElasticGround {
     ElasticGround::new(soil(SI), Strip::graded(-2.0..2.0, 6).unwrap())
@@ -32,12 +32,13 @@ fn spring_bed() -> SpringGround {
     SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap().with_dashpots(4e5, 3e5).unwrap()
 }
 
-/// Through a text format.
-fn carried(checkpoint: &Checkpoint) -> Checkpoint {
+/// A checkpoint that was written as text and read again.
+fn through_text(checkpoint: &Checkpoint) -> Checkpoint {
     let text = serde_json::to_string(checkpoint).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
+/// Error of a checkpoint that is refused, after which the simulation must be unchanged.
 fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
     let before = simulation.checkpoint().unwrap();
     let error = simulation.resume(checkpoint).unwrap_err();

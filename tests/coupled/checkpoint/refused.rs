@@ -4,7 +4,7 @@
 
 use basemat::bem::SpringGround;
 use basemat::coupled::CheckpointError;
-use basemat::coupled::{Change, GravityStage, Load, SimulationBuilder};
+use basemat::coupled::{Change, GravityStage, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::HistoryMethod;
 use basemat::interface::Cohesive;
 use basemat::motion::el_centro_1940;
@@ -18,99 +18,131 @@ use basemat_problems::scenes::{Rider, SI, block, friction, scene};
 use basemat_problems::wrapped::BareGround;
 use basemat_problems::{needed_from, own_force};
 
+/// A block on springs, all but its law.
+fn on_springs() -> SimulationBuilder {
+    scene(SI, 0.6).structure(block(SI)).ground(spring_bed())
+}
+
+fn sliding_block() -> SimulationBuilder {
+    on_springs().interface(friction(0.3))
+}
+
+fn bed_of(count: usize, stiffness: f64) -> SpringGround {
+    SpringGround::new(-2.0..2.0, count, stiffness, 4e7).unwrap()
+}
+
 #[test]
 fn other_scenes_are_refused() {
-    let base = || scene(SI, 0.6).interface(friction(0.3));
-    let plain = || base().structure(block(SI)).ground(spring_bed());
-    let mut simulation = plain().build().unwrap();
+    let mut simulation = sliding_block().build().unwrap();
     simulation.run(20, |_| {}).unwrap();
-    let bed = |count, stiffness| SpringGround::new(-2.0..2.0, count, stiffness, 4e7).unwrap();
-    let heavier = || RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
-    let probe = basemat::coupled::Probe::displacement("top", vec![(0, 1.0)]);
+    let heavier = RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
     for (quantity, other) in [
-        (
-            "number of degrees of freedom",
-            base().structure(Rider { block: block(SI) }).ground(spring_bed()),
-        ),
-        ("list of contact elements", base().structure(block(SI)).ground(bed(6, 5e7))),
-        ("list of probes", plain().probe(probe)),
-        ("structure", base().structure(heavier()).ground(spring_bed())),
-        ("ground", base().structure(block(SI)).ground(bed(8, 6e7))),
-        ("static state", plain().gravity(5.0)),
-        ("time step or scheme", plain().scheme(basemat::coupled::Theta::new(0.6).unwrap())),
+        ("number of degrees of freedom", sliding_block().structure(Rider { block: block(SI) })),
+        ("list of contact elements", sliding_block().ground(bed_of(6, 5e7))),
+        ("list of probes", sliding_block().probe(Probe::displacement("top", vec![(0, 1.0)]))),
+        ("structure", sliding_block().structure(heavier)),
+        ("ground", sliding_block().ground(bed_of(8, 6e7))),
+        ("static state", sliding_block().gravity(5.0)),
+        ("time step or scheme", sliding_block().scheme(Theta::new(0.6).unwrap())),
     ] {
         let checkpoint = other.build().unwrap().checkpoint().unwrap();
-        let found = refusal(&mut simulation, &checkpoint);
-        assert_eq!(found, CheckpointError::OtherScene { quantity });
+        let error = refusal(&mut simulation, &checkpoint);
+        assert_eq!(error, CheckpointError::OtherScene { quantity });
     }
-    let with = |history| base().structure(block(SI)).ground(half_plane(history)).build().unwrap();
-    let direct = with(HistoryMethod::Direct).checkpoint().unwrap();
-    let quantity = "kind of history";
-    let found = refusal(&mut with(HistoryMethod::Exponentials), &direct);
-    assert_eq!(found, CheckpointError::OtherScene { quantity });
+    let direct = sliding_block().ground(half_plane(HistoryMethod::Direct)).build().unwrap();
+    let exponentials = sliding_block().ground(half_plane(HistoryMethod::Exponentials));
+    let error = refusal(&mut exponentials.build().unwrap(), &direct.checkpoint().unwrap());
+    assert_eq!(error, CheckpointError::OtherScene { quantity: "kind of history" });
+}
+
+/// A block with a cohesive bond of this friction and a harmonic load.
+fn cohesive_block(coefficient: f64, force: f64) -> SimulationBuilder {
+    let law = Cohesive::new(2e3, 3e3, coefficient).unwrap();
+    let load = Load::new(vec![(0, 1.0)], move |time: f64| force * (9.0 * time).sin());
+    on_springs().interface(law).load(load)
+}
+
+fn reference_block() -> SimulationBuilder {
+    cohesive_block(0.3, 1e3).label("as built")
+}
+
+/// Scenes that differ from the reference, the quantity that shows it, and the change that allows it.
+fn changed_scenes() -> [(&'static str, Change, SimulationBuilder); 5] {
+    let shaken = reference_block().motion(el_centro_1940()).label("El Centro");
+    let frictional = reference_block().gravity_stage(GravityStage::Frictional);
+    let thrown = reference_block().initial_velocity([0.1, 0.0, 0.0]);
+    [
+        ("label", Change::InterfaceLaw, cohesive_block(0.31, 1e3).label("0.31")),
+        ("label", Change::GroundMotion, shaken),
+        ("label", Change::Load, cohesive_block(0.3, 1.1e3).label("1.1 kN")),
+        ("gravity stage", Change::GravityStage, frictional),
+        ("initial motion", Change::InitialMotion, thrown),
+    ]
+}
+
+/// Whether a change allows another value of this quantity.
+fn allows(change: Change, quantity: &str) -> bool {
+    match change {
+        Change::GravityStage => quantity == "gravity stage",
+        Change::InitialMotion => quantity == "initial motion",
+        _ => quantity == "label",
+    }
 }
 
 /// The label names what is not compared; gravity stage and initial motion are compared.
 #[test]
 fn what_decides_a_run_is_compared() {
-    let law = || Cohesive::new(2e3, 3e3, 0.3).unwrap();
-    let base = || scene(SI, 0.6).structure(block(SI)).ground(spring_bed()).interface(law());
-    let load =
-        |factor: f64| Load::new(vec![(0, 1.0)], move |time: f64| factor * (9.0 * time).sin());
-    let plain = || base().load(load(1e3)).label("as built");
-    let softer = || Cohesive::new(2e3, 3e3, 0.31).unwrap();
-    let cases: [(&str, Change, SimulationBuilder); 5] = [
-        ("label", Change::InterfaceLaw, plain().interface(softer()).label("0.31")),
-        ("label", Change::GroundMotion, plain().motion(el_centro_1940()).label("El Centro")),
-        ("label", Change::Load, base().load(load(1.1e3)).label("1.1 kN")),
-        ("gravity stage", Change::GravityStage, plain().gravity_stage(GravityStage::Frictional)),
-        ("initial motion", Change::InitialMotion, plain().initial_velocity([0.1, 0.0, 0.0])),
-    ];
-    let mut simulation = plain().build().unwrap();
+    let mut simulation = reference_block().build().unwrap();
     simulation.run(150, |_| {}).unwrap();
-    let saved = simulation.checkpoint().unwrap();
-    for (quantity, change, other) in cases {
+    let checkpoint = simulation.checkpoint().unwrap();
+    for (quantity, change, other) in changed_scenes() {
         let mut other = other.build().unwrap();
-        assert_eq!(refusal(&mut other, &saved), CheckpointError::OtherScene { quantity });
-        let may_relabel = |own: &Change| {
-            quantity == "label" && !matches!(own, Change::GravityStage | Change::InitialMotion)
-        };
-        let others: Vec<_> =
-            Change::ALL.into_iter().filter(|own| *own != change && !may_relabel(own)).collect();
-        assert!(other.resume_changed(&saved, &others).is_err(), "{quantity}");
+        assert_eq!(refusal(&mut other, &checkpoint), CheckpointError::OtherScene { quantity });
+        let other_changes: Vec<_> = Change::ALL
+            .into_iter()
+            .filter(|other_change| *other_change != change && !allows(*other_change, quantity))
+            .collect();
+        assert!(other.resume_changed(&checkpoint, &other_changes).is_err(), "{quantity}");
         if change != Change::GravityStage {
-            other.resume_changed(&saved, &[change]).unwrap();
+            other.resume_changed(&checkpoint, &[change]).unwrap();
             other.run(20, |_| {}).unwrap();
         }
     }
     // Another number of loads shows without a label.
-    let mut unloaded = base().label("as built").build().unwrap();
+    let law = Cohesive::new(2e3, 3e3, 0.3).unwrap();
+    let mut unloaded = on_springs().interface(law).label("as built").build().unwrap();
     let quantity = "load";
-    assert_eq!(refusal(&mut unloaded, &saved), CheckpointError::OtherScene { quantity });
+    assert_eq!(refusal(&mut unloaded, &checkpoint), CheckpointError::OtherScene { quantity });
 }
 
 #[test]
 fn grounds_that_cannot_be_saved_say_so() {
-    let base = || scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-    let mut silent = base().ground(BareGround(spring_bed())).build().unwrap();
-    silent.run(5, |_| {}).unwrap();
+    let unsaved_ground = sliding_block().ground(BareGround(spring_bed()));
+    let mut simulation = unsaved_ground.build().unwrap();
+    simulation.run(5, |_| {}).unwrap();
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "ground" });
-    assert_eq!(silent.checkpoint().unwrap_err(), unsupported);
-    let other = base().ground(spring_bed()).build().unwrap().checkpoint().unwrap();
-    assert_eq!(silent.resume(&other).unwrap_err(), unsupported);
-    silent.run(5, |_| {}).unwrap();
+    assert_eq!(simulation.checkpoint().unwrap_err(), unsupported);
+    let checkpoint = sliding_block().build().unwrap().checkpoint().unwrap();
+    assert_eq!(simulation.resume(&checkpoint).unwrap_err(), unsupported);
+    simulation.run(5, |_| {}).unwrap();
 }
 
-/// A nonlinear structure without `save`: the default must not pretend that there is nothing to save.
-struct Unsaved(Rider);
+/// A nonlinear structure without `save`, whose default must refuse a checkpoint.
+struct UnsavedRider(Rider);
 
-impl Structure for Unsaved {
+impl UnsavedRider {
+    fn new() -> Self {
+        Self(Rider { block: block(SI) })
+    }
+}
+
+impl Structure for UnsavedRider {
     needed_from!(0);
 
     own_force!();
 }
 
-impl NonlinearForce for Unsaved {
+impl NonlinearForce for UnsavedRider {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         self.0.force(u, force)
     }
@@ -122,23 +154,22 @@ impl NonlinearForce for Unsaved {
 
 #[test]
 fn nonlinear_structures_that_cannot_be_saved_say_so() {
-    let base = || scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
-    let unsaved = || Unsaved(Rider { block: block(SI) });
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "structure" });
-    let known = base().structure(Rider { block: block(SI) }).build().unwrap().checkpoint().unwrap();
-    let wrapped: [Box<dyn Structure>; 4] = [
-        Box::new(unsaved()),
-        Box::new(WithSprings::new(unsaved())),
-        Box::new(ModalDamping::new(&[0.05]).unwrap().on(unsaved()).unwrap()),
-        Box::new(StructureGroup::new().with(unsaved(), 0.0).unwrap()),
+    let rider = sliding_block().structure(Rider { block: block(SI) }).build().unwrap();
+    let checkpoint = rider.checkpoint().unwrap();
+    let structures: [Box<dyn Structure>; 4] = [
+        Box::new(UnsavedRider::new()),
+        Box::new(WithSprings::new(UnsavedRider::new())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(UnsavedRider::new()).unwrap()),
+        Box::new(StructureGroup::new().with(UnsavedRider::new(), 0.0).unwrap()),
     ];
-    for (k, structure) in wrapped.into_iter().enumerate() {
-        let mut silent = base().structure(structure).build().unwrap();
-        silent.run(5, |_| {}).unwrap();
-        assert_eq!(silent.checkpoint().unwrap_err(), unsupported, "{k}");
-        if k == 0 {
-            assert_eq!(silent.resume(&known).unwrap_err(), unsupported);
+    for (index, structure) in structures.into_iter().enumerate() {
+        let mut simulation = sliding_block().structure(structure).build().unwrap();
+        simulation.run(5, |_| {}).unwrap();
+        assert_eq!(simulation.checkpoint().unwrap_err(), unsupported, "{index}");
+        if index == 0 {
+            assert_eq!(simulation.resume(&checkpoint).unwrap_err(), unsupported);
         }
-        silent.run(5, |_| {}).unwrap();
+        simulation.run(5, |_| {}).unwrap();
     }
 }

@@ -1,4 +1,4 @@
-//! GOAL: every kind of scene resumes to the last bit, and a structure comes back as it was left.
+//! GOAL: every kind of scene resumes to the last bit; a structure is returned in its last state.
 //! SCENE: every history, a spring bed, nonlinear structures; saved after 0 to 200 steps and resumed
 //! in new and in used simulations.
 //! REFERENCE: the states of the uninterrupted run.
@@ -6,6 +6,7 @@
 use std::any::Any;
 
 use basemat::bem::{ElasticGround, Strip};
+use basemat::contact::SearchMethod;
 use basemat::coupled::CheckpointError;
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::history::HistoryMethod;
@@ -13,23 +14,29 @@ use basemat::interface::Bonded;
 use basemat::structure::{NonlinearForce, RigidBlock, RigidBody, Structure, Triplets};
 use basemat::{Result, Simulation};
 
-use super::{STEPS, carried, half_plane, spring_bed};
+use super::{RUN_STEPS, half_plane, spring_bed, through_text};
 use basemat_problems::scenes::{Rider, SI, block, friction, scene, soil, states, tower};
 use basemat_problems::{needed_from, own_force};
 
-/// Rigid block whose weak spring against rotation slips: it has a memory of its own.
-struct Sticky {
+/// Rigid block with a weak spring against rotation whose anchor follows the block.
+struct BlockWithMovingAnchor {
     block: RigidBlock,
     anchor: f64,
 }
 
-impl Structure for Sticky {
+impl BlockWithMovingAnchor {
+    fn new() -> Self {
+        Self { block: block(SI), anchor: 0.0 }
+    }
+}
+
+impl Structure for BlockWithMovingAnchor {
     needed_from!(block);
 
     own_force!();
 }
 
-impl NonlinearForce for Sticky {
+impl NonlinearForce for BlockWithMovingAnchor {
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         force[2] += 1e5 * (u[2] - self.anchor);
         Ok(())
@@ -57,131 +64,136 @@ impl NonlinearForce for Sticky {
     }
 }
 
-/// A scene's name, and how it is built.
-type Kind = (&'static str, Box<dyn Fn() -> Simulation>);
+/// A scene's name and the function that builds it.
+type NamedScene = (&'static str, fn() -> SimulationBuilder);
 
-/// Scenes by name; each is built anew at every call.
-fn kinds() -> Vec<Kind> {
-    fn kind(name: &'static str, builder: impl Fn() -> SimulationBuilder + 'static) -> Kind {
-        (name, Box::new(move || builder().build().unwrap()))
-    }
-    let base = || scene(SI, 0.6).interface(friction(0.3));
+/// Two pulses and friction, all but structure and ground.
+fn with_friction() -> SimulationBuilder {
+    scene(SI, 0.6).interface(friction(0.3))
+}
+
+fn named_scenes() -> Vec<NamedScene> {
     vec![
-        kind("direct", move || {
-            base().structure(block(SI)).ground(half_plane(HistoryMethod::Direct))
+        ("direct", || {
+            with_friction().structure(block(SI)).ground(half_plane(HistoryMethod::Direct))
         }),
-        kind("transforms", move || {
-            base().structure(tower(SI, None)).ground(half_plane(HistoryMethod::RelaxedFft))
+        ("transforms", || {
+            let ground = half_plane(HistoryMethod::RelaxedFft);
+            with_friction().structure(tower(SI, None)).ground(ground)
         }),
-        kind("transforms along the surface", move || {
-            let ground =
-                ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 9).unwrap()).unwrap();
-            base()
-                .structure(block(SI))
-                .ground(ground.with_history(HistoryMethod::RelaxedFft).unwrap())
+        ("transforms along the surface", || {
+            let strip = Strip::uniform(-2.0..2.0, 9).unwrap();
+            let ground = ElasticGround::new(soil(SI), strip).unwrap();
+            let ground = ground.with_history(HistoryMethod::RelaxedFft).unwrap();
+            with_friction().structure(block(SI)).ground(ground)
         }),
-        kind("exponentials", move || {
-            base().structure(tower(SI, None)).ground(half_plane(HistoryMethod::Exponentials))
+        ("exponentials", || {
+            let ground = half_plane(HistoryMethod::Exponentials);
+            with_friction().structure(tower(SI, None)).ground(ground)
         }),
-        kind("exponentials, bonded", move || {
-            let base = scene(SI, 0.6).interface(Bonded);
-            base.structure(block(SI)).ground(half_plane(HistoryMethod::Exponentials))
+        ("exponentials, bonded", || {
+            let ground = half_plane(HistoryMethod::Exponentials);
+            with_friction().interface(Bonded).structure(block(SI)).ground(ground)
         }),
-        kind("auto", move || base().structure(block(SI)).ground(half_plane(HistoryMethod::Auto))),
-        kind("spring bed", move || base().structure(block(SI)).ground(spring_bed())),
-        kind("nonlinear", move || {
-            base().structure(Rider { block: block(SI) }).ground(spring_bed())
+        ("auto", || with_friction().structure(block(SI)).ground(half_plane(HistoryMethod::Auto))),
+        ("spring bed", || with_friction().structure(block(SI)).ground(spring_bed())),
+        ("nonlinear", || {
+            with_friction().structure(Rider { block: block(SI) }).ground(spring_bed())
         }),
-        kind("cells cut by a disc", move || {
+        ("cells cut by a disc", || {
             let cylinder = RigidBody::cylinder(2.0, 6.0, 2000.0).unwrap();
             let ground = ElasticGround::under(soil(SI), &cylinder, 4).unwrap();
-            base().structure(cylinder).ground(ground)
+            with_friction().structure(cylinder).ground(ground)
         }),
-        kind("memory of its own", move || {
-            let sticky = Sticky { block: block(SI), anchor: 0.0 };
-            base().structure(sticky).ground(spring_bed())
+        ("structure with memory", || {
+            with_friction().structure(BlockWithMovingAnchor::new()).ground(spring_bed())
         }),
     ]
 }
 
-/// Everything but what belongs to the last step alone.
-fn lasting(state: &State) -> State {
-    let mut lasting = state.clone();
-    lasting.transitions.clear();
-    lasting.trials = 0;
-    lasting.method = basemat::contact::SearchMethod::ActiveSet;
-    lasting
+/// The state without what describes the computation of the last step.
+fn without_step_details(state: &State) -> State {
+    let mut state = state.clone();
+    state.transitions.clear();
+    state.trials = 0;
+    state.method = SearchMethod::ActiveSet;
+    state
 }
 
 #[test]
 fn resumed_runs_are_the_same_to_the_last_bit() {
-    for (name, build) in kinds() {
-        let whole = states(&mut build(), STEPS);
-        let mut first = build();
-        let mut saved = Vec::new();
-        for step in 0..=STEPS {
+    for (name, builder) in named_scenes() {
+        let expected = states(&mut builder().build().unwrap(), RUN_STEPS);
+        let mut first = builder().build().unwrap();
+        let mut checkpoints = Vec::new();
+        for step in 0..=RUN_STEPS {
             if [0, 1, 31, 64, 77, 128, 200].contains(&step) {
-                saved.push((step, first.checkpoint().unwrap()));
+                checkpoints.push((step, first.checkpoint().unwrap()));
             }
             first.step().unwrap();
         }
-        // Saving changes nothing.
-        assert_eq!(lasting(first.state()).step, STEPS + 1);
-        let mut used = build();
+        assert_eq!(first.state().step, RUN_STEPS + 1);
+        let mut used = builder().build().unwrap();
         used.run(90, |_| {}).unwrap();
-        for (step, checkpoint) in saved {
+        for (step, checkpoint) in checkpoints {
             assert_eq!(checkpoint.steps(), step);
-            let checkpoint = carried(&checkpoint);
-            // In a new simulation, and in one that has gone on in some other way.
-            for other in [&mut build(), &mut used] {
-                other.resume(&checkpoint).unwrap_or_else(|e| panic!("{name}, {step}: {e}"));
-                assert_eq!(lasting(other.state()), lasting(&whole[step]), "{name}, {step}");
+            let checkpoint = through_text(&checkpoint);
+            // In a new simulation, and in one that was used for other steps.
+            for resumed in [&mut builder().build().unwrap(), &mut used] {
+                let label = format!("{name}, saved after {step}");
+                resumed.resume(&checkpoint).unwrap_or_else(|error| panic!("{label}: {error}"));
+                let resumed_state = without_step_details(resumed.state());
+                assert_eq!(resumed_state, without_step_details(&expected[step]), "{label}");
                 // Before the first step, Auto has not chosen its history yet.
                 if step > 0 {
-                    assert_eq!(other.checkpoint().unwrap(), checkpoint, "{name}, {step}");
+                    assert_eq!(resumed.checkpoint().unwrap(), checkpoint, "{label}");
                 }
-                for wanted in &whole[step + 1..] {
-                    assert_eq!(other.step().unwrap(), wanted, "{name}, saved after {step}");
+                for state in &expected[step + 1..] {
+                    assert_eq!(resumed.step().unwrap(), state, "{label}");
                 }
             }
         }
-        let moved = whole[STEPS].absolute_displacement().iter().any(|u| *u != 0.0);
-        assert!(
-            moved && whole[STEPS].contact[0] != whole[0].contact[0],
-            "{name}: nothing happened"
-        );
+        let end = &expected[RUN_STEPS];
+        assert!(end.absolute_displacement().iter().any(|u| *u != 0.0), "{name}: no motion");
+        assert!(end.contact[0] != expected[0].contact[0], "{name}: no change of contact");
     }
 }
 
-/// GOAL: what a structure remembers can be read during a run and after it.
+fn anchor(structure: &dyn Any) -> f64 {
+    structure.downcast_ref::<BlockWithMovingAnchor>().unwrap().anchor
+}
+
+/// GOAL: the internal variables of a structure can be read during a run and after it.
 #[test]
-fn a_structure_comes_back_as_it_was_left() {
-    let sticky = Sticky { block: block(SI), anchor: 0.0 };
-    let builder = scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
-    let mut simulation = builder.structure(sticky).build().unwrap();
-    let anchor = |structure: &dyn Any| structure.downcast_ref::<Sticky>().unwrap().anchor;
-    let mut last = anchor(simulation.structure());
+fn a_structure_is_returned_in_its_last_state() {
+    let builder = with_friction().ground(spring_bed()).structure(BlockWithMovingAnchor::new());
+    let mut simulation = builder.build().unwrap();
+    let mut previous = anchor(simulation.structure());
     for _ in 0..50 {
-        let moved = simulation.step().unwrap().absolute_displacement()[2];
-        let next = last + 0.1 * (simulation.static_displacement()[2] + moved - last);
-        let found = anchor(simulation.structure());
-        assert!((found - next).abs() < 1e-12, "{found:e} {next:e}");
-        last = found;
+        let increment = simulation.step().unwrap().absolute_displacement()[2];
+        let rotation = simulation.static_displacement()[2] + increment;
+        let expected = previous + 0.1 * (rotation - previous);
+        let computed = anchor(simulation.structure());
+        assert!((computed - expected).abs() < 1e-12, "{computed:e} {expected:e}");
+        previous = computed;
     }
-    assert!(last.abs() > 1e-9);
-    let whole: Box<dyn Any> = simulation.into_structure();
-    assert_eq!(whole.downcast::<Sticky>().unwrap().anchor, last);
+    assert!(previous.abs() > 1e-9);
+    let structure: Box<dyn Any> = simulation.into_structure();
+    assert_eq!(structure.downcast::<BlockWithMovingAnchor>().unwrap().anchor, previous);
 }
 
-/// Back at the start, nothing is left of the steps made since: not their effort either.
+fn sliding_block() -> Simulation {
+    scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap()
+}
+
+/// A simulation resumed at its start is as new, also in the effort of its last step.
 #[test]
 fn the_start_is_resumed_in_a_used_simulation() {
-    let built = || scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap();
-    let start = built();
-    let saved = start.checkpoint().unwrap();
-    let mut used = built();
+    let start = sliding_block();
+    let checkpoint = start.checkpoint().unwrap();
+    let mut used = sliding_block();
     used.run(20, |_| {}).unwrap();
     assert!(used.state().trials > 0);
-    used.resume(&saved).unwrap();
+    used.resume(&checkpoint).unwrap();
     assert!(used.state() == start.state());
 }

@@ -1,15 +1,15 @@
-//! The check sum of a checkpoint's form, worked out from the form itself (feature `serde`).
+//! The check sum of a checkpoint's form, computed from the form itself (feature `serde`).
 //!
-//! Words field by field; lists and texts begin with their length, and texts are words byte by byte.
+//! It is a sum of words field by field; lists and texts begin with their length, and texts are words byte by byte.
 
 use basemat::coupled::Checkpoint;
 use serde_json::Value;
 
 use basemat_problems::check_sum::{check_sum, text_words};
 
-const FIELDS: [&str; 9] =
+const CHECKPOINT_FIELDS: [&str; 9] =
     ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure", "set_loads"];
-const IDENTITY: [&str; 11] = [
+const IDENTITY_FIELDS: [&str; 11] = [
     "label",
     "dofs",
     "energy_balance",
@@ -23,21 +23,22 @@ const IDENTITY: [&str; 11] = [
     "start",
 ];
 
-fn words(value: &Value, all: &mut Vec<u64>) {
+/// Adds the words of a value.
+fn collect_words(value: &Value, words: &mut Vec<u64>) {
     match value {
-        Value::Bool(flag) => all.push(u64::from(*flag)),
-        Value::Number(number) => all.push(number.as_u64().unwrap()),
-        Value::String(text) => all.extend(text_words(text)),
+        Value::Bool(flag) => words.push(u64::from(*flag)),
+        Value::Number(number) => words.push(number.as_u64().unwrap()),
+        Value::String(text) => words.extend(text_words(text)),
         Value::Array(list) => {
-            all.push(list.len() as u64);
+            words.push(list.len() as u64);
             for entry in list {
-                words(entry, all);
+                collect_words(entry, words);
             }
         }
         Value::Object(identity) => {
-            assert_eq!(identity.len(), IDENTITY.len());
-            for name in IDENTITY {
-                words(&identity[name], all);
+            assert_eq!(identity.len(), IDENTITY_FIELDS.len());
+            for name in IDENTITY_FIELDS {
+                collect_words(&identity[name], words);
             }
         }
         Value::Null => panic!("null"),
@@ -46,25 +47,24 @@ fn words(value: &Value, all: &mut Vec<u64>) {
 
 /// The sum that belongs to this form.
 pub(super) fn sum(form: &Value) -> u64 {
-    assert_eq!(form.as_object().unwrap().len(), FIELDS.len() + 1);
-    let mut all = Vec::new();
-    for name in FIELDS {
+    assert_eq!(form.as_object().unwrap().len(), CHECKPOINT_FIELDS.len() + 1);
+    let mut words = Vec::new();
+    for name in CHECKPOINT_FIELDS {
         if name == "modes" {
             let modes = form[name].as_array().unwrap();
-            all.push(modes.len() as u64);
-            // A pair has no length of its own.
-            let pairs = modes.iter().flat_map(|pair| pair.as_array().unwrap());
-            for entry in pairs {
-                words(entry, &mut all);
+            words.push(modes.len() as u64);
+            // The length of a pair is not part of the sum.
+            for entry in modes.iter().flat_map(|pair| pair.as_array().unwrap()) {
+                collect_words(entry, &mut words);
             }
         } else {
-            words(&form[name], &mut all);
+            collect_words(&form[name], &mut words);
         }
     }
-    check_sum(&all)
+    check_sum(&words)
 }
 
-/// The checkpoint of this form with the sum that belongs to it: as one who means to mislead.
+/// The checkpoint of this form with the sum that belongs to it, as by deliberate tampering.
 pub(super) fn sealed(mut form: Value) -> serde_json::Result<Checkpoint> {
     form["sum"] = Value::from(sum(&form));
     serde_json::from_value(form)

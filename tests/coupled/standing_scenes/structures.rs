@@ -6,18 +6,19 @@ use basemat::fem::{Beam, BeamSection, Direction, LumpedMass, Material, Mesh, Spa
 use basemat::structure::{FemModel, RigidBlock, Structure};
 use basemat_problems::random::Random;
 
-pub(super) const GRAVITY: f64 = 9.81;
+pub(super) const GRAVITY_ACCELERATION: f64 = 9.81;
 
 /// A mast in the plane on a rigid base: flexible, with a mass on its top beside its axis.
 fn mast(random: &mut Random, offset: f64) -> FemModel {
-    let (width, height) = (random.within(2.0, 8.0), random.log_within(4.0, 40.0));
+    let width = random.within(2.0, 8.0);
+    let height = random.log_within(4.0, 40.0);
     let inertia = random.log_within(0.02, 2.0);
     let mut mesh = Mesh::new();
     let count = random.pick(&[2, 3, 5]);
     let nodes: Vec<usize> = (0..=count)
         .map(|k| {
-            let share = k as f64 / count as f64;
-            mesh.add_node(offset * share * width, height * share).unwrap()
+            let fraction = k as f64 / count as f64;
+            mesh.add_node(offset * fraction * width, height * fraction).unwrap()
         })
         .collect();
     for pair in nodes.windows(2) {
@@ -29,7 +30,8 @@ fn mast(random: &mut Random, offset: f64) -> FemModel {
 
 /// Two columns and a beam on a rigid base.
 fn portal(random: &mut Random, offset: f64) -> FemModel {
-    let (width, height) = (random.within(3.0, 8.0), random.log_within(4.0, 25.0));
+    let width = random.within(3.0, 8.0);
+    let height = random.log_within(4.0, 25.0);
     let mut mesh = Mesh::new();
     let center = mesh.add_node(0.0, 0.0).unwrap();
     let half = 0.3 * width;
@@ -39,8 +41,8 @@ fn portal(random: &mut Random, offset: f64) -> FemModel {
     for (k, column) in feet.into_iter().zip(tops).enumerate() {
         let inertia = random.log_within(0.005, 0.2);
         mesh.add(Beam::new(column.into(), 30e9, 0.3, inertia, 2500.0).unwrap()).unwrap();
-        let own = random.log_within(10e3, 200e3) * if k == 0 { 1.0 } else { 1.0 + offset };
-        mesh.add(LumpedMass::new(tops[k], own).unwrap()).unwrap();
+        let mass = random.log_within(10e3, 200e3) * if k == 0 { 1.0 } else { 1.0 + offset };
+        mesh.add(LumpedMass::new(tops[k], mass).unwrap()).unwrap();
     }
     mesh.add(Beam::new(tops, 30e9, 0.2, 0.01, 2500.0).unwrap()).unwrap();
     for foot in feet {
@@ -75,49 +77,52 @@ fn mast_in_space(random: &mut Random, offset: f64) -> FemModel {
     let lean = [offset * sides[0], random.within(-1.0, 1.0) * offset * sides[1]];
     let nodes: Vec<usize> = (0..=3)
         .map(|k| {
-            let share = f64::from(k) / 3.0;
-            mesh.add_node_at([lean[0] * share, lean[1] * share, height * share]).unwrap()
+            let fraction = f64::from(k) / 3.0;
+            mesh.add_node_at([lean[0] * fraction, lean[1] * fraction, height * fraction]).unwrap()
         })
         .collect();
     for pair in nodes.windows(2) {
         let beam = SpaceBeam::new([pair[0], pair[1]], concrete, section, [1.0, 0.0, 0.0]).unwrap();
         mesh.add(beam).unwrap();
     }
-    let top = random.log_within(50e3, 3e6);
-    mesh.add(LumpedMass::in_space(nodes[3], top, [1e3; 3]).unwrap()).unwrap();
+    let top_mass = random.log_within(50e3, 3e6);
+    mesh.add(LumpedMass::in_space(nodes[3], top_mass, [1e3; 3]).unwrap()).unwrap();
     let model = FemModel::on_faces(mesh, &[corners.to_vec()]).unwrap();
     model.with_rigid_link(nodes[0], &corners).unwrap()
 }
 
 /// A structure with P–Δ, its ground, and whether its interface is bonded.
-pub(super) struct Drawn {
+pub(super) struct RandomScene {
     pub(super) structure: Box<dyn Structure>,
-    /// Vertical translation.
-    pub(super) up: Vec<f64>,
+    pub(super) vertical_translation: Vec<f64>,
     pub(super) ground: Box<dyn Ground>,
     pub(super) is_bonded: bool,
 }
 
-/// A random scene; `None` if the structure buckles with its base held.
-pub(super) fn draw(number: usize) -> Option<Drawn> {
+/// A structure with P–Δ and its vertical translation; `None` if it buckles on a fixed base.
+fn with_p_delta(model: FemModel, upwards: Direction) -> Option<(Box<dyn Structure>, Vec<f64>)> {
+    let model = model.with_p_delta(GRAVITY_ACCELERATION).ok()?;
+    let vertical_translation = model.rigid_motion(upwards, [0.0; 3]);
+    Some((Box::new(model), vertical_translation))
+}
+
+/// A random scene; `None` if the structure buckles on a fixed base.
+pub(super) fn random_scene(number: usize) -> Option<RandomScene> {
     let mut random = Random(500 + number as u64);
     let kind = random.pick(&[0, 0, 1, 2, 3]);
     let offset = if random.chance(0.4) { 0.0 } else { random.log_within(1e-3, 0.4) };
-    let of_elements = |model: FemModel, upwards| -> Option<(Box<dyn Structure>, Vec<f64>)> {
-        let model = model.with_p_delta(GRAVITY).ok()?;
-        let up = model.rigid_motion(upwards, [0.0; 3]);
-        Some((Box::new(model), up))
-    };
-    let (structure, up) = match kind {
-        0 => of_elements(mast(&mut random, offset), Direction::Y)?,
-        1 => of_elements(portal(&mut random, offset), Direction::Y)?,
+    let (structure, vertical_translation) = match kind {
+        0 => with_p_delta(mast(&mut random, offset), Direction::Y)?,
+        1 => with_p_delta(portal(&mut random, offset), Direction::Y)?,
         2 => {
-            let [width, height] = [random.within(1.0, 5.0), random.within(4.0, 40.0)];
+            let width = random.within(1.0, 5.0);
+            let height = random.within(4.0, 40.0);
             let block = RigidBlock::new(width, height, random.log_within(300.0, 3000.0)).unwrap();
-            let block: Box<dyn Structure> = Box::new(block.with_p_delta(GRAVITY).unwrap());
+            let block: Box<dyn Structure> =
+                Box::new(block.with_p_delta(GRAVITY_ACCELERATION).unwrap());
             (block, vec![0.0, 1.0, 0.0])
         }
-        _ => of_elements(mast_in_space(&mut random, offset), Direction::Z)?,
+        _ => with_p_delta(mast_in_space(&mut random, offset), Direction::Z)?,
     };
     let count = if kind == 3 { random.pick(&[3, 4]) } else { random.pick(&[6, 10]) };
     let speed = random.log_within(30.0, 250.0);
@@ -125,8 +130,8 @@ pub(super) fn draw(number: usize) -> Option<Drawn> {
     let ground: Box<dyn Ground> = if random.chance(0.6) {
         Box::new(ElasticGround::under(soil, structure.as_ref(), count).unwrap())
     } else {
-        let bed = 0.5 * speed * speed * 1800.0;
-        Box::new(SpringGround::under(structure.as_ref(), count, bed, 0.7 * bed).unwrap())
+        let bedding = 0.5 * speed * speed * 1800.0;
+        Box::new(SpringGround::under(structure.as_ref(), count, bedding, 0.7 * bedding).unwrap())
     };
-    Some(Drawn { structure, up, ground, is_bonded: random.chance(0.2) })
+    Some(RandomScene { structure, vertical_translation, ground, is_bonded: random.chance(0.2) })
 }

@@ -1,4 +1,4 @@
-//! The double as an interface law, and as a law of the plane.
+//! The recording part as an interface law, in space and in the plane only.
 
 use basemat::Result;
 use basemat::interface::{
@@ -6,101 +6,99 @@ use basemat::interface::{
     PreviousContact, Tolerance,
 };
 
-use super::doubles::{CORRECT, Double, refusal};
+use super::recording_part::{MARKER_VALUE, RecordingPart, refusal};
 
 /// Methods that both traits have.
 macro_rules! common_methods {
     () => {
         fn modes(&self) -> &[Mode] {
-            self.0.asked("modes");
+            self.0.add("modes");
             &[Mode::SlipLeft]
         }
 
         fn conditions(&self, _: Mode, _: &PreviousContact) -> [Condition; 2] {
-            self.0.asked("conditions");
-            [Condition::gap_is(0.0), Condition::slip_is(CORRECT)]
+            self.0.add("conditions");
+            [Condition::gap_is(0.0), Condition::slip_is(MARKER_VALUE)]
         }
 
         fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
-            self.0.asked("next_mode");
+            self.0.add("next_mode");
             Mode::SlipRight
         }
 
         fn compliance(&self, _: Mode, _: &PreviousContact) -> [f64; 2] {
-            self.0.asked("compliance");
-            [CORRECT; 2]
+            self.0.add("compliance");
+            [MARKER_VALUE; 2]
         }
 
         fn state_variables(&self) -> usize {
-            self.0.asked("state_variables");
+            self.0.add("state_variables");
             3
         }
 
-        fn initial_state_variables(&self, _: &PreviousContact, memory: &mut [f64]) {
-            self.0.asked("initial_state_variables");
-            memory.fill(CORRECT);
+        fn initial_state_variables(&self, _: &PreviousContact, variables: &mut [f64]) {
+            self.0.add("initial_state_variables");
+            variables.fill(MARKER_VALUE);
         }
 
-        fn commit(&self, _: &PreviousContact, _: &ContactState, _: Mode, memory: &mut [f64]) {
-            self.0.asked("commit");
-            memory.fill(2.0 * CORRECT);
+        fn commit(&self, _: &PreviousContact, _: &ContactState, _: Mode, variables: &mut [f64]) {
+            self.0.add("commit");
+            variables.fill(2.0 * MARKER_VALUE);
         }
 
         fn friction_coefficient(&self) -> Option<f64> {
-            self.0.asked("friction_coefficient");
-            Some(CORRECT)
+            self.0.add("friction_coefficient");
+            Some(MARKER_VALUE)
         }
 
         fn bond_overload(&self, _: &PreviousContact, _: &ContactState) -> Option<f64> {
-            self.0.asked("bond_overload");
-            Some(CORRECT)
+            self.0.add("bond_overload");
+            Some(MARKER_VALUE)
         }
 
         fn check_start(&self, _: &PreviousContact) -> Result<()> {
-            self.0.asked("check_start");
+            self.0.add("check_start");
             Err(refusal())
         }
 
-        /// Smooth contact whose only closed mode is another one than the default's first.
         fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-            struct Smooth(Coulomb);
-            impl PlaneLaw for Smooth {
-                fn modes(&self) -> &[Mode] {
-                    &[Mode::SlipRight]
-                }
-                fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-                    self.0.conditions(mode, start)
-                }
-                fn next_mode(
-                    &self,
-                    _: Mode,
-                    _: &PreviousContact,
-                    _: &ContactState,
-                    _: Tolerance,
-                ) -> Mode {
-                    Mode::SlipRight
-                }
-            }
-            self.0.asked("frictionless");
-            Box::new(InPlane(Smooth(Coulomb::uplift_only())))
+            self.0.add("frictionless");
+            Box::new(InPlane(AlwaysSlips(Coulomb::uplift_only())))
         }
 
         fn check(&self, _: &ContactScene) -> Result<()> {
-            self.0.asked("check");
+            self.0.add("check");
             Err(refusal())
         }
     };
 }
 
-impl InterfaceLaw for Double {
+impl InterfaceLaw for RecordingPart {
     common_methods!();
 
     fn limits(&self, _: &PreviousContact) -> Result<Limits> {
-        self.0.asked("limits");
-        Ok(Limits { tension: CORRECT, ..Limits::default() })
+        self.0.add("limits");
+        Ok(Limits { tension: MARKER_VALUE, ..Limits::default() })
     }
 }
 
-impl PlaneLaw for Double {
+impl PlaneLaw for RecordingPart {
     common_methods!();
+}
+
+/// Smooth contact whose only closed mode is another one than the default's first.
+struct AlwaysSlips(Coulomb);
+
+impl PlaneLaw for AlwaysSlips {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::SlipRight]
+    }
+
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+        self.0.conditions(mode, start)
+    }
+
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
+        Mode::SlipRight
+    }
 }

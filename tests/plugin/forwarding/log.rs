@@ -1,14 +1,14 @@
-//! Calls that a double received, and calls that its trait must make.
+//! Calls that a recording part received, and methods that its trait has.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
-/// Calls that a double received.
+/// Names of the methods that were called.
 #[derive(Clone, Default)]
-pub(crate) struct Log(Arc<Mutex<BTreeSet<String>>>);
+pub(crate) struct CallLog(Arc<Mutex<BTreeSet<String>>>);
 
-impl Log {
-    pub(crate) fn asked(&self, method: &str) {
+impl CallLog {
+    pub(crate) fn add(&self, method: &str) {
         self.0.lock().unwrap().insert(method.to_owned());
     }
 
@@ -17,17 +17,21 @@ impl Log {
     }
 }
 
-/// The methods of a trait, in its source.
+/// The methods of a trait in its source.
 pub(crate) fn methods(source: &str, name: &str) -> BTreeSet<String> {
-    let (_, body) = source.split_once(&format!("pub trait {name}")).unwrap();
-    let (body, _) = body.split_once("\n}\n").unwrap();
-    let name = |line: &str| {
-        let (name, _) = line.strip_prefix("    fn ")?.split_once('(')?;
-        Some(name.to_owned())
-    };
-    let all: BTreeSet<_> = body.lines().filter_map(name).collect();
-    assert!(!all.is_empty());
-    all
+    let declaration = format!("pub trait {name}");
+    let start = source.find(&declaration).unwrap();
+    let end = start + source[start..].find("\n}\n").unwrap();
+    let mut methods = BTreeSet::new();
+    for line in source[start..end].lines() {
+        if let Some(signature) = line.strip_prefix("    fn ")
+            && let Some((name, _)) = signature.split_once('(')
+        {
+            methods.insert(name.to_owned());
+        }
+    }
+    assert!(!methods.is_empty());
+    methods
 }
 
 macro_rules! source {

@@ -1,42 +1,40 @@
-//! GOAL: a boxed part behaves as the part itself, and a part made of another hands on every
-//! question.
-//! SCENE: doubles that answer every method of their trait with something else than its default and
-//! write down what they were asked.
-//! REFERENCE: the methods listed in the trait's source, so that a new one that nobody forwards is
-//! found.
-#![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
+//! GOAL: a boxed part behaves as the part itself, and a part that wraps another forwards every method.
+//! SCENE: parts whose methods return other values than the defaults of their trait, and record that they were called.
+//! REFERENCE: the methods in the trait's source, so that a new one that is not forwarded is found.
+#![allow(clippy::needless_pass_by_value, reason = "parts are passed by value, as to a builder")]
 
-mod doubles;
 mod law;
 mod log;
+mod recording_fields;
+mod recording_part;
 mod structure;
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField};
-use basemat::bem::{Ground, SpringGround};
-use basemat::coupled::TimeScheme;
+use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
+use basemat::coupled::{Midpoint, TimeScheme};
 use basemat::fem::{Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
-use basemat::interface::{ContactState, InPlane, InterfaceLaw, Mode};
-use basemat::motion::{AtRest, FreeField, RecordFormat};
+use basemat::interface::{ContactState, Coulomb, InPlane, InterfaceLaw, Mode};
+use basemat::motion::{AtRest, FreeField, RecordFormat, RickerDisplacement};
 use basemat::structure::{Hysteresis, RigidBlock, Structure};
-use basemat::{Simulation, Soil, unobserved};
+use basemat::{Error, Simulation, Soil, unobserved};
 
-use doubles::{CORRECT, Double};
-use log::{Log, methods, source};
+use log::{CallLog, methods, source};
+use recording_part::{MARKER_VALUE, RecordingPart};
 
 #[test]
-fn boxed_springs() {
-    fn ask(mut part: impl Hysteresis) {
-        assert_eq!(part.response(2.0).force, 2.0 * CORRECT);
-        assert_eq!(part.energy(2.0).stored, 2.0 * CORRECT);
+fn boxed_springs_forward_all_methods() {
+    fn call_methods(mut part: impl Hysteresis) {
+        assert_eq!(part.response(2.0).force, 2.0 * MARKER_VALUE);
+        assert_eq!(part.energy(2.0).stored, 2.0 * MARKER_VALUE);
         part.commit(1.0);
-        assert_eq!(part.save(), [CORRECT]);
-        assert_eq!(part.restore(&[1.0]), Err(doubles::refusal()));
+        assert_eq!(part.save(), [MARKER_VALUE]);
+        assert_eq!(part.restore(&[1.0]), Err(recording_part::refusal()));
         drop(part.clone_box());
     }
-    let log = Log::default();
-    let part: Box<dyn Hysteresis> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn Hysteresis> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(
         log.take(),
         methods(source!("../crates/structures/src/structure/hysteresis/mod.rs"), "Hysteresis")
@@ -44,144 +42,149 @@ fn boxed_springs() {
 }
 
 /// Calls all methods of a law but `limits`.
-fn ask_law<L: InterfaceLaw + 'static>(make: impl Fn() -> L) {
-    let part = make();
-    let start = doubles::start();
-    let tolerance = doubles::tolerance();
-    assert_eq!(part.modes(), [Mode::SlipLeft]);
-    assert_eq!(part.conditions(Mode::Open, &start)[1].value, CORRECT);
-    let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
+fn call_law_methods<L: InterfaceLaw + 'static>(new_law: impl Fn() -> L) {
+    let law = new_law();
+    let start = recording_part::previous_contact();
+    let tolerance = recording_part::tolerance();
+    assert_eq!(law.modes(), [Mode::SlipLeft]);
+    assert_eq!(law.conditions(Mode::Open, &start)[1].value, MARKER_VALUE);
+    let next = law.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
     assert_eq!(next, Mode::SlipRight);
-    assert_eq!(part.compliance(Mode::Open, &start), [CORRECT; 2]);
-    let mut memory = [0.0; 3];
-    assert_eq!(part.state_variables(), memory.len());
-    part.initial_state_variables(&start, &mut memory);
-    assert_eq!(memory, [CORRECT; 3]);
-    part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
-    assert_eq!(memory, [2.0 * CORRECT; 3]);
-    assert_eq!(part.friction_coefficient(), Some(CORRECT));
-    assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
-    assert_eq!(part.check_start(&start), Err(doubles::refusal()));
-    assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
-    // `check` has an argument that only a simulation can make.
+    assert_eq!(law.compliance(Mode::Open, &start), [MARKER_VALUE; 2]);
+    let mut variables = [0.0; 3];
+    assert_eq!(law.state_variables(), variables.len());
+    law.initial_state_variables(&start, &mut variables);
+    assert_eq!(variables, [MARKER_VALUE; 3]);
+    law.commit(&start, &ContactState::default(), Mode::Open, &mut variables);
+    assert_eq!(variables, [2.0 * MARKER_VALUE; 3]);
+    assert_eq!(law.friction_coefficient(), Some(MARKER_VALUE));
+    assert_eq!(law.bond_overload(&start, &ContactState::default()), Some(MARKER_VALUE));
+    assert_eq!(law.check_start(&start), Err(recording_part::refusal()));
+    assert_eq!(law.frictionless().modes(), [Mode::SlipRight]);
+    // Only a simulation can make the argument of `check`.
     let ground = SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap();
     let built = Simulation::builder(0.01)
         .structure(RigidBlock::new(4.0, 4.0, 2000.0).unwrap())
         .ground(ground)
-        .interface(make())
+        .interface(new_law())
         .build();
-    assert_eq!(built.err(), Some(doubles::refusal()));
+    assert_eq!(built.err(), Some(recording_part::refusal()));
 }
 
 #[test]
-fn boxed_laws() {
-    let log = Log::default();
-    let make = || -> Box<dyn InterfaceLaw> { Box::new(Double::new(&log)) };
-    ask_law(make);
-    assert_eq!(make().limits(&doubles::start()).unwrap().tension, CORRECT);
+fn boxed_laws_forward_all_methods() {
+    let log = CallLog::default();
+    let law: Box<dyn InterfaceLaw> = Box::new(RecordingPart::new(&log));
+    let limits = law.limits(&recording_part::previous_contact()).unwrap();
+    assert_eq!(limits.tension, MARKER_VALUE);
+    call_law_methods(|| -> Box<dyn InterfaceLaw> { Box::new(RecordingPart::new(&log)) });
     assert_eq!(log.take(), methods(source!("interface/mod.rs"), "InterfaceLaw"));
 }
 
 #[test]
-fn laws_of_the_plane() {
-    let log = Log::default();
-    let make = || InPlane(Double::new(&log));
-    ask_law(make);
+fn laws_of_the_plane_forward_all_methods() {
+    let log = CallLog::default();
+    call_law_methods(|| InPlane(RecordingPart::new(&log)));
     assert_eq!(log.take(), methods(source!("interface/plane_law.rs"), "PlaneLaw"));
-    let error = make().limits(&doubles::start()).unwrap_err();
-    assert!(matches!(error, basemat::Error::Scene { quantity: "Double", .. }), "{error}");
+    let law = InPlane(RecordingPart::new(&log));
+    let error = law.limits(&recording_part::previous_contact()).unwrap_err();
+    assert!(matches!(error, Error::Scene { quantity: "RecordingPart", .. }), "{error}");
 }
 
 #[test]
-fn boxed_grounds() {
-    fn ask(mut part: impl Ground) {
+fn boxed_grounds_forward_all_methods() {
+    fn call_methods(mut part: impl Ground) {
         let mut matrix = [0.0; 4];
         assert_eq!(part.elements().len(), 1);
-        assert_eq!(part.prepare(CORRECT, None, &mut unobserved), Err(doubles::refusal()));
+        assert_eq!(
+            part.prepare(MARKER_VALUE, None, &mut unobserved),
+            Err(recording_part::refusal())
+        );
         part.step_compliance(&mut matrix).unwrap();
-        assert_eq!(matrix, [CORRECT; 4]);
+        assert_eq!(matrix, [MARKER_VALUE; 4]);
         part.history(&mut matrix[..2]).unwrap();
         part.commit(&[1.0, 2.0]);
         part.static_compliance(&mut matrix).unwrap();
-        assert_eq!(matrix, [3.0 * CORRECT; 4]);
-        assert_eq!(part.diagonal_compliance().unwrap().unwrap().in_step, [CORRECT]);
-        assert_eq!(part.finer_compliance(), Ok(Some(vec![CORRECT])));
-        assert_eq!(part.description().soils, [doubles::soil()]);
-        assert_eq!(part.increment_error_bound(), CORRECT);
-        assert_eq!(part.save(), Ok(vec![CORRECT]));
-        assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
+        assert_eq!(matrix, [3.0 * MARKER_VALUE; 4]);
+        assert_eq!(part.diagonal_compliance().unwrap().unwrap().in_step, [MARKER_VALUE]);
+        assert_eq!(part.finer_compliance(), Ok(Some(vec![MARKER_VALUE])));
+        assert_eq!(part.description().soils, [recording_part::soil()]);
+        assert_eq!(part.increment_error_bound(), MARKER_VALUE);
+        assert_eq!(part.save(), Ok(vec![MARKER_VALUE]));
+        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::refusal()));
         part.free_field(&AtRest, 1.0, &mut matrix[..2]);
-        assert_eq!(matrix[..2], [4.0 * CORRECT; 2]);
+        assert_eq!(matrix[..2], [4.0 * MARKER_VALUE; 2]);
     }
-    let log = Log::default();
-    let part: Box<dyn Ground> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn Ground> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("bem/mod.rs"), "Ground"));
 }
 
 #[test]
-fn boxed_motions() {
-    fn ask(part: impl FreeField) {
-        assert_eq!(part.displacement(3.0, 1.0), [3.0, CORRECT]);
-        assert_eq!(part.displacement_at([3.0, 2.0], 1.0), [3.0, 2.0, CORRECT]);
-        let [mut moved, mut impulse] = [[0.0]; 2];
-        assert!(part.at_faces(&[], 3.0, &mut moved, &mut impulse));
-        assert_eq!([moved, impulse], [[3.0], [CORRECT]]);
-        assert_eq!(part.soils(), Some(&[CORRECT][..]));
+fn boxed_motions_forward_all_methods() {
+    fn call_methods(part: impl FreeField) {
+        assert_eq!(part.displacement(3.0, 1.0), [3.0, MARKER_VALUE]);
+        assert_eq!(part.displacement_at([3.0, 2.0], 1.0), [3.0, 2.0, MARKER_VALUE]);
+        let mut displacement = [0.0];
+        let mut impulse = [0.0];
+        assert!(part.at_faces(&[], 3.0, &mut displacement, &mut impulse));
+        assert_eq!([displacement, impulse], [[3.0], [MARKER_VALUE]]);
+        assert_eq!(part.soils(), Some(&[MARKER_VALUE][..]));
         assert!(part.moves_across() && part.records().is_empty());
-        assert_eq!(part.velocity(3.0, 1.0), [CORRECT, 3.0]);
+        assert_eq!(part.velocity(3.0, 1.0), [MARKER_VALUE, 3.0]);
     }
-    let log = Log::default();
-    let part: Box<dyn FreeField> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn FreeField> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("motion/free_field.rs"), "FreeField"));
 }
 
 #[test]
-fn boxed_incident_fields() {
-    fn ask(part: impl IncidentField) {
-        assert_eq!(part.displacement([3.0, 1.0], 1.0), [3.0, CORRECT]);
-        assert_eq!(part.stress([3.0, 1.0], 1.0), [CORRECT, 3.0, 1.0]);
+fn boxed_incident_fields_forward_all_methods() {
+    fn call_methods(part: impl IncidentField) {
+        assert_eq!(part.displacement([3.0, 1.0], 1.0), [3.0, MARKER_VALUE]);
+        assert_eq!(part.stress([3.0, 1.0], 1.0), [MARKER_VALUE, 3.0, 1.0]);
     }
-    let log = Log::default();
-    let part: Box<dyn IncidentField> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn IncidentField> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("bem/full_plane/incident_field.rs"), "IncidentField"));
 }
 
 #[test]
-fn boxed_histories() {
-    fn ask(mut part: impl ConvolutionHistory) {
+fn boxed_histories_forward_all_methods() {
+    fn call_methods(mut part: impl ConvolutionHistory) {
         let mut values = [0.0; 2];
         assert_eq!((part.steps(), part.memory()), (7, 5));
-        assert_eq!(part.prepare(3, &mut unobserved), Err(doubles::refusal()));
+        assert_eq!(part.prepare(3, &mut unobserved), Err(recording_part::refusal()));
         part.evaluate(&mut values).unwrap();
-        assert_eq!(values, [CORRECT; 2]);
+        assert_eq!(values, [MARKER_VALUE; 2]);
         part.push(&values);
-        assert_eq!(part.increment_error_bound(), CORRECT);
-        assert_eq!(part.save(), Ok(vec![CORRECT]));
-        assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
+        assert_eq!(part.increment_error_bound(), MARKER_VALUE);
+        assert_eq!(part.save(), Ok(vec![MARKER_VALUE]));
+        assert_eq!(part.restore(1, &[1.0]), Err(recording_part::refusal()));
     }
-    let log = Log::default();
-    let part: Box<dyn ConvolutionHistory> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn ConvolutionHistory> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("history/convolution.rs"), "ConvolutionHistory"));
 }
 
 #[test]
-fn boxed_schemes() {
-    fn ask(part: impl TimeScheme) {
-        assert_eq!(part.coefficients(CORRECT).load_fraction, CORRECT);
+fn boxed_schemes_forward_all_methods() {
+    fn call_methods(part: impl TimeScheme) {
+        assert_eq!(part.coefficients(MARKER_VALUE).load_fraction, MARKER_VALUE);
     }
-    let log = Log::default();
-    let part: Box<dyn TimeScheme> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn TimeScheme> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("coupled/scheme/mod.rs"), "TimeScheme"));
 }
 
 #[test]
-fn boxed_elements() {
-    fn ask(part: impl Element) {
+fn boxed_elements_forward_all_methods() {
+    fn call_methods(part: impl Element) {
         let mut matrix = [0.0];
         assert_eq!(part.nodes(), [5]);
         assert_eq!(part.directions().len(), 2);
@@ -189,74 +192,83 @@ fn boxed_elements() {
         part.geometric_stiffness(&[], &mut matrix);
         part.mass(&[], MassKind::Lumped, &mut matrix);
         part.damping(&[], &mut matrix);
-        assert_eq!(matrix, [10.0 * CORRECT]);
+        assert_eq!(matrix, [10.0 * MARKER_VALUE]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
-        assert_eq!(part.compression(), Some(CORRECT));
-        assert_eq!(part.density(), Some(CORRECT));
+        assert_eq!(part.compression(), Some(MARKER_VALUE));
+        assert_eq!(part.density(), Some(MARKER_VALUE));
         assert!(part.with_nodes(&[6]).is_some() && part.with_nodes(&[5]).is_none());
         assert_eq!(part.faces(), [ElementFace::side(&[7])]);
         assert!(!part.is_plane());
-        assert_eq!(part.check(&[]), Err(doubles::refusal()));
+        assert_eq!(part.check(&[]), Err(recording_part::refusal()));
         assert_eq!(part.order(), 11);
     }
-    let log = Log::default();
-    let part: Box<dyn Element> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn Element> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("../crates/structures/src/fem/element.rs"), "Element"));
 }
 
 #[test]
-fn boxed_kernels() {
-    fn ask(part: impl BoundaryKernel) {
-        let (mut g, mut h) = ([0.0], [0.0]);
+fn boxed_kernels_forward_all_methods() {
+    fn call_methods(part: impl BoundaryKernel) {
+        let mut g = [0.0];
+        let mut h = [0.0];
         assert_eq!(part.segments().len(), 0);
         part.coefficients(2, &mut g, &mut h).unwrap();
-        assert_eq!((g, h), ([2.0], [CORRECT]));
-        assert_eq!(part.symbol([0.0; 2], &mut g, &mut h), Ok(Some([CORRECT; 2])));
+        assert_eq!((g, h), ([2.0], [MARKER_VALUE]));
+        assert_eq!(part.symbol([0.0; 2], &mut g, &mut h), Ok(Some([MARKER_VALUE; 2])));
     }
-    let log = Log::default();
-    let part: Box<dyn BoundaryKernel> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn BoundaryKernel> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("bem/full_plane/mod.rs"), "BoundaryKernel"));
 }
 
 #[test]
-fn boxed_formats() {
-    fn ask(part: impl RecordFormat) {
-        assert_eq!(part.parse("", &mut &b""[..]), Err(doubles::refusal()));
-        assert_eq!(part.parse_all("", &mut &b""[..]), Err(doubles::refusal()));
+fn boxed_formats_forward_all_methods() {
+    fn call_methods(part: impl RecordFormat) {
+        assert_eq!(part.parse("", &mut &b""[..]), Err(recording_part::refusal()));
+        assert_eq!(part.parse_all("", &mut &b""[..]), Err(recording_part::refusal()));
     }
-    let log = Log::default();
-    let part: Box<dyn RecordFormat> = Box::new(Double::new(&log));
-    ask(part);
+    let log = CallLog::default();
+    let part: Box<dyn RecordFormat> = Box::new(RecordingPart::new(&log));
+    call_methods(part);
     assert_eq!(log.take(), methods(source!("../crates/records/src/format.rs"), "RecordFormat"));
 }
 
-/// GOAL: parts chosen at run time make a simulation, the same one.
-#[test]
-fn parts_chosen_at_run_time() {
+fn half_plane() -> ElasticGround {
     let soil = Soil::new(40.0e6, 0.3, 1800.0).unwrap();
-    let motion = basemat::motion::RickerDisplacement::new(0.05, 0.12, 0.6).unwrap();
-    let block = || RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
-    let ground = || {
-        basemat::bem::ElasticGround::new(soil, basemat::bem::Strip::uniform(-2.0..2.0, 6).unwrap())
-            .unwrap()
-    };
-    let law = || basemat::interface::Coulomb::new(0.4).unwrap();
-    let builder = || Simulation::builder(0.005).gravity(9.81);
-    let plain = builder().structure(block()).ground(ground()).interface(law()).motion(motion);
-    let structure: Box<dyn Structure> = Box::new(block());
-    let boxed_ground: Box<dyn Ground> = Box::new(ground());
-    let boxed_law: Box<dyn InterfaceLaw> = Box::new(law());
+    ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap()
+}
+
+/// GOAL: a simulation of boxed parts is that of the parts themselves.
+#[test]
+fn parts_chosen_at_run_time_make_the_same_simulation() {
+    let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    let law = Coulomb::new(0.4).unwrap();
+    let motion = RickerDisplacement::new(0.05, 0.12, 0.6).unwrap();
+    let boxed_structure: Box<dyn Structure> = Box::new(block.clone());
+    let boxed_ground: Box<dyn Ground> = Box::new(half_plane());
+    let boxed_law: Box<dyn InterfaceLaw> = Box::new(law);
     let boxed_motion: Box<dyn FreeField> = Box::new(motion);
-    let boxed_scheme: Box<dyn TimeScheme> = Box::new(basemat::coupled::Midpoint);
-    let boxed = builder()
-        .structure(structure)
+    let boxed_scheme: Box<dyn TimeScheme> = Box::new(Midpoint);
+    let mut plain = Simulation::builder(0.005)
+        .gravity(9.81)
+        .structure(block)
+        .ground(half_plane())
+        .interface(law)
+        .motion(motion)
+        .build()
+        .unwrap();
+    let mut boxed = Simulation::builder(0.005)
+        .gravity(9.81)
+        .structure(boxed_structure)
         .ground(boxed_ground)
         .interface(boxed_law)
         .motion(boxed_motion)
-        .scheme(boxed_scheme);
-    let (mut plain, mut boxed) = (plain.build().unwrap(), boxed.build().unwrap());
+        .scheme(boxed_scheme)
+        .build()
+        .unwrap();
     plain.run(200, |_| {}).unwrap();
     boxed.run(200, |_| {}).unwrap();
     assert_eq!(plain.state(), boxed.state());

@@ -1,5 +1,5 @@
-//! GOAL: structures in boxes, and everything that wraps a structure, hand every question on.
-//! SCENE: a double of the trait `Structure`, boxed, grouped, with springs, damped and reduced.
+//! GOAL: structures in boxes, and everything that wraps a structure, forward every method.
+//! SCENE: a recording structure, boxed, grouped, with springs, damped and reduced.
 //! REFERENCE: the methods of the trait's source.
 
 use std::collections::BTreeSet;
@@ -10,13 +10,13 @@ use basemat::structure::{
 };
 use basemat::{Error, Result};
 
-use super::doubles::CORRECT;
-use super::log::{Log, methods, source};
+use super::log::{CallLog, methods, source};
+use super::recording_part::MARKER_VALUE;
 
-/// Four degrees of freedom, two of them of the base.
-struct Double {
-    log: Log,
-    linear: bool,
+/// Structure of four degrees of freedom, two of them of the base, that records the calls of its methods.
+struct RecordingStructure {
+    log: CallLog,
+    is_linear: bool,
 }
 
 fn refusal() -> Error {
@@ -28,165 +28,173 @@ fn add_diagonal(matrix: &mut Triplets, value: f64) {
 }
 
 fn two_lines() -> Base {
-    let line = |ends: [f64; 2]| ends.map(|x| BaseNode::free(x, 0, 1)).to_vec();
-    Base::Lines(vec![line([0.0, 1.0]), line([2.0, 3.0])])
+    let lines = [[0.0, 1.0], [2.0, 3.0]];
+    Base::Lines(lines.map(|ends| ends.map(|x| BaseNode::free(x, 0, 1)).to_vec()).to_vec())
 }
 
-impl Structure for Double {
+impl Structure for RecordingStructure {
     fn dofs(&self) -> usize {
-        self.log.asked("dofs");
+        self.log.add("dofs");
         4
     }
 
     fn base(&self) -> Base {
-        self.log.asked("base");
+        self.log.add("base");
         two_lines()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.log.asked("mass");
-        add_diagonal(matrix, CORRECT);
+        self.log.add("mass");
+        add_diagonal(matrix, MARKER_VALUE);
         // A structure to be reduced must be coupled with the base.
-        for (i, j) in [(0, 2), (2, 0), (0, 3), (3, 0)].into_iter().filter(|_| self.linear) {
+        for (i, j) in [(0, 2), (2, 0), (0, 3), (3, 0)].into_iter().filter(|_| self.is_linear) {
             matrix.add(i, j, 1e-20);
         }
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.log.asked("stiffness");
-        add_diagonal(matrix, 2.0 * CORRECT);
+        self.log.add("stiffness");
+        add_diagonal(matrix, 2.0 * MARKER_VALUE);
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        self.log.asked("damping");
-        add_diagonal(matrix, 3.0 * CORRECT);
+        self.log.add("damping");
+        add_diagonal(matrix, 3.0 * MARKER_VALUE);
         Ok(())
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.log.asked("geometric_stiffness");
-        add_diagonal(matrix, -CORRECT);
+        self.log.add("geometric_stiffness");
+        add_diagonal(matrix, -MARKER_VALUE);
         Ok(())
     }
 
     fn has_active_damping(&self) -> bool {
-        self.log.asked("has_active_damping");
+        self.log.add("has_active_damping");
         true
     }
 
     fn has_active_stiffness(&self) -> bool {
-        self.log.asked("has_active_stiffness");
+        self.log.add("has_active_stiffness");
         true
     }
 
     fn description(&self) -> StructureDescription {
-        self.log.asked("description");
+        self.log.add("description");
         StructureDescription {
-            densities: Some([CORRECT, 2.0]),
-            faces_off_ground: Some((3, [CORRECT, 2.0])),
+            densities: Some([MARKER_VALUE, 2.0]),
+            faces_off_ground: Some((3, [MARKER_VALUE, 2.0])),
         }
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        self.log.asked("describe");
+        self.log.add("describe");
         Some(format!("places {dofs:?}"))
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        self.log.asked("load");
+        self.log.add("load");
         load[0] += time;
         Ok(())
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.log.asked("nonlinear");
-        (!self.linear).then_some(self)
+        self.log.add("nonlinear");
+        (!self.is_linear).then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        self.log.asked("nonlinear_mut");
-        (!self.linear).then_some(self)
+        self.log.add("nonlinear_mut");
+        (!self.is_linear).then_some(self)
     }
 }
 
-impl NonlinearForce for Double {
+impl NonlinearForce for RecordingStructure {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        self.log.asked("force");
+        self.log.add("force");
         force[0] += displacement[0];
         Ok(())
     }
 
     fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> Result<()> {
-        self.log.asked("tangent");
-        add_diagonal(matrix, 4.0 * CORRECT);
+        self.log.add("tangent");
+        add_diagonal(matrix, 4.0 * MARKER_VALUE);
         Ok(())
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        self.log.asked("energy");
-        Some(InternalEnergy { stored: displacement[0], dissipated: CORRECT })
+        self.log.add("energy");
+        Some(InternalEnergy { stored: displacement[0], dissipated: MARKER_VALUE })
     }
 
     fn commit(&mut self, _: &[f64]) {
-        self.log.asked("commit");
+        self.log.add("commit");
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        self.log.asked("save");
-        Ok(vec![CORRECT])
+        self.log.add("save");
+        Ok(vec![MARKER_VALUE])
     }
 
     fn restore(&mut self, _: &[f64]) -> Result<()> {
-        self.log.asked("restore");
+        self.log.add("restore");
         Err(refusal())
     }
 }
 
-/// Asks all there is to ask; `damping` as it should come out on the diagonal at the degree of freedom `place`.
-fn ask(mut part: impl Structure, place: usize, damping: f64) {
-    assert_eq!((part.dofs(), part.base()), (4, two_lines()));
-    let diagonal = |fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-        let mut matrix = Triplets::new(4);
-        fill(&mut matrix).unwrap();
-        let entries = matrix.entries().iter();
-        entries
-            .filter(|(i, j, _)| (*i, *j) == (place, place))
-            .map(|(_, _, value)| value)
-            .sum::<f64>()
-    };
-    assert_eq!(diagonal(&|m| part.mass(m)), CORRECT);
-    assert_eq!(diagonal(&|m| part.stiffness(m)), 2.0 * CORRECT);
-    assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
-    assert_eq!(diagonal(&|m| part.geometric_stiffness(m)), -CORRECT);
-    assert!(part.has_active_damping());
-    assert!(part.has_active_stiffness());
-    let description = part.description();
-    assert_eq!(description.densities, Some([CORRECT, 2.0]));
-    assert_eq!(description.faces_off_ground, Some((3, [CORRECT, 2.0])));
-    assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
+/// Entry of a matrix on its diagonal.
+fn diagonal_entry(dof: usize, fill: impl FnOnce(&mut Triplets) -> Result<()>) -> f64 {
+    let mut matrix = Triplets::new(4);
+    fill(&mut matrix).unwrap();
+    let entries = matrix.entries().iter();
+    entries.filter(|(i, j, _)| (*i, *j) == (dof, dof)).map(|(_, _, value)| value).sum()
+}
+
+/// Calls all methods; the damping matrix must have the entry `damping` on its diagonal.
+fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
+    assert_eq!((structure.dofs(), structure.base()), (4, two_lines()));
+    assert_eq!(diagonal_entry(dof, |matrix| structure.mass(matrix)), MARKER_VALUE);
+    assert_eq!(diagonal_entry(dof, |matrix| structure.stiffness(matrix)), 2.0 * MARKER_VALUE);
+    let damping_entry = diagonal_entry(dof, |matrix| structure.damping(matrix));
+    assert!((damping_entry - damping).abs() < 1e-12);
+    let geometric_entry = diagonal_entry(dof, |matrix| structure.geometric_stiffness(matrix));
+    assert_eq!(geometric_entry, -MARKER_VALUE);
+    assert!(structure.has_active_damping());
+    assert!(structure.has_active_stiffness());
+    let description = structure.description();
+    assert_eq!(description.densities, Some([MARKER_VALUE, 2.0]));
+    assert_eq!(description.faces_off_ground, Some((3, [MARKER_VALUE, 2.0])));
+    assert!(structure.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
-    part.load(0.25, &mut load).unwrap();
+    structure.load(0.25, &mut load).unwrap();
     assert_eq!(load, [0.25, 0.0, 0.0, 0.0]);
-    let Some(force) = part.nonlinear() else {
-        assert!(part.nonlinear_mut().is_none());
+    let Some(force) = structure.nonlinear() else {
+        assert!(structure.nonlinear_mut().is_none());
         return;
     };
     force.force(&[0.5; 4], &mut load).unwrap();
     assert_eq!(load, [0.75, 0.0, 0.0, 0.0]);
-    assert_eq!(diagonal(&|m| force.tangent(&[0.0; 4], m)), 4.0 * CORRECT);
-    let energy = InternalEnergy { stored: 0.5, dissipated: CORRECT };
+    let tangent_entry = diagonal_entry(dof, |matrix| force.tangent(&[0.0; 4], matrix));
+    assert_eq!(tangent_entry, 4.0 * MARKER_VALUE);
+    let energy = InternalEnergy { stored: 0.5, dissipated: MARKER_VALUE };
     assert_eq!(force.energy(&[0.5; 4]), Some(energy));
-    let saved = force.save().unwrap();
-    assert!(saved.contains(&CORRECT));
-    let force = part.nonlinear_mut().unwrap();
+    let variables = force.save().unwrap();
+    assert!(variables.contains(&MARKER_VALUE));
+    let force = structure.nonlinear_mut().unwrap();
     force.commit(&[0.0; 4]);
-    assert_eq!(force.restore(&saved), Err(refusal()));
+    assert_eq!(force.restore(&variables), Err(refusal()));
 }
 
-fn all() -> BTreeSet<String> {
-    let mut all = linear();
+/// Methods of linear structures.
+fn linear_methods() -> BTreeSet<String> {
+    methods(source!("../crates/structures/src/structure/mod.rs"), "Structure")
+}
+
+/// Methods of structures, linear and nonlinear.
+fn all_methods() -> BTreeSet<String> {
+    let mut all = linear_methods();
     all.extend(methods(
         source!("../crates/structures/src/structure/nonlinear.rs"),
         "NonlinearForce",
@@ -194,49 +202,46 @@ fn all() -> BTreeSet<String> {
     all
 }
 
-fn linear() -> BTreeSet<String> {
-    methods(source!("../crates/structures/src/structure/mod.rs"), "Structure")
-}
-
-fn double(log: &Log) -> Double {
-    Double { log: log.clone(), linear: false }
+fn nonlinear_structure(log: &CallLog) -> RecordingStructure {
+    RecordingStructure { log: log.clone(), is_linear: false }
 }
 
 #[test]
-fn boxed_structures() {
-    let log = Log::default();
-    let part: Box<dyn Structure> = Box::new(double(&log));
-    ask(part, 0, 3.0 * CORRECT);
-    assert_eq!(log.take(), all());
+fn boxed_structures_forward_all_methods() {
+    let log = CallLog::default();
+    let boxed: Box<dyn Structure> = Box::new(nonlinear_structure(&log));
+    call_methods(boxed, 0, 3.0 * MARKER_VALUE);
+    assert_eq!(log.take(), all_methods());
     // A box in a box.
-    let part: Box<dyn Structure> = Box::new(double(&log));
-    ask(Box::new(part), 0, 3.0 * CORRECT);
-    assert_eq!(log.take(), all());
+    let boxed: Box<dyn Structure> = Box::new(nonlinear_structure(&log));
+    call_methods(Box::new(boxed), 0, 3.0 * MARKER_VALUE);
+    assert_eq!(log.take(), all_methods());
 }
 
 #[test]
-fn structures_with_something_around_them() {
-    let log = Log::default();
-    ask(WithSprings::new(double(&log)), 0, 3.0 * CORRECT);
-    assert_eq!(log.take(), all());
+fn wrapped_structures_forward_all_methods() {
+    let log = CallLog::default();
+    call_methods(WithSprings::new(nonlinear_structure(&log)), 0, 3.0 * MARKER_VALUE);
+    assert_eq!(log.take(), all_methods());
 
-    let damped = ModalDamping::new(&[0.5]).unwrap().on(double(&log)).unwrap();
+    let damped = ModalDamping::new(&[0.5]).unwrap().on(nonlinear_structure(&log)).unwrap();
     log.take();
     // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at a degree of freedom outside the base, since
     // a motion of the base alone counts as rigid.
-    ask(damped, 2, CORRECT * (3.0 + 6.0_f64.sqrt()));
-    assert_eq!(log.take(), all());
+    call_methods(damped, 2, MARKER_VALUE * (3.0 + 6.0_f64.sqrt()));
+    assert_eq!(log.take(), all_methods());
 
-    ask(StructureGroup::new().with(double(&log), 0.0).unwrap(), 0, 3.0 * CORRECT);
-    assert_eq!(log.take(), all());
+    let group = StructureGroup::new().with(nonlinear_structure(&log), 0.0).unwrap();
+    call_methods(group, 0, 3.0 * MARKER_VALUE);
+    assert_eq!(log.take(), all_methods());
 }
 
-/// Properties that a reduction keeps of a linear structure, the only kind that it accepts.
+/// A reduction accepts linear structures only, and keeps their properties.
 #[test]
-fn reduced_structures() {
-    let log = Log::default();
-    let full = Double { log: log.clone(), linear: true };
+fn reduced_structures_forward_all_methods() {
+    let log = CallLog::default();
+    let full = RecordingStructure { log: log.clone(), is_linear: true };
     let reduced = CraigBampton::new(2).reduce(full).unwrap();
-    ask(reduced, 0, 3.0 * CORRECT);
-    assert_eq!(log.take(), linear());
+    call_methods(reduced, 0, 3.0 * MARKER_VALUE);
+    assert_eq!(log.take(), linear_methods());
 }

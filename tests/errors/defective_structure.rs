@@ -1,4 +1,4 @@
-//! A structure with one thing spoilt.
+//! A structure with one defect.
 
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;
@@ -7,24 +7,31 @@ use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 
 use basemat_problems::block_on_springs::bed;
 
-/// A structure of which one part is spoilt.
+/// Row, column and value of a matrix.
+pub(crate) type MatrixEntry = (usize, usize, f64);
+
+/// A rigid body with defects.
 #[derive(Clone)]
-pub(crate) struct Spoilt {
+pub(crate) struct DefectiveStructure {
     pub(crate) dofs: usize,
     pub(crate) nodes: Vec<BaseNode>,
-    pub(crate) mass: (usize, usize, f64),
-    pub(crate) stiffness: (usize, usize, f64),
-    pub(crate) damping: (usize, usize, f64),
-    pub(crate) tangent: Option<(usize, usize, f64)>,
-    pub(crate) shrinks: bool,
-    pub(crate) load_from: f64,
-    pub(crate) push: f64,
-    /// Commits before the nonlinear force breaks.
-    pub(crate) commits: usize,
+    /// Additional entries of its matrices.
+    pub(crate) mass: MatrixEntry,
+    pub(crate) stiffness: MatrixEntry,
+    pub(crate) damping: MatrixEntry,
+    pub(crate) tangent: Option<MatrixEntry>,
+    /// Whether it replaces its stiffness matrix by a smaller one.
+    pub(crate) shrinks_stiffness: bool,
+    /// Time from which its load is NaN, s.
+    pub(crate) load_fails_at: f64,
+    pub(crate) horizontal_load: f64,
+    /// Number of commits before the nonlinear force is NaN.
+    pub(crate) commits_before_failure: usize,
 }
 
-impl Spoilt {
-    pub(crate) fn sound() -> Self {
+impl DefectiveStructure {
+    /// A structure without defects.
+    pub(crate) fn intact() -> Self {
         Self {
             dofs: 3,
             nodes: BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]),
@@ -32,10 +39,10 @@ impl Spoilt {
             stiffness: (0, 0, 0.0),
             damping: (0, 0, 0.0),
             tangent: None,
-            shrinks: false,
-            load_from: f64::INFINITY,
-            push: 0.0,
-            commits: usize::MAX,
+            shrinks_stiffness: false,
+            load_fails_at: f64::INFINITY,
+            horizontal_load: 0.0,
+            commits_before_failure: usize::MAX,
         }
     }
 
@@ -44,7 +51,7 @@ impl Spoilt {
     }
 }
 
-impl Structure for Spoilt {
+impl Structure for DefectiveStructure {
     fn dofs(&self) -> usize {
         self.dofs
     }
@@ -65,7 +72,7 @@ impl Structure for Spoilt {
     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let (row, column, value) = self.stiffness;
         matrix.add(row, column, value);
-        if self.shrinks {
+        if self.shrinks_stiffness {
             *matrix = Triplets::new(1);
         }
         Ok(())
@@ -78,8 +85,8 @@ impl Structure for Spoilt {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        load[0] += self.push;
-        if time >= self.load_from {
+        load[0] += self.horizontal_load;
+        if time >= self.load_fails_at {
             load[0] = f64::NAN;
         }
         Ok(())
@@ -94,16 +101,16 @@ impl Structure for Spoilt {
     }
 }
 
-impl NonlinearForce for Spoilt {
+impl NonlinearForce for DefectiveStructure {
     fn force(&self, _: &[f64], force: &mut [f64]) -> basemat::Result<()> {
-        if self.commits == 0 {
+        if self.commits_before_failure == 0 {
             force[1] = f64::NAN;
         }
         Ok(())
     }
 
     fn commit(&mut self, _: &[f64]) {
-        self.commits -= 1;
+        self.commits_before_failure -= 1;
     }
 
     fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
