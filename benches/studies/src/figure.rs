@@ -34,7 +34,7 @@ pub(crate) struct Figure {
     pub(crate) panels: Vec<FigurePanel>,
 }
 
-/// SeriesStyle in which a series is drawn.
+/// Style in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SeriesStyle {
     /// Wide and pale: references, which lie beneath.
