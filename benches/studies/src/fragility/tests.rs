@@ -147,11 +147,11 @@ fn counts_without_a_finite_fit() {
     let counts = of_four_runs([1.0, 2.0, 3.0]);
     let mut with_failed_level = counts.clone();
     with_failed_level.push(Stripe { level: 3.0, runs: 0.0, exceeded: 0.0 });
-    let found = fit(&with_failed_level).unwrap().curve;
-    let wanted = fit(&counts).unwrap().curve;
+    let computed = fit(&with_failed_level).unwrap().curve;
+    let expected = fit(&counts).unwrap().curve;
     assert!(
-        (found.median - wanted.median).abs() < 1e-12
-            && found != FragilityCurve { median: 0.0, ..found }
+        (computed.median - expected.median).abs() < 1e-12
+            && computed != FragilityCurve { median: 0.0, ..computed }
     );
 }
 
@@ -165,8 +165,8 @@ fn bands_contain_the_true_median() {
     let trials = 300;
     let levels = [0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0];
     let mut random = Random(7);
-    let mut held = 0;
-    let mut independent = 0;
+    let mut in_band = 0;
+    let mut within_independent_errors = 0;
     let mut mean = 0.0;
     for _ in 0..trials {
         let outcomes: Vec<Vec<_>> = (0..motions)
