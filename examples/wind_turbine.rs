@@ -78,7 +78,7 @@ fn turbine() -> basemat::Result<MatrixModel> {
     mass.add_outer([(1, 1.0), (3, -foot_height)], TOWER_FOOT_MASS);
     mass.add(2, 2, TOWER_FOOT_MASS + TOWER_TOP_MASS);
     let omega = TAU * FIXED_BASE_FREQUENCY;
-    // Bending of the tower is the hub's displacement minus the rigid motion with the mat, u + r × (0, 0, HUB_HEIGHT).
+    // Bending of the tower is the hub's displacement minus the rigid motion with the mat, u + r × (0, 0, h).
     for bending in [[(6, 1.0), (0, -1.0), (4, -HUB_HEIGHT)], [(7, 1.0), (1, -1.0), (3, HUB_HEIGHT)]]
     {
         mass.add(bending[0].0, bending[0].0, TOWER_TOP_MASS);

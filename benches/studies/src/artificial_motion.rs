@@ -38,7 +38,7 @@ pub(crate) fn artificial_motion(frequency: f64, seed: u64) -> Result<Record> {
     Record::new(TIME_STEP, samples)?.scaled_to_peak(1.0)
 }
 
-/// FilterOscillator on a base that accelerates, by semi-implicit steps.
+/// Oscillator on a base that accelerates, by semi-implicit steps.
 struct FilterOscillator {
     rate: f64,
     displacement: f64,

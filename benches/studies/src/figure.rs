@@ -34,7 +34,7 @@ pub(crate) struct Figure {
     pub(crate) panels: Vec<FigurePanel>,
 }
 
-/// SeriesStyle in which a series is drawn.
+/// Style in which a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SeriesStyle {
     /// Wide and pale: references, which lie beneath.
@@ -190,11 +190,11 @@ impl FigurePanel {
         match self.logarithmic {
             [true, _] => {
                 let chart = builder.build_cartesian_2d(x.log_scale(), y.log_scale())?;
-                self.fill(chart, &|value| format!("{value}"), &power_of_ten)
+                self.fill(chart, &|value| format!("{value}"), &|value| power_of_ten(*value))
             }
             [_, true] => {
                 let chart = builder.build_cartesian_2d(x, y.log_scale())?;
-                self.fill(chart, format_x, &power_of_ten)
+                self.fill(chart, format_x, &|value| power_of_ten(*value))
             }
             _ => self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y),
         }
@@ -314,7 +314,7 @@ fn dash(from: i32, stroke: ShapeStyle) -> PathElement<(i32, i32)> {
     PathElement::new(vec![(PIXEL_SCALE * from, 0), (PIXEL_SCALE * (from + 5), 0)], stroke)
 }
 
-fn power_of_ten(value: &f64) -> String {
+fn power_of_ten(value: f64) -> String {
     format!("{value:.0e}")
 }
 

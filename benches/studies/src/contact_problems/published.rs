@@ -32,7 +32,7 @@ struct PublishedProblem {
     matrix: Vec<f64>,
 }
 
-/// PublishedSolution of a problem.
+/// Solution of a problem.
 struct PublishedSolution {
     method: String,
     iterations: usize,

@@ -147,11 +147,11 @@ fn counts_without_a_finite_fit() {
     let counts = of_four_runs([1.0, 2.0, 3.0]);
     let mut with_failed_level = counts.clone();
     with_failed_level.push(Stripe { level: 3.0, runs: 0.0, exceeded: 0.0 });
-    let found = fit(&with_failed_level).unwrap().curve;
-    let wanted = fit(&counts).unwrap().curve;
+    let computed = fit(&with_failed_level).unwrap().curve;
+    let expected = fit(&counts).unwrap().curve;
     assert!(
-        (found.median - wanted.median).abs() < 1e-12
-            && found != FragilityCurve { median: 0.0, ..found }
+        (computed.median - expected.median).abs() < 1e-12
+            && computed != FragilityCurve { median: 0.0, ..computed }
     );
 }
 

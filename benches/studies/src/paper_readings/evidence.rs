@@ -56,7 +56,7 @@ pub(crate) fn print_geometries(reading: &PaperReading, short: bool) {
     }
     println!(
         "\nfriction 0.4 over uplift only, {tried} geometries ({failed} do not stand or end early): \
-         never below {:.2} (at {:.0} x {:.0} ft); ReadingsTable 1 has {:.2}",
+         never below {:.2} (at {:.0} x {:.0} ft); Table 1 has {:.2}",
         smallest[0],
         smallest[1],
         smallest[2],
@@ -130,7 +130,7 @@ pub(crate) fn print_calibration(reading: &PaperReading, short: bool) {
         misfit(&PaperReading { width, height, ..reading.clone() }, rows)
     };
     let first_rows = |sizes: [f64; 2]| misfit_of(sizes, &[0, 1]);
-    println!("\ngeometries that meet the bonded and the uplift-only row of ReadingsTable 1 best:");
+    println!("\ngeometries that meet the bonded and the uplift-only row of Table 1 best:");
     let heights: &[f64] = if short { &[80.0] } else { &[50.0, 80.0, 110.0, 140.0, 170.0, 200.0] };
     for &height in heights {
         let sizes = [34.0, height];
@@ -166,7 +166,7 @@ pub(crate) fn print_search(reading: &PaperReading, short: bool) {
                 .unwrap_or(Geometry { sizes: [f64::NAN; 2], misfit: f64::INFINITY });
             let best = refine(&misfit_of, coarse, short);
             println!(
-                "best geometry for {} of ReadingsTable 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
+                "best geometry for {} of Table 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
                  {:.3}",
                 if rows.len() == 5 { "all rows" } else { "the sliding rows" },
                 if length_left_out { "without the element's length" } else { "as printed" },

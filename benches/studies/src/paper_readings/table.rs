@@ -34,9 +34,9 @@ impl ReadingsTable {
             "error",
         ])?;
         println!(
-            "peak shear between foundation and superstructure, lb/ft (against ReadingsTable 1; shear under the \
+            "peak shear between foundation and superstructure, lb/ft (against Table 1; shear under the \
              base; uplift; slip; A to a side, A up; steps in which the flow chart cycles); root mean \
-             square of ln(peak/ReadingsTable 1) over all rows, and over those that slide\n\n\
+             square of ln(peak/Table 1) over all rows, and over those that slide\n\n\
              | reading | bonded | uplift only | 0.4 | 0.3 | 0.2 | rms, all | rms, sliding |\n\
              |---|---|---|---|---|---|---|---|"
         );

@@ -110,11 +110,11 @@ pub(crate) fn run(options: &StabilityOptions) -> Result<(), AnyError> {
     if broken.is_empty() { Ok(()) } else { Err(broken.into()) }
 }
 
-fn is_selected(label: &str, selection: &Option<String>) -> bool {
-    selection.as_ref().is_none_or(|selection| selection == label)
+fn is_selected(label: &str, selection: Option<&str>) -> bool {
+    selection.is_none_or(|selection| selection == label)
 }
 
-fn selected(labels: &[String], selection: &Option<String>) -> Vec<usize> {
+fn selected(labels: &[String], selection: Option<&str>) -> Vec<usize> {
     (0..labels.len()).filter(|&k| is_selected(&labels[k], selection)).collect()
 }
 
@@ -123,9 +123,10 @@ fn compute(maps: &[StabilityMap], options: &StabilityOptions) -> Result<Vec<MapC
     let mut todo = Vec::new();
     for (index, map) in maps.iter().enumerate() {
         let schemes = map.schemes.iter().copied();
-        for scheme in schemes.filter(|scheme| is_selected(scheme.name(), &options.scheme)) {
-            for x in selected(&map.x.labels, &options.x) {
-                for y in selected(&map.y.labels, &options.y) {
+        for scheme in schemes.filter(|scheme| is_selected(scheme.name(), options.scheme.as_deref()))
+        {
+            for x in selected(&map.x.labels, options.x.as_deref()) {
+                for y in selected(&map.y.labels, options.y.as_deref()) {
                     if map.scene(scheme, x, y).exists() {
                         todo.push((index, scheme, [x, y]));
                     }

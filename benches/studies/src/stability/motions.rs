@@ -9,7 +9,7 @@ use basemat::motion::{FreeFieldFn, Record, STANDARD_GRAVITY, el_centro_1940};
 
 use std::f64::consts::{PI, TAU};
 
-/// ShakingMotion or force that shakes a cell.
+/// Motion or force that shakes a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ShakingMotion {
     /// No motion; the static state must remain.

@@ -129,7 +129,7 @@ impl TwoSprings {
         })
     }
 
-    /// BlockState after `elapsed` with derivatives by `matrix`.
+    /// State after `elapsed` with derivatives by `matrix`.
     fn after(&self, matrix: &StateMatrix, elapsed: f64) -> BlockState {
         let map = exponential(matrix, elapsed);
         map.map(|row| row.iter().zip(&self.state).map(|(a, b)| a * b).sum())

@@ -37,7 +37,7 @@ const TIME_STEP: f64 = 0.005;
 /// s.
 const RUN_DURATION: f64 = 12.0;
 
-/// BodyBase and ground of the body.
+/// Base and ground of the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum BodyBase {
     Springs,
@@ -334,6 +334,6 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         let curve = rotations.map(|rotation| Ok((rotation, law_at(law, alpha, rotation)?)));
         panels.push(panel.reference("the law", CURVE_RED, curve.collect::<basemat::Result<_>>()?));
     }
-    let title = "BodyBase moment and rotation of a body of 10 m × 20 m under El Centro";
+    let title = "Base moment and rotation of a body of 10 m × 20 m under El Centro";
     Ok(ValidationOutcome { checks, figure: Figure::new(title, 3, panels) })
 }
