@@ -53,7 +53,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Shaken> {
 }
 
 /// Saves SVG for the web and for paper, PNG for programs that do not read SVG.
-fn save(name: &str, picture: Svg) -> Result<()> {
+fn save(name: &str, picture: &Svg) -> Result<()> {
     let folder = Path::new(PICTURE_FOLDER);
     picture.save(folder.join(format!("{name}.svg")))?;
     picture.save_png(folder.join(format!("{name}.png")), 2.0)
@@ -72,12 +72,12 @@ fn main() -> Result<()> {
         ("safety_sliding", Quantity::SlidingSafety),
         ("safety_overturning", Quantity::OverturningSafety),
     ] {
-        save(name, plot::time_series("Tower under El Centro 1940", &series, quantity)?)?;
+        save(name, &plot::time_series("Tower under El Centro 1940", &series, quantity)?)?;
     }
-    save("roof", plot::probe_time_series("Roof acceleration", &series, "roof")?)?;
-    save("modes", plot::mode_map("Contact modes", &free.series)?)?;
-    save("pressure", plot::pressure_envelope("Pressure under the base", &free.run)?)?;
-    save("energy", plot::energy("Energy", &free.series)?)?;
+    save("roof", &plot::probe_time_series("Roof acceleration", &series, "roof")?)?;
+    save("modes", &plot::mode_map("Contact modes", &free.series)?)?;
+    save("pressure", &plot::pressure_envelope("Pressure under the base", &free.run)?)?;
+    save("energy", &plot::energy("Energy", &free.series)?)?;
 
     let periods = log_spaced(0.05, 2.0, 100)?;
     let free_field = el_centro_1940().response_spectrum(&periods, 0.05, &mut unobserved)?;
@@ -88,13 +88,13 @@ fn main() -> Result<()> {
         ("roof, bonded", &bonded_roof),
         ("roof, uplift and slip", &free_roof),
     ];
-    save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
+    save("spectra", &plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
     let rotation = free.run.whole.base_rotation;
     let times = [rotation.lowest.time, rotation.highest.time];
     save(
         "shapes",
-        plot::deformed_shapes("Largest rotations", &free.shape, &free.series, &times, 50.0)?,
+        &plot::deformed_shapes("Largest rotations", &free.shape, &free.series, &times, 50.0)?,
     )?;
     // Browsers play the animation.
     let out = Path::new(PICTURE_FOLDER);

@@ -163,12 +163,16 @@ fn sliding_tower() -> SimulationBuilder {
     base().structure(tower(SI_UNITS, Some(damping))).interface(friction(0.2))
 }
 
+/// A bonded tower without damping.
+fn bonded_tower() -> SimulationBuilder {
+    base().structure(tower(SI_UNITS, None)).interface(Bonded)
+}
+
 /// Scenes in the plane.
 fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
     let modes = Coordinates::Modes;
     let reduced = Coordinates::Reduced { tolerance: 1e-3 };
-    let bonded_tower = || base().structure(tower(SI_UNITS, None)).interface(Bonded);
-    let block = || block(SI_UNITS);
+    let block = block(SI_UNITS);
     let weakening = SlipWeakening { first: 0.3, residual: 0.1, distance: 0.1 };
     let pads = SofteningPads { stiffness: [5e7, 4e7], softening: 1e5 };
     let theta = Theta::new(0.6).unwrap();
@@ -178,16 +182,19 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ("sliding", sliding_tower().scheme(theta)),
         ("sliding, modes", sliding_tower().coordinates(modes)),
         ("sliding, reduced", sliding_tower().coordinates(reduced)),
-        ("uplift", base().structure(block()).interface(friction(f64::INFINITY))),
-        ("frictionless", base().structure(block()).interface(friction(0.0))),
-        ("direct history", base_with_direct_history().structure(block()).interface(friction(0.3))),
-        ("spring bed", base_on_springs().structure(block()).interface(friction(0.3))),
-        ("state variables", base_on_springs().structure(block()).interface(weakening)),
-        ("bonded pads", base_on_springs().structure(block()).interface(InPlane(pads))),
+        ("uplift", base().structure(block.clone()).interface(friction(f64::INFINITY))),
+        ("frictionless", base().structure(block.clone()).interface(friction(0.0))),
+        (
+            "direct history",
+            base_with_direct_history().structure(block.clone()).interface(friction(0.3)),
+        ),
+        ("spring bed", base_on_springs().structure(block.clone()).interface(friction(0.3))),
+        ("state variables", base_on_springs().structure(block.clone()).interface(weakening)),
+        ("bonded pads", base_on_springs().structure(block.clone()).interface(InPlane(pads))),
         (
             "loads, yielding",
             base()
-                .structure(block())
+                .structure(block.clone())
                 .interface(Yielding::new(2.5e5, 0.3).unwrap())
                 .load(Load::new(0, |t: f64| 3e4 * (40.0 * t).sin()))
                 .load(Load::table([(1, 2.0)], &[0.0, 0.5, 9.0], &[0.0, 1e4, 0.0]).unwrap()),
@@ -196,7 +203,7 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
             "loads, modes",
             sliding_tower().coordinates(modes).load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
         ),
-        ("Newton", base().structure(QuadraticSpring(block())).interface(friction(0.3))),
+        ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
     ]
 }
 

@@ -47,6 +47,7 @@ fn changes(runs: &[Outcome; 3], value: impl Fn(&Outcome) -> f64) -> Changes {
 
 #[test]
 fn sliding_block_is_smooth_and_slip_converges() {
+    type NamedSlip = (&'static str, fn(&Outcome) -> f64);
     let runs = refined_runs(0.3, None);
     let finest = runs[2];
     for outcome in &runs {
@@ -58,7 +59,7 @@ fn sliding_block_is_smooth_and_slip_converges() {
     let change = changes(&runs, |outcome| outcome.rms_above).fine;
     assert!(change < 0.05 * finest.rms_above, "{change}");
     assert!(finest.alternating < 0.8 * runs[1].alternating, "{finest:?}");
-    let slips: [(&str, fn(&Outcome) -> f64); 2] =
+    let slips: [NamedSlip; 2] =
         [("peak", |outcome| outcome.peak_slip), ("residual", |outcome| outcome.residual_slip)];
     for (name, slip) in slips {
         let Changes { coarse, fine } = changes(&runs, slip);

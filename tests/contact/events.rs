@@ -33,7 +33,7 @@ struct SampledRun {
 impl SampledRun {
     /// Records a state, the last of every `steps_per_sample`.
     fn record(&mut self, state: &State, steps_per_sample: usize) {
-        if state.step % steps_per_sample == 0 {
+        if state.step.is_multiple_of(steps_per_sample) {
             let u = state.absolute_displacement();
             self.history.push([u[0], u[1], u[2]]);
         }

@@ -33,8 +33,9 @@ fn with_tangent(tangent: MatrixEntry) -> DefectiveStructure {
 
 #[test]
 fn structures_that_write_out_of_range_or_nan_are_refused() {
+    type MatrixWithEntry = (&'static str, fn(MatrixEntry) -> DefectiveStructure);
     assert!(DefectiveStructure::intact().scene().build().is_ok());
-    let matrices: [(&str, fn(MatrixEntry) -> DefectiveStructure); 4] = [
+    let matrices: [MatrixWithEntry; 4] = [
         ("mass matrix", with_mass),
         ("stiffness matrix", with_stiffness),
         ("damping matrix", with_damping),

@@ -221,8 +221,9 @@ fn layers_are_compressed_while_the_weight_comes_on() {
     assert_close(&pressures(&simulation), &expected);
 }
 
-fn is_large_settlement(warning: &&Warning) -> bool {
-    matches!(warning, Warning::LargeSettlement { .. })
+/// The warning of a large settlement.
+fn large_settlement(warnings: &[Warning]) -> Option<Warning> {
+    warnings.iter().find(|warning| matches!(warning, Warning::LargeSettlement { .. })).copied()
 }
 
 /// Released at t = 0 on soil that bears 1 kPa, a body sinks by ½ (g − cap/m) t², and the run says so: whatever the law.
@@ -236,8 +237,8 @@ fn sinking_warns() {
         let mut simulation = scene(law, 0.0).gravity_stage(GravityStage::Unloaded).build().unwrap();
         let run = simulation.run(500, |_| {}).unwrap();
         let expected = 0.5 * STANDARD_GRAVITY * (1.0 - cap / MEAN_PRESSURE) * 2.0_f64.powi(2);
-        let warning = run.warnings.iter().find(is_large_settlement).expect("a warning");
-        let Warning::LargeSettlement { foundation: 0, settlement, width } = *warning else {
+        let warning = large_settlement(&run.warnings).expect("a warning");
+        let Warning::LargeSettlement { foundation: 0, settlement, width } = warning else {
             panic!("{warning:?}")
         };
         assert!(
@@ -247,5 +248,5 @@ fn sinking_warns() {
     }
     let mut simulation = scene(Coulomb::new(0.3).unwrap(), 0.0).build().unwrap();
     let run = simulation.run(50, |_| {}).unwrap();
-    assert_eq!(run.warnings.iter().find(is_large_settlement), None);
+    assert_eq!(large_settlement(&run.warnings), None);
 }

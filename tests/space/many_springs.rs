@@ -141,7 +141,7 @@ impl MaxDifference {
 
 /// Numbers of steps with uplift and with slip.
 #[derive(Default)]
-struct StepCounts {
+struct UpliftCounts {
     uplift: usize,
     slip: usize,
 }
@@ -152,8 +152,8 @@ fn compare(
     mut on_bed: Simulation,
     mut on_matrices: Simulation,
     steps: usize,
-) -> StepCounts {
-    let mut counts = StepCounts::default();
+) -> UpliftCounts {
+    let mut counts = UpliftCounts::default();
     let mut displacements = MaxDifference::default();
     let mut tractions = MaxDifference::default();
     for _ in 0..steps {
@@ -183,7 +183,7 @@ fn compare(
 
 #[test]
 fn a_bed_moves_like_the_same_ground_with_matrices() {
-    let mut total = StepCounts::default();
+    let mut total = UpliftCounts::default();
     for number in 0..SCENE_COUNT {
         let counts =
             compare(&number.to_string(), scene(number, true), scene(number, false), STEP_COUNT);
@@ -194,8 +194,8 @@ fn a_bed_moves_like_the_same_ground_with_matrices() {
 }
 
 /// El Centro, scaled.
-fn scaled_record(factor: f64) -> Option<Record> {
-    Some(el_centro_1940().scaled(factor).unwrap())
+fn scaled_record(factor: f64) -> Record {
+    el_centro_1940().scaled(factor).unwrap()
 }
 
 /// A building on a bed of 8 cells a side.
@@ -208,7 +208,7 @@ fn building_scene(
     let bed = bed.with_dashpots(4e5, 3e5).unwrap();
     Simulation::builder(0.01)
         .structure(building.clone())
-        .motion(Triaxial { x: scaled_record(2.5), y: scaled_record(-1.5), up: None })
+        .motion(Triaxial { x: Some(scaled_record(2.5)), y: Some(scaled_record(-1.5)), up: None })
         .interface(Coulomb::new(0.25).unwrap())
         .coordinates(coordinates)
         .ground(disclosed_ground(bed, is_disclosed))
@@ -268,7 +268,7 @@ fn a_tower_rocks_and_slides_on_thousands_of_springs() {
         .structure(tower())
         .ground(tower_bed())
         .interface(Coulomb::new(0.3).unwrap())
-        .motion(Triaxial { x: scaled_record(2.0), y: scaled_record(-1.2), up: None })
+        .motion(Triaxial { x: Some(scaled_record(2.0)), y: Some(scaled_record(-1.2)), up: None })
         .build()
         .unwrap();
     let conditioning = simulation.conditioning();

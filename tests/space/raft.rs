@@ -181,7 +181,7 @@ impl EdgeLoadReference {
         let outer_nodes =
             nodes.filter(|(_, place)| place.iter().any(|x| x.abs() > 0.499 * RAFT_SIDE));
         let loads = outer_nodes
-            .map(|(node, _)| Load::constant(vertical(model, node), -TOTAL_LOAD / (4 * 8) as f64));
+            .map(|(node, _)| Load::constant(vertical(model, node), -TOTAL_LOAD / f64::from(4 * 8)));
         let computed = response(model, ground, loads);
         let scale = 1e-3 * soil.shear_modulus() * RAFT_SIDE / TOTAL_LOAD;
         let settlement_errors = (0..3).map(|k| {
@@ -202,7 +202,7 @@ impl EdgeLoadReference {
 /// Reference: Ritz solution of `tests/data/plan/plate_on_half_space.py`: settlements of the middle, the middle of a side
 /// and a corner times G B/P, and the moment in the middle over P.
 #[test]
-fn loads_on_the_edges_of_a_stiff_raft() {
+fn loads_on_the_edges_of_a_stiff_raft_settle_it_as_the_ritz_solution() {
     let soil = Soil::new(30.0e6, 1.0 / 3.0, 1900.0).unwrap();
     for (stiffness, settlements, moment, tolerances) in [
         (1e-2, [0.193_53, 0.306_74, 0.388_93], -0.009_763, [0.03, 0.13]),
@@ -276,7 +276,7 @@ impl RoundRaft {
         self.model.mesh().nodes()[node][0]
     }
 
-    /// Rotation of the edge of the raft, held down, by a moment of [`TOTAL_LOAD`] Nm on it.
+    /// Rotation of the edge of the raft, bonded to the soil, by a moment of [`TOTAL_LOAD`] Nm on it.
     fn edge_rotation(&self, cells: usize, gravity: f64) -> f64 {
         let x_squares: f64 =
             self.edge_nodes().iter().map(|&node| self.x(node) * self.x(node)).sum();
@@ -301,7 +301,7 @@ impl RoundRaft {
 ///
 /// Reference: Ritz solution of `tests/data/plan/disc_on_half_space.py`, settlements times G R/P.
 #[test]
-fn a_load_on_the_edge_of_a_round_raft() {
+fn a_load_on_the_edge_of_a_round_raft_settles_it_as_the_ritz_solution() {
     const EXPECTED_MIDDLE: f64 = 0.0963;
     const EXPECTED_EDGE: f64 = 0.2086;
     let soil = round_soil();

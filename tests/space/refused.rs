@@ -40,7 +40,7 @@ fn flat_body() -> RigidBody {
 const FLAT_BODY_WEIGHT: f64 = 9.80665 * 2000.0 * 108.0;
 
 #[test]
-fn bases_of_another_dimension() {
+fn bases_of_another_dimension_are_errors() {
     let error = build_error(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), cells(), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "structure", .. }), "{error}");
     assert!(error.to_string().contains("faces"), "{error}");
@@ -54,7 +54,7 @@ fn bases_of_another_dimension() {
 }
 
 #[test]
-fn cells_that_no_face_covers() {
+fn cells_that_no_face_covers_are_errors() {
     let wide_cells = SpringCells::under([7.0, 4.0], [0.0; 2], [7, 4], BED_PROPERTIES);
     let error = build_error(cube(), wide_cells, Bonded);
     let Error::Item { ref item, ref source } = error else { panic!("{error}") };
@@ -135,7 +135,7 @@ fn with_element(index: usize, element: ContactElement) -> SpringCells {
 }
 
 #[test]
-fn elements_that_are_no_cells() {
+fn elements_that_are_no_cells_are_errors() {
     // One that has no place in plan, unlike the others.
     let error = build_error(cube(), with_element(3, ContactElement::new(-1.0, 1.0)), Bonded);
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
@@ -312,7 +312,7 @@ fn mats_stand_anywhere() {
 struct Congruential(u64);
 
 impl Congruential {
-    fn next(&mut self) -> f64 {
+    fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -325,8 +325,8 @@ fn all_convex_quadrilaterals_carry_a_rigid_body() {
     let mut built_count = 0;
     for _ in 0..300 {
         let square = [[-5.0, -5.0], [5.0, -5.0], [5.0, 5.0], [-5.0, 5.0]];
-        let corners =
-            square.map(|[x, y]| [x + 6.0 * random.next() - 3.0, y + 6.0 * random.next() - 3.0]);
+        let corners = square
+            .map(|[x, y]| [x + 6.0 * random.uniform() - 3.0, y + 6.0 * random.uniform() - 3.0]);
         let body = on_face(&corners, [0.0; 2]);
         // Narrow corners, and faces that are not convex, are refused for other reasons.
         let Ok(ground) = SpringGround::under(&body, 8, 4e7, 3e7) else { continue };

@@ -141,7 +141,7 @@ fn soil() -> Soil {
 /// A column in the middle of a slab of 12 × 12 m: its settlement against the middle of an edge is 2.75 mm on 16 × 16
 /// cells.
 #[test]
-fn too_few_cells_under_a_slab_are_told() {
+fn too_few_cells_under_a_slab_are_an_error_or_a_warning() {
     let slab = Slab { side: 12.0, count: 24, thickness: 0.25, columns: vec![([12, 12], 120e3)] };
     let error = slab.build(4).expect_err("an error");
     let Error::CoarseBase(CoarseBaseError {
@@ -165,8 +165,8 @@ fn too_few_cells_under_a_slab_are_told() {
             Warning::CoarseBase { elements, needed, .. } => Some([*elements, *needed]),
             _ => None,
         });
-        let is_told = found.is_some_and(|[elements, needed]| elements == cells && needed <= 14);
-        assert_eq!(is_told, cells < 12, "{cells}: {warnings:?}");
+        let has_warning = found.is_some_and(|[elements, needed]| elements == cells && needed <= 14);
+        assert_eq!(has_warning, cells < 12, "{cells}: {warnings:?}");
     }
 }
 
@@ -220,13 +220,13 @@ fn a_soft_slab_on_a_ground_without_finer_cells_is_no_error() {
     let builder = Simulation::builder(0.01).structure(slab.model().unwrap()).ground(bed);
     let mut simulation = builder.interface(Coulomb::new(0.5).unwrap()).build().unwrap();
     let warnings = simulation.run(1, |_| {}).unwrap().warnings;
-    let is_told = warnings.iter().any(|warning| {
+    let has_warning = warnings.iter().any(|warning| {
         matches!(
             warning,
             Warning::CoarseBase { elements: 8, difference: None, axis: Some('x'), .. }
         )
     });
-    assert!(is_told, "{warnings:?}");
+    assert!(has_warning, "{warnings:?}");
     let computed = -simulation.static_displacement()[slab.dof([4; 2])];
     let expected = slab.pressure() / BED_PROPERTIES.stiffness[0];
     assert!((computed / expected - 1.0).abs() < 0.01, "{computed} {expected}");

@@ -98,7 +98,7 @@ impl FreeField for CircularMotion {
 /// A block slides in a circle: its acceleration is friction's, at right angles to what is left of the ground's
 /// (relative speed √(A² − (φ g)²)/ω).
 #[test]
-fn a_block_on_a_ground_that_moves_in_a_circle() {
+fn a_block_on_a_ground_that_moves_in_a_circle_slides_in_a_circle() {
     let friction = 0.3;
     let gravity = 1e-3;
     let frequency = 0.1;

@@ -79,7 +79,7 @@ fn only_warning(run: &Run) -> Warning {
 
 /// The same along x and along y.
 #[test]
-fn cells_longer_than_a_twelfth_of_waves() {
+fn cells_longer_than_a_twelfth_of_waves_give_a_warning() {
     for motion in [motion_along_x(el_centro_1940()), motion_along_y(el_centro_1940())] {
         let [coarse, fine] = [4, 9].map(|cells| {
             let sides = [20.0, 20.0, 8.0];
@@ -101,7 +101,7 @@ fn cells_longer_than_a_twelfth_of_waves() {
 
 /// Of a mat twice as long as wide, the side with the fewer cells counts; unions of many cells do not.
 #[test]
-fn rows_and_columns_are_counted() {
+fn rows_and_columns_of_cells_are_counted() {
     let [coarse, fine] = [2, 4].map(|cells| {
         let sides = [8.0, 4.0, 12.0];
         let motion = motion_along_y(el_centro_1940());
@@ -121,7 +121,7 @@ fn run_of_height(height: f64, time_step: f64) -> ShakenResult {
 
 /// A tower that rocks along y: steps that waves cross its base in damp it; a flat block follows the ground.
 #[test]
-fn steps_as_long_as_waves_take_across() {
+fn steps_as_long_as_waves_cross_the_base_give_a_warning() {
     let fine = run_of_height(20.0, 2.5e-3);
     assert_eq!(fine.run.warnings, []);
     let coarse = run_of_height(20.0, 1e-2);
@@ -183,7 +183,7 @@ fn soft_storey_warnings(axis: usize) -> Vec<Warning> {
 
 /// Along y as along x: a base that reaches beyond its cells, a storey that is all but a mechanism, a base that turns far.
 #[test]
-fn what_is_said_of_x_is_said_of_y() {
+fn warnings_along_y_are_those_along_x() {
     let expected_period = TAU * (1e5 / 1e4_f64).sqrt();
     for (axis, name) in [(0, 'x'), (1, 'y')] {
         let warnings = soft_storey_warnings(axis);
@@ -229,7 +229,7 @@ fn sampling_warnings(sampled_cells: Option<[usize; 2]>) -> Vec<Warning> {
 
 /// More than 512 cells are too many for the gate; a user's ground may say so too.
 #[test]
-fn samples_of_the_passivity_gate_are_told() {
+fn sampled_passivity_gives_a_warning() {
     assert_eq!(square_ground(22).description().sampled_cells, None);
     assert_eq!(square_ground(23).description().sampled_cells, Some([256, 529]));
     assert_eq!(sampling_warnings(None), []);
@@ -255,9 +255,9 @@ fn substituted_friction(friction: f64) -> Option<String> {
     found.map(ToString::to_string)
 }
 
-/// Beside a bond, infinite friction is replaced by a finite one where it slides: that is said, and nowhere else.
+/// Beside a bond, infinite friction is replaced by a finite one where it slides, with a warning.
 #[test]
-fn substituted_friction_is_told() {
+fn substituted_friction_gives_a_warning() {
     assert!(substituted_friction(f64::INFINITY).unwrap().contains("friction 10000 "));
     assert_eq!(substituted_friction(5.0), None);
 }
@@ -326,7 +326,7 @@ fn is_high_friction(warning: &Warning) -> bool {
 
 /// A base of 6 × 6 m on cells of 4 × 4 m; one row of cells on springs; friction with several solutions.
 #[test]
-fn a_base_beyond_few_cells_a_single_row_and_high_friction_are_told() {
+fn a_base_beyond_few_cells_a_single_row_and_high_friction_give_warnings() {
     let warnings = cell_warnings([2.0; 2], [3, 3], 0.5);
     assert!(warnings.iter().any(is_uncovered_by_a_metre), "{warnings:?}");
     for friction in [3.0, 99.0, f64::INFINITY] {
@@ -334,8 +334,8 @@ fn a_base_beyond_few_cells_a_single_row_and_high_friction_are_told() {
         assert!(warnings.iter().any(is_high_friction), "{friction}");
     }
     let warnings = cell_warnings([3.0; 2], [4, 4], 2.9);
-    for is_told in [is_uncovered_by_a_metre, is_single_row, is_high_friction] {
-        assert!(!warnings.iter().any(is_told), "{warnings:?}");
+    for predicate in [is_uncovered_by_a_metre, is_single_row, is_high_friction] {
+        assert!(!warnings.iter().any(predicate), "{warnings:?}");
     }
     let warnings = cell_warnings([3.0, 3.0], [6, 1], 0.5);
     assert!(warnings.iter().any(is_single_row), "{warnings:?}");

@@ -7,9 +7,9 @@ use crate::AnyError;
 
 pub(crate) type SheetArea<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// KeySample of a curve or marker beside its name.
+/// Sample of a curve or marker beside its name.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum KeySample {
+pub(crate) enum LegendSample {
     Line(RGBColor),
     Circle(RGBColor),
     Ring(RGBColor),
@@ -26,7 +26,7 @@ const LINE_HEIGHT: i32 = 24;
 pub(crate) fn draw<'b>(
     sheet: &SheetArea<'b>,
     top: i32,
-    entries: &[(String, KeySample)],
+    entries: &[(String, LegendSample)],
 ) -> Result<SheetArea<'b>, AnyError> {
     let longest = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let strip = u32::try_from(NAME_MARGIN + LETTER_WIDTH * longest)?;
@@ -34,15 +34,15 @@ pub(crate) fn draw<'b>(
     let mut y = top;
     for (name, sample) in entries {
         match *sample {
-            KeySample::Line(color) => {
+            LegendSample::Line(color) => {
                 key.draw(&PathElement::new([(4, y), (28, y)], color.stroke_width(3)))?;
             }
-            KeySample::Circle(color) => key.draw(&Circle::new((16, y), 4, color.filled()))?,
-            KeySample::Ring(color) => key.draw(&Circle::new((16, y), 4, color))?,
-            KeySample::Triangle(color) => {
+            LegendSample::Circle(color) => key.draw(&Circle::new((16, y), 4, color.filled()))?,
+            LegendSample::Ring(color) => key.draw(&Circle::new((16, y), 4, color))?,
+            LegendSample::Triangle(color) => {
                 key.draw(&TriangleMarker::new((16, y), 5, color.filled()))?;
             }
-            KeySample::Cross(color) => key.draw(&Cross::new((16, y), 4, color))?,
+            LegendSample::Cross(color) => key.draw(&Cross::new((16, y), 4, color))?,
         }
         key.draw(&Text::new(name.clone(), (36, y - 6), ("sans-serif", 15)))?;
         y += LINE_HEIGHT;

@@ -60,17 +60,26 @@ struct WeightsCase {
 }
 
 impl WeightsCase {
-    #[allow(clippy::too_many_arguments, reason = "a row of the table")]
-    fn new(
-        name: &'static str,
-        profile: SoilProfile,
-        elements: usize,
-        grading: Grading,
-        stages: Stages,
-        time_step: f64,
-        steps: usize,
-    ) -> Self {
-        Self { name, profile, elements, grading, stages, time_step, steps }
+    /// Graded elements, two stages, and steps of 5 ms.
+    fn new(name: &'static str, profile: SoilProfile, elements: usize, steps: usize) -> Self {
+        Self {
+            name,
+            profile,
+            elements,
+            grading: Grading::Cosine,
+            stages: Stages::Two,
+            time_step: 5e-3,
+            steps,
+        }
+    }
+
+    fn three_stages(self) -> Self {
+        Self { stages: Stages::Three, ..self }
+    }
+
+    /// Equal elements, with shear waves that cross this fraction of an element in a step.
+    fn uniform(self, fraction: f64) -> Self {
+        Self { grading: Grading::Uniform, time_step: crossing_step(fraction), ..self }
     }
 }
 
@@ -82,140 +91,33 @@ fn crossing_step(fraction: f64) -> f64 {
 fn cases() -> Result<Vec<WeightsCase>> {
     let clay = [(150.0, 6.0)];
     let ten_layers: Vec<_> = (0..10).map(|i| (150.0 + 20.0 * f64::from(i), 2.0)).collect();
-    let two = Stages::Two;
-    let three = Stages::Three;
-    let graded = Grading::Cosine;
-    let equal = Grading::Uniform;
-    let rows = [
-        WeightsCase::new(
-            "layer on rock",
-            profile(&clay, true, false)?,
-            12,
-            graded,
-            two,
-            5e-3,
-            2000,
-        ),
-        WeightsCase::new(
-            "the same, three stages",
-            profile(&clay, true, false)?,
-            12,
-            graded,
-            three,
-            5e-3,
-            2000,
-        ),
-        WeightsCase::new(
-            "the same, undamped",
-            profile(&clay, false, false)?,
-            12,
-            graded,
-            three,
-            5e-3,
-            1000,
-        ),
-        WeightsCase::new("rigid base", profile(&clay, true, true)?, 8, graded, two, 5e-3, 1000),
-        WeightsCase::new(
-            "rigid base, undamped",
-            profile(&clay, false, true)?,
-            8,
-            graded,
-            three,
-            5e-3,
-            1000,
-        ),
-        WeightsCase::new(
-            "half-plane, damped",
-            profile(&[], true, false)?,
-            8,
-            graded,
-            two,
-            5e-3,
-            4000,
-        ),
-        WeightsCase::new(
-            "three layers, 32 elements",
-            profile(&ten_layers[..3], true, false)?,
-            32,
-            graded,
-            three,
-            5e-3,
-            500,
-        ),
-        WeightsCase::new(
-            "ten layers",
-            profile(&ten_layers, true, false)?,
-            12,
-            graded,
-            three,
-            5e-3,
-            500,
-        ),
-        WeightsCase::new(
-            "skin of 1 cm",
-            profile(&[(300.0, 0.01), clay[0]], true, false)?,
-            8,
-            graded,
-            two,
-            5e-3,
-            200,
-        ),
-        WeightsCase::new(
-            "skin of 1 mm",
-            profile(&[(300.0, 1e-3), clay[0]], true, false)?,
-            8,
-            graded,
-            two,
-            5e-3,
-            100,
-        ),
-        WeightsCase::new(
-            "slab on clay",
-            profile(&[(2300.0, 0.5), (100.0, 20.0)], true, false)?,
-            12,
-            graded,
-            three,
-            5e-3,
-            500,
-        ),
-        WeightsCase::new(
-            "c Δt/l = 0.1",
-            profile(&clay, true, false)?,
-            12,
-            equal,
-            two,
-            crossing_step(0.1),
-            400,
-        ),
-        WeightsCase::new(
-            "c Δt/l = 0.01",
-            profile(&clay, true, false)?,
-            12,
-            equal,
-            two,
-            crossing_step(0.01),
-            400,
-        ),
-        WeightsCase::new(
-            "c Δt/l = 0.003",
-            profile(&clay, true, false)?,
-            12,
-            equal,
-            two,
-            crossing_step(0.003),
-            400,
-        ),
-        WeightsCase::new(
-            "c Δt/l = 0.001",
-            profile(&clay, true, false)?,
-            12,
-            equal,
-            two,
-            crossing_step(0.001),
-            400,
-        ),
-    ];
-    Ok(rows.into())
+    let on_rock = profile(&clay, true, false)?;
+    let undamped = profile(&clay, false, false)?;
+    let rigid_base = profile(&clay, true, true)?;
+    let undamped_rigid_base = profile(&clay, false, true)?;
+    let half_plane = profile(&[], true, false)?;
+    let three_layers = profile(&ten_layers[..3], true, false)?;
+    let ten_layers = profile(&ten_layers, true, false)?;
+    let skin_of_centimetre = profile(&[(300.0, 0.01), clay[0]], true, false)?;
+    let skin_of_millimetre = profile(&[(300.0, 1e-3), clay[0]], true, false)?;
+    let slab_on_clay = profile(&[(2300.0, 0.5), (100.0, 20.0)], true, false)?;
+    Ok(vec![
+        WeightsCase::new("layer on rock", on_rock.clone(), 12, 2000),
+        WeightsCase::new("the same, three stages", on_rock.clone(), 12, 2000).three_stages(),
+        WeightsCase::new("the same, undamped", undamped, 12, 1000).three_stages(),
+        WeightsCase::new("rigid base", rigid_base, 8, 1000),
+        WeightsCase::new("rigid base, undamped", undamped_rigid_base, 8, 1000).three_stages(),
+        WeightsCase::new("half-plane, damped", half_plane, 8, 4000),
+        WeightsCase::new("three layers, 32 elements", three_layers, 32, 500).three_stages(),
+        WeightsCase::new("ten layers", ten_layers, 12, 500).three_stages(),
+        WeightsCase::new("skin of 1 cm", skin_of_centimetre, 8, 200),
+        WeightsCase::new("skin of 1 mm", skin_of_millimetre, 8, 100),
+        WeightsCase::new("slab on clay", slab_on_clay, 12, 500).three_stages(),
+        WeightsCase::new("c Δt/l = 0.1", on_rock.clone(), 12, 400).uniform(0.1),
+        WeightsCase::new("c Δt/l = 0.01", on_rock.clone(), 12, 400).uniform(0.01),
+        WeightsCase::new("c Δt/l = 0.003", on_rock.clone(), 12, 400).uniform(0.003),
+        WeightsCase::new("c Δt/l = 0.001", on_rock, 12, 400).uniform(0.001),
+    ])
 }
 
 /// Processor time of the lags up to a power of two, s.

@@ -24,9 +24,10 @@ use basemat_fourier::RealPlanner;
 
 use super::block_file::LagBlock;
 use super::contour::{
-    CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, evaluate, panel_factor,
+    CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, panel_factor,
     self_pair_classes,
 };
+use super::panel_evaluation::evaluate;
 use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};

@@ -26,14 +26,14 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::runge_kutta::on_circle;
 use crate::error::Result;
 use crate::history::PairClasses;
-use crate::linalg::{Complex, Simd, WithSimd, vectorized};
+use crate::linalg::Complex;
 
 /// Number of Chebyshev points of a panel.
 pub(crate) const CHEBYSHEV_POINTS: usize = 24;
 /// Number of halvings of θ = 0 … π that give the first panels.
 const COARSEST_DEPTH: u32 = 2;
 /// −ln |z| of a panel, divided by its width.
-const PANEL_OFFSET_RATIO: f64 = 1.0 / 20.0;
+pub(super) const PANEL_OFFSET_RATIO: f64 = 1.0 / 20.0;
 /// Limit of the last Chebyshev coefficients, relative to the tolerance.
 ///
 /// It is below one because their errors grow with the lag, and errors of F do not.
@@ -42,8 +42,6 @@ const COEFFICIENT_LIMIT_FACTOR: f64 = 0.3;
 ///
 /// Responses come late and never early, so the powers are not negative.
 const TRIAL_PHASES: [f64; 2] = [0.0, 4.0];
-/// Number of points of a circle evaluated together.
-const POINT_LANES: usize = 32;
 
 /// Circle |z| = r for the transform of a block.
 #[derive(Debug, Clone, Copy)]
@@ -90,9 +88,9 @@ pub(crate) struct Panels {
 #[derive(Debug)]
 pub(crate) struct PanelPolynomials {
     /// Coefficients degree by degree, one column for each function.
-    coefficients: Vec<Complex>,
+    pub(super) coefficients: Vec<Complex>,
     /// Phase change of the power over half the panel.
-    phase: f64,
+    pub(super) phase: f64,
 }
 
 impl PanelPolynomials {
@@ -136,7 +134,7 @@ impl CirclePanel {
     }
 
     /// Angle, rad.
-    fn width(self) -> f64 {
+    pub(super) fn width(self) -> f64 {
         PI / (1_usize << self.depth) as f64
     }
 
@@ -156,12 +154,12 @@ impl CirclePanel {
 }
 
 /// Chebyshev points.
-fn nodes() -> impl Iterator<Item = f64> {
+pub(super) fn nodes() -> impl Iterator<Item = f64> {
     (0..CHEBYSHEV_POINTS).map(|i| (PI * (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64).cos())
 }
 
 /// Chebyshev coefficients of values at the points, one column for each function.
-fn chebyshev_coefficients(values: &[Complex]) -> Vec<Complex> {
+pub(super) fn chebyshev_coefficients(values: &[Complex]) -> Vec<Complex> {
     let count = values.len() / CHEBYSHEV_POINTS;
     let mut coefficients = vec![Complex::default(); values.len()];
     for (degree, row) in coefficients.chunks_exact_mut(count).enumerate() {
@@ -282,119 +280,5 @@ impl Circle {
     fn can_use(self, panel: CirclePanel) -> bool {
         let is_near = -self.logarithm <= 2.0 * PANEL_OFFSET_RATIO * panel.width();
         is_near && panel.points_of(self).len() > CHEBYSHEV_POINTS
-    }
-}
-
-/// Approximate number of values between two calls of `report`: a hundredth of a second.
-const VALUES_PER_REPORT: usize = 1 << 18;
-
-/// Chebyshev polynomials of all degrees at several points.
-#[inline]
-fn chebyshev(x: [f64; POINT_LANES]) -> [[f64; POINT_LANES]; CHEBYSHEV_POINTS] {
-    let mut polynomials = [[1.0; POINT_LANES]; CHEBYSHEV_POINTS];
-    polynomials[1] = x;
-    for degree in 2..CHEBYSHEV_POINTS {
-        let before = polynomials[degree - 2];
-        let previous = polynomials[degree - 1];
-        polynomials[degree] =
-            std::array::from_fn(|lane| 2.0 * x[lane] * previous[lane] - before[lane]);
-    }
-    polynomials
-}
-
-/// Adds the contribution of an eigenvalue on a panel to the values at the points of a circle.
-///
-/// `spectra` has one row for each function. An error of `report` ends the evaluation.
-pub(super) fn evaluate(
-    node: usize,
-    polynomials: &PanelPolynomials,
-    panel: CirclePanel,
-    circle: Circle,
-    spectra: &mut [Complex],
-    mut report: impl FnMut() -> Result<()>,
-) -> Result<()> {
-    let PanelPolynomials { coefficients, phase } = polynomials;
-    let count = coefficients.len() / CHEBYSHEV_POINTS;
-    let points = panel.points_of(circle);
-    // Converts the polynomials from the panel's line to the circle's, x − iy.
-    let shift = -(circle.logarithm + PANEL_OFFSET_RATIO * panel.width()) / (0.5 * panel.width());
-    let mut values_on_circle = vec![Complex::default(); coefficients.len()];
-    for (x, values) in nodes().zip(values_on_circle.chunks_exact_mut(count)) {
-        let x = Complex::new(x, shift);
-        let mut previous = x;
-        let mut polynomial = Complex::real(1.0);
-        for row in coefficients.chunks_exact(count) {
-            for (sum, coefficient) in values.iter_mut().zip(row) {
-                *sum += polynomial * *coefficient;
-            }
-            let next = x.scale(2.0) * polynomial - previous;
-            previous = polynomial;
-            polynomial = next;
-        }
-    }
-    let coefficients = chebyshev_coefficients(&values_on_circle);
-    let steps_per_report = (VALUES_PER_REPORT / (POINT_LANES * count)).max(1);
-    for first in points.clone().step_by(POINT_LANES) {
-        if ((first - points.start) / POINT_LANES).is_multiple_of(steps_per_report) {
-            report()?;
-        }
-        let x: [f64; POINT_LANES] = std::array::from_fn(|lane| {
-            2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
-        });
-        let chebyshev_values = chebyshev(x);
-        let factors: [Complex; POINT_LANES] = std::array::from_fn(|lane| {
-            let power = Complex::polar((-phase * shift).exp(), phase * x[lane]);
-            power * panel_factor(node, [circle.logarithm, circle.angle(first + lane)])
-        });
-        let lanes = first..points.end.min(first + POINT_LANES);
-        let row_length = circle.points();
-        vectorized(AddToSpectra {
-            coefficients: &coefficients,
-            chebyshev_values,
-            factors,
-            spectra,
-            row_length,
-            lanes,
-        });
-    }
-    Ok(())
-}
-
-/// Adds polynomials, times factors of the points, to the values at a few points of all functions.
-struct AddToSpectra<'a> {
-    /// Coefficients degree by degree, one column for each function.
-    coefficients: &'a [Complex],
-    chebyshev_values: [[f64; POINT_LANES]; CHEBYSHEV_POINTS],
-    factors: [Complex; POINT_LANES],
-    /// One row of `row_length` for each function; `lanes` are the points within a row.
-    spectra: &'a mut [Complex],
-    row_length: usize,
-    lanes: Range<usize>,
-}
-
-impl WithSimd for AddToSpectra<'_> {
-    type Output = ();
-
-    // Plain loops: a multiplication and an addition are rounded as on any processor.
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { coefficients, chebyshev_values, factors, spectra, row_length, lanes } = self;
-        let function_count = coefficients.len() / CHEBYSHEV_POINTS;
-        for (function, row) in spectra.chunks_exact_mut(row_length).enumerate() {
-            let mut re = [0.0; POINT_LANES];
-            let mut im = [0.0; POINT_LANES];
-            for (polynomial, row) in
-                chebyshev_values.iter().zip(coefficients.chunks_exact(function_count))
-            {
-                let coefficient = row[function];
-                for lane in 0..POINT_LANES {
-                    re[lane] += coefficient.re * polynomial[lane];
-                    im[lane] += coefficient.im * polynomial[lane];
-                }
-            }
-            for (lane, value) in row[lanes.clone()].iter_mut().enumerate() {
-                *value += factors[lane] * Complex::new(re[lane], im[lane]);
-            }
-        }
     }
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
-//! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
+//! | runge_kutta, contour, panel_evaluation, coefficients | convolution weights Gⁿ by convolution quadrature |
 //! | passivity | the check of convolution weights |
 //! | block_store, block_file | blocks of convolution weights in memory and in a file |
 //! | threads | work on several threads |
@@ -19,6 +19,7 @@ mod contour;
 mod form_factors;
 mod halving;
 mod impedance;
+mod panel_evaluation;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;

@@ -213,7 +213,8 @@ fn assert_step_is_refused(simulation: &mut Simulation, memory: usize) {
 /// REFERENCE: the run with enough memory, to the bit.
 #[test]
 fn steps_beyond_the_memory_are_refused() {
-    let scenes: [(usize, fn(usize) -> SimulationBuilder); 3] = [
+    type LimitedScene = (usize, fn(usize) -> SimulationBuilder);
+    let scenes: [LimitedScene; 3] = [
         (30_000, on_layers),
         (100_000, |memory| on_half_plane(HistoryMethod::RelaxedFft, memory)),
         (100_000, |memory| on_half_plane(HistoryMethod::Direct, memory)),

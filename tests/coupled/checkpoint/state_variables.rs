@@ -31,7 +31,8 @@ fn all_state_variables(simulation: &Simulation) -> Vec<f64> {
 
 #[test]
 fn state_variables_resume_to_the_last_bit() {
-    let scenes: [(&str, fn() -> SimulationBuilder); 4] = [
+    type NamedScene = (&'static str, fn() -> SimulationBuilder);
+    let scenes: [NamedScene; 4] = [
         ("weakening", || on_springs().interface(SLIP_WEAKENING)),
         ("bond", || {
             on_springs().ground(half_plane(HistoryMethod::Direct)).interface(BREAKING_BOND)

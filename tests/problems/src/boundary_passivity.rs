@@ -26,12 +26,12 @@ const BISECTION_COUNT: usize = 40;
 ///
 /// Waves must pass the elements within some hundred lags.
 pub fn boundary_passivity(kernel: &dyn BoundaryKernel) -> [f64; 2] {
-    let symbol = BoundarySymbol::new(kernel);
+    let series = KernelSeries::new(kernel);
     let mut extremes = EigenvalueExtremes::default();
     let mut width = std::f64::consts::PI / ANGLE_COUNT as f64;
     let min_angle = 0.5 * width;
     for k in 0..ANGLE_COUNT {
-        extremes.add(&symbol, width * (k as f64 + 0.5));
+        extremes.add(&series, width * (k as f64 + 0.5));
     }
     for _ in 0..2 {
         let first_angles = [extremes.smallest_angle - width, extremes.largest_angle - width];
@@ -40,7 +40,7 @@ pub fn boundary_passivity(kernel: &dyn BoundaryKernel) -> [f64; 2] {
             for first in first_angles {
                 let angle = first + width * k as f64;
                 if angle >= min_angle {
-                    extremes.add(&symbol, angle);
+                    extremes.add(&series, angle);
                 }
             }
         }
@@ -64,9 +64,9 @@ impl Default for EigenvalueExtremes {
 }
 
 impl EigenvalueExtremes {
-    fn add(&mut self, symbol: &BoundarySymbol<'_>, angle: f64) {
-        let matrix = symbol.work(angle);
-        let order = 2 * symbol.order;
+    fn add(&mut self, series: &KernelSeries<'_>, angle: f64) {
+        let matrix = series.work(angle);
+        let order = 2 * series.order;
         let rows = matrix.chunks_exact(order);
         let bound = rows.map(|row| row.iter().map(|x| x.abs()).sum::<f64>()).fold(0.0, f64::max);
         let count_below = |shift: f64| eigenvalues_below(&matrix, order, shift);
@@ -92,7 +92,7 @@ struct ComplexMatrices {
 }
 
 /// Power series of G and H.
-struct BoundarySymbol<'a> {
+struct KernelSeries<'a> {
     kernel: &'a dyn BoundaryKernel,
     /// Number of components.
     order: usize,
@@ -100,7 +100,7 @@ struct BoundarySymbol<'a> {
     differences: Vec<f64>,
 }
 
-impl<'a> BoundarySymbol<'a> {
+impl<'a> KernelSeries<'a> {
     fn new(kernel: &'a dyn BoundaryKernel) -> Self {
         let order = 2 * kernel.segments().len();
         let size = order * order;

@@ -1,7 +1,7 @@
 //! A rocking and sliding block on soil, and how smooth its normal force is.
 
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, Theta};
+use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, SimulationBuilder, Theta};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Coulomb, UnilateralCondition};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -79,7 +79,15 @@ impl ChatterScene {
             ChatterScheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
             ChatterScheme::Dissipative(gamma) => builder.scheme(DissipativeMidpoint::new(gamma)?),
         };
-        let builder = match self.young {
+        let builder = self.with_structure(builder)?;
+        let simulation = builder.build()?;
+        self.march(simulation)
+    }
+
+    /// Adds the rigid or the flexible block, with the acceleration of its top as a probe.
+    fn with_structure(&self, builder: SimulationBuilder) -> Result<SimulationBuilder> {
+        let half = 0.5 * BLOCK_WIDTH;
+        Ok(match self.young {
             None => {
                 let block = RigidBlock::new(BLOCK_WIDTH, self.height, BLOCK_DENSITY)?;
                 let top = block.horizontal_at(self.height);
@@ -95,8 +103,10 @@ impl ChatterScene {
                     .row(model.mesh().nearest_node(0.0, self.height).unwrap(), Direction::X)?;
                 builder.structure(model).probe(Probe::acceleration("top", top))
             }
-        };
-        let mut simulation = builder.build()?;
+        })
+    }
+
+    fn march(&self, mut simulation: Simulation) -> Result<ChatterResult> {
         let weight = BLOCK_WIDTH * self.height * BLOCK_DENSITY * STANDARD_GRAVITY;
         let mut force = Vec::new();
         let mut acceleration = Vec::new();

@@ -235,11 +235,11 @@ impl EnumeratedContact {
             .with_static_tractions(traction)
             .unwrap();
         let start = contact.start(&starts).unwrap();
-        let found = contact.solve(&self.free_jump, &start).unwrap();
+        let solution = contact.solve(&self.free_jump, &start).unwrap();
         let same_solutions =
-            solutions.iter().filter(|states| have_same_tractions(states, found.states)).count();
-        assert!(same_solutions > 0, "{:?} {:?}", found.modes, found.states);
-        (found.modes.to_vec(), same_solutions < solutions.len())
+            solutions.iter().filter(|states| have_same_tractions(states, solution.states)).count();
+        assert!(same_solutions > 0, "{:?} {:?}", solution.modes, solution.states);
+        (solution.modes.to_vec(), same_solutions < solutions.len())
     }
 }
 

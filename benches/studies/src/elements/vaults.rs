@@ -121,10 +121,10 @@ fn closed_hemisphere(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 let d = on_arc(a, unit_vector((axis + 2) % 3), 0.5);
                 let mut nodes = Vec::new();
                 for i in 0..=count {
-                    let s = i as f64 / count as f64;
+                    let s = f64::from(i) / f64::from(count);
                     let mut row = Vec::new();
                     for j in 0..=count {
-                        let t = j as f64 / count as f64;
+                        let t = f64::from(j) / f64::from(count);
                         let unit_point = on_arc(on_arc(a, b, s), on_arc(d, middle, s), t);
                         let point = unit_point.map(|x| 10.0 * x);
                         // Patches have the nodes of their edges in common.

@@ -66,14 +66,14 @@ fn log_normal(z: f64) -> f64 {
 }
 
 /// Logarithm of a level from their mean, and the runs there beyond and within the limit.
-struct Point {
+struct ProbitPoint {
     y: f64,
     exceeded: f64,
     within: f64,
 }
 
 /// ln L of the coefficients a and b.
-fn log_likelihood(points: &[Point], [a, b]: [f64; 2]) -> f64 {
+fn log_likelihood(points: &[ProbitPoint], [a, b]: [f64; 2]) -> f64 {
     let term = |count: f64, x: f64| if count > 0.0 { count * log_normal(x) } else { 0.0 };
     let mut sum = 0.0;
     for point in points {
@@ -84,7 +84,7 @@ fn log_likelihood(points: &[Point], [a, b]: [f64; 2]) -> f64 {
 }
 
 /// Coefficients a and b of the largest likelihood, by Newton's method.
-fn newton(points: &[Point]) -> [f64; 2] {
+fn newton(points: &[ProbitPoint]) -> [f64; 2] {
     let mut coefficients = [0.0, 1.0];
     let mut value = log_likelihood(points, coefficients);
     for _ in 0..100 {
@@ -121,9 +121,9 @@ pub(crate) fn fit(stripes: &[Stripe]) -> Option<Fit> {
     // Centred logarithms, so that both coefficients are of order one.
     let runs: f64 = stripes.iter().map(|stripe| stripe.runs).sum();
     let center = stripes.iter().map(|stripe| stripe.runs * stripe.level.ln()).sum::<f64>() / runs;
-    let points: Vec<Point> = stripes
+    let points: Vec<ProbitPoint> = stripes
         .iter()
-        .map(|stripe| Point {
+        .map(|stripe| ProbitPoint {
             y: stripe.level.ln() - center,
             exceeded: stripe.exceeded,
             within: stripe.runs - stripe.exceeded,
@@ -156,9 +156,9 @@ struct Derivatives {
     hbb: f64,
 }
 
-fn derivatives(points: &[Point], [a, b]: [f64; 2]) -> Derivatives {
+fn derivatives(points: &[ProbitPoint], [a, b]: [f64; 2]) -> Derivatives {
     let mut sums = Derivatives::default();
-    for &Point { y, exceeded, within } in points {
+    for &ProbitPoint { y, exceeded, within } in points {
         let x = a + b * y;
         let up = mills(x);
         let down = mills(-x);

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::lognormal::FragilityGroup;
 use crate::AnyError;
-use crate::key::{self, KeySample, SheetArea};
+use crate::key::{self, LegendSample, SheetArea};
 
 /// Width and height of a panel, pixels.
 const PANEL_SIZE: (u32, u32) = (440, 460);
@@ -28,8 +28,8 @@ pub(crate) fn draw(
     let first = groups.iter().filter(|group| group.width == widths[0]);
     let names = first.zip(FRICTION_COLORS.iter().cycle());
     let entries: Vec<_> = names
-        .map(|(group, &color)| (format!("friction {}", group.friction), KeySample::Line(color)))
-        .chain([("share of runs".to_owned(), KeySample::Circle(BLACK))])
+        .map(|(group, &color)| (format!("friction {}", group.friction), LegendSample::Line(color)))
+        .chain([("share of runs".to_owned(), LegendSample::Circle(BLACK))])
         .collect();
     let body = key::draw(&body, 30, &entries)?;
     for (area, &width) in body.split_evenly((1, widths.len())).iter().zip(widths) {

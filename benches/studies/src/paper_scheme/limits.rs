@@ -104,7 +104,9 @@ pub(crate) fn print(scene: &PaperScene, duration: f64, short: bool) -> Result<()
          half-plane under the same interface at β = ½\n"
     );
     print!("| change | base held | base open |");
-    rows.iter().for_each(|(name, _)| print!(" {name} |"));
+    for (name, _) in rows {
+        print!(" {name} |");
+    }
     println!("\n|---|---|---|---|---|---|---|");
     for change in changes {
         let flow_chart = change.scene(scene, ContactSearch::FlowChart { iterations: 100 });

@@ -38,9 +38,11 @@ impl Report {
     /// Another table.
     pub(crate) fn table(&mut self, title: &str, head: &[&str], rows: &[Vec<String>]) {
         let mut table = format!("\n### {title}\n\n| {} |\n", head.join(" | "));
-        table += &format!("| {} |\n", vec!["---"; head.len()].join(" | "));
+        let rule = vec!["---"; head.len()].join(" | ");
+        // Writing to a string does not fail.
+        let _ = writeln!(table, "| {rule} |");
         for row in rows {
-            table += &format!("| {} |\n", row.join(" | "));
+            let _ = writeln!(table, "| {} |", row.join(" | "));
         }
         eprintln!("{table}");
         self.rest += &table;

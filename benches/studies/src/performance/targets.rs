@@ -2,7 +2,7 @@
 
 use super::child::{RunCost, RunScene, containment, measure};
 use super::histories::{
-    GrowthPoint, bounded, coefficients, direct, exponent, growth, history_cost, relaxed,
+    Growth, GrowthPoint, bounded, coefficients, direct, exponent, growth, history_cost, relaxed,
 };
 use super::report::{Report, timed};
 use crate::AnyError;
@@ -131,6 +131,13 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         &format!("{:.3}", growths[1].exponent),
         growths[1].exponent <= 1.02,
     );
+    coefficient_targets(report)?;
+    growth_table(report, &growths);
+    long_run_table(report, longest)?;
+    strip_table(report, short)
+}
+
+fn coefficient_targets(report: &mut Report) -> Result<(), AnyError> {
     for (count, target) in [(10, 0.1), (200, 2.0)] {
         let seconds = coefficients(count, STEPS)?;
         report.target(
@@ -140,6 +147,11 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
             seconds < target,
         );
     }
+    Ok(())
+}
+
+/// Adds the times of both histories over the number of steps.
+fn growth_table(report: &mut Report, growths: &[Growth; 2]) {
     let rows: Vec<_> = growths[0]
         .points
         .iter()
@@ -167,6 +179,10 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         ],
         &rows,
     );
+}
+
+/// Adds the times of whole runs over the number of steps.
+fn long_run_table(report: &mut Report, longest: usize) -> Result<(), AnyError> {
     let head = ["steps", "µs per step", "slowest step, ms"];
     let mut points = Vec::new();
     // With fewer steps, the simulation would use degrees of freedom instead of modes.
@@ -189,6 +205,11 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         &head,
         &rows,
     );
+    Ok(())
+}
+
+/// Adds the times of both histories over the number of elements.
+fn strip_table(report: &mut Report, short: bool) -> Result<(), AnyError> {
     let mut rows = Vec::new();
     for count in if short { &[10, 40][..] } else { &[10, 20, 40, 80, 200] } {
         let mut row = vec![count.to_string()];

@@ -10,7 +10,7 @@ use plotters::prelude::*;
 
 use super::front::{FrontLine, FrontPoint, LineFamily};
 use crate::AnyError;
-use crate::key::{self, KeySample};
+use crate::key::{self, LegendSample};
 
 /// Width and height, pixels.
 const PICTURE_SIZE: (u32, u32) = (1200, 720);
@@ -48,7 +48,7 @@ pub(crate) fn draw(path: &Path, lines: &[FrontLine]) -> Result<(), AnyError> {
     let entries: Vec<_> = lines
         .iter()
         .zip(colors.clone())
-        .map(|(line, color)| (line.family.name.to_owned(), KeySample::Line(color)))
+        .map(|(line, color)| (line.family.name.to_owned(), LegendSample::Line(color)))
         .collect();
     let body = key::draw(&body, 30, &entries)?;
     let error_range = range(lines, |point| point.error);

@@ -6,10 +6,10 @@ use std::path::Path;
 use basemat::bem::Grading;
 use plotters::prelude::*;
 
-use super::settings::{HISTORY_METHODS, HistorySetting, OTHER_SCHEMES, TimeScheme};
+use super::settings::{HISTORY_METHODS, HistorySetting, OTHER_SCHEMES, SchemeSetting};
 use super::sweep::{SweepOutcome, SweepPoint};
 use crate::AnyError;
-use crate::key::{self, KeySample, SheetArea};
+use crate::key::{self, LegendSample, SheetArea};
 
 /// Width and height, pixels.
 const PICTURE_SIZE: (u32, u32) = (1480, 620);
@@ -31,7 +31,7 @@ struct PointFamily {
     shape: MarkerShape,
     grading: Grading,
     history: HistorySetting,
-    scheme: TimeScheme,
+    scheme: SchemeSetting,
 }
 
 #[derive(Clone, Copy)]
@@ -55,12 +55,12 @@ fn families() -> Vec<PointFamily> {
     ];
     let kinds = HISTORY_METHODS
         .iter()
-        .map(|&history| (history.name.to_owned(), history, TimeScheme::Midpoint))
+        .map(|&history| (history.name.to_owned(), history, SchemeSetting::Midpoint))
         .chain(OTHER_SCHEMES.iter().map(|&scheme| (scheme.name(), HISTORY_METHODS[0], scheme)));
     let mut list = Vec::new();
     for ((name, history, scheme), color) in kinds.zip(colors.iter().cycle()) {
         let shapes = match scheme {
-            TimeScheme::Midpoint => [MarkerShape::Circle, MarkerShape::Triangle],
+            SchemeSetting::Midpoint => [MarkerShape::Circle, MarkerShape::Triangle],
             _ => [MarkerShape::Cross, MarkerShape::Ring],
         };
         let gradings = [(Grading::Uniform, "uniform"), (Grading::Cosine, "cosine")];
@@ -79,7 +79,7 @@ pub(crate) fn draw(path: &Path, sweep: &SweepOutcome) -> Result<(), AnyError> {
     let title = format!("Base shear, {}: error against processor time", sweep.scene);
     let body = root.titled(&title, ("sans-serif", 24))?;
     let mut entries =
-        vec![("front: none faster and closer".to_owned(), KeySample::Line(FRONT_COLOR))];
+        vec![("front: none faster and closer".to_owned(), LegendSample::Line(FRONT_COLOR))];
     let families = families().into_iter();
     let used = families.filter(|family| sweep.points.iter().any(|point| family.contains(point)));
     entries.extend(used.map(|family| (family.name.clone(), family.sample())));
@@ -152,12 +152,12 @@ impl PointFamily {
             && settings.scheme == self.scheme
     }
 
-    fn sample(&self) -> KeySample {
+    fn sample(&self) -> LegendSample {
         match self.shape {
-            MarkerShape::Circle => KeySample::Circle(self.color),
-            MarkerShape::Triangle => KeySample::Triangle(self.color),
-            MarkerShape::Cross => KeySample::Cross(self.color),
-            MarkerShape::Ring => KeySample::Ring(self.color),
+            MarkerShape::Circle => LegendSample::Circle(self.color),
+            MarkerShape::Triangle => LegendSample::Triangle(self.color),
+            MarkerShape::Cross => LegendSample::Cross(self.color),
+            MarkerShape::Ring => LegendSample::Ring(self.color),
         }
     }
 

@@ -37,7 +37,7 @@ pub(crate) const HISTORY_METHODS: [HistorySetting; 5] = [
 
 /// A time scheme of the structure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum TimeScheme {
+pub(crate) enum SchemeSetting {
     Midpoint,
     Theta(f64),
     /// γ and β.
@@ -46,10 +46,13 @@ pub(crate) enum TimeScheme {
 
 /// Schemes tried in addition to the midpoint rule: the damped rule, and the two common members of
 /// Newmark's family.
-pub(crate) const OTHER_SCHEMES: [TimeScheme; 3] =
-    [TimeScheme::Theta(0.55), TimeScheme::Newmark(0.5, 0.25), TimeScheme::Newmark(0.6, 0.3025)];
+pub(crate) const OTHER_SCHEMES: [SchemeSetting; 3] = [
+    SchemeSetting::Theta(0.55),
+    SchemeSetting::Newmark(0.5, 0.25),
+    SchemeSetting::Newmark(0.6, 0.3025),
+];
 
-impl TimeScheme {
+impl SchemeSetting {
     pub(crate) fn name(self) -> String {
         match self {
             Self::Midpoint => "midpoint".into(),
@@ -75,14 +78,14 @@ pub(crate) struct Settings {
     /// s.
     pub(crate) time_step: f64,
     pub(crate) history: HistorySetting,
-    pub(crate) scheme: TimeScheme,
+    pub(crate) scheme: SchemeSetting,
 }
 
 impl Settings {
     /// With the default history and scheme.
     pub(crate) fn new(elements: usize, grading: Grading, time_step: f64) -> Self {
         let history = HISTORY_METHODS[0];
-        let scheme = TimeScheme::Midpoint;
+        let scheme = SchemeSetting::Midpoint;
         Self { elements, grading, time_step, history, scheme }
     }
 

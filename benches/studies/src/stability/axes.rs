@@ -171,7 +171,7 @@ fn map(
 fn soil_and_structure(short: bool, base: StabilityScene) -> Vec<StabilityMap> {
     let poisson =
         MapAxis::numbers("Poisson's ratio", &thin(&POISSON_RATIOS, short, 4), |scene, value| {
-            scene.poisson = value
+            scene.poisson = value;
         });
     let mass = MapAxis::numbers("mass ratio", &decades(-4, 4, short, 4), |scene, value| {
         scene.mass = value;
@@ -266,7 +266,7 @@ fn mesh_and_contact(short: bool, base: StabilityScene) -> Vec<StabilityMap> {
                 [
                     MapAxis::beta(short, 5),
                     MapAxis::layer(short, |scene, ratio| {
-                        scene.law = StabilityLaw::Layer(ratio, 1e-3)
+                        scene.law = StabilityLaw::Layer(ratio, 1e-3);
                     }),
                 ],
                 &[StabilityScheme::Basemat, StabilityScheme::Paper],

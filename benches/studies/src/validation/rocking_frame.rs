@@ -53,7 +53,7 @@ fn pulse(time: f64) -> f64 {
 type FrameHistory = [Vec<f64>; 2];
 
 /// The frame, the nodes of its hinges, and the left foot.
-struct Frame {
+struct RockingFrame {
     model: FemModel,
     hinges: [usize; 2],
     left_foot: usize,
@@ -64,7 +64,7 @@ fn frame(
     footing: Option<f64>,
     cap: f64,
     column: impl Fn([usize; 2]) -> basemat::Result<Beam>,
-) -> Result<Frame, AnyError> {
+) -> Result<RockingFrame, AnyError> {
     let mut mesh = Mesh::new();
     let mut lines = Vec::new();
     let mut tops = Vec::new();
@@ -92,12 +92,12 @@ fn frame(
         let count = if footing.is_some() { 2 } else { 3 };
         model = model.with_rigid_link(line[1], &linked[..count])?;
     }
-    Ok(Frame { model, hinges: [tops[0], tops[1]], left_foot: lines[0][1] })
+    Ok(RockingFrame { model, hinges: [tops[0], tops[1]], left_foot: lines[0][1] })
 }
 
 /// Marches the frame, pushed to the right at each hinge by `push` (N/m) at most.
 fn march(
-    Frame { model, hinges, left_foot }: Frame,
+    RockingFrame { model, hinges, left_foot }: RockingFrame,
     push: f64,
     time_step: f64,
     duration: f64,

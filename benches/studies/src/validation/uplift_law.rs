@@ -230,7 +230,7 @@ fn law_at(law: UpliftLaw, alpha: f64, rotation: f64) -> basemat::Result<f64> {
 /// N is the weight, or the force on the soil at each time.
 fn shaken(
     name: &str,
-    law: &UpliftLaw,
+    law: UpliftLaw,
     alpha: f64,
     points: &[[f64; 3]],
     limits: [f64; 4],
@@ -241,10 +241,10 @@ fn shaken(
     let mut largest_rotation = 0.0_f64;
     let mut error_at_largest_rotation = 0.0;
     for &[rotation, moment, force] in points.iter().filter(|point| point[0].abs() > 1.0) {
-        let error = (moment - law_at(*law, alpha, rotation)?).abs();
+        let error = (moment - law_at(law, alpha, rotation)?).abs();
         // Both M₀ and θ₀ are proportional to the force.
         let by_force =
-            if force > 1e-6 { force * law_at(*law, alpha, rotation / force)? } else { 0.0 };
+            if force > 1e-6 { force * law_at(law, alpha, rotation / force)? } else { 0.0 };
         squares[0] += error * error;
         squares[1] += (moment - by_force).powi(2);
         count += 1.0;
@@ -325,7 +325,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         {
             let points = loops(base, count, friction, alpha)?;
             let name = format!("{}, {}", base.name(), friction_name(friction));
-            checks.extend(shaken(&name, &law, alpha, &points, limits)?);
+            checks.extend(shaken(&name, law, alpha, &points, limits)?);
             widest = points.iter().fold(widest, |widest, point| worse(widest, point[0].abs()));
             let points = points.into_iter().map(|point| (point[0], point[1])).collect();
             panel = panel.line(friction_name(friction), color, points);
