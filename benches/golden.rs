@@ -71,7 +71,10 @@ fn in_plane(
     structure: impl Structure + 'static,
     ground: impl Ground + 'static,
 ) -> SimulationBuilder {
-    Simulation::builder(TIME_STEP).structure(structure).ground(ground).motion(strong_record())
+    Simulation::builder(TIME_STEP)
+        .structure(structure)
+        .ground(ground)
+        .motion(strong_record())
 }
 
 fn half_plane_under(structure: &dyn Structure) -> Result<ElasticGround> {
@@ -163,7 +166,9 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
     ("block, relaxed transforms on a lattice", || {
         block_with_history(HistoryMethod::RelaxedFft, Grading::Uniform)
     }),
-    ("block, exponentials", || block_with_history(HistoryMethod::Exponentials, Grading::Uniform)),
+    ("block, exponentials", || {
+        block_with_history(HistoryMethod::Exponentials, Grading::Uniform)
+    }),
     ("block, history by choice", || block_with_history(HistoryMethod::Auto, Grading::Uniform)),
     ("block, bonded", || block_with_law(Bonded)),
     ("block, uplift only", || block_with_law(Coulomb::uplift_only())),
@@ -204,17 +209,24 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
     ("block, tilted and loaded", || {
         let block = block()?;
         let load = Load::new(block.horizontal_at(5.0), |t| 4.0e4 * (9.0 * t).sin());
-        Ok(block_with_law(Coulomb::new(0.4)?)?.load(load).gravity_stage(GravityStage::Frictional))
+        Ok(block_with_law(Coulomb::new(0.4)?)?
+            .load(load)
+            .gravity_stage(GravityStage::Frictional))
     }),
     ("block, without weight", || Ok(block_with_law(Bonded)?.gravity(0.0))),
     ("tower, physical", || tower_in_coordinates(Coordinates::Physical)),
     ("tower, modal", || tower_in_coordinates(Coordinates::Modes)),
     ("tower, reduced", || tower_in_coordinates(Coordinates::Reduced { tolerance: 1.0e-6 })),
-    ("tower, theta", || Ok(tower_in_coordinates(Coordinates::Physical)?.scheme(Theta::new(0.6)?))),
+    ("tower, theta", || {
+        Ok(tower_in_coordinates(Coordinates::Physical)?.scheme(Theta::new(0.6)?))
+    }),
     ("tower, Newmark", || {
         Ok(tower_in_coordinates(Coordinates::Physical)?.scheme(Newmark::default()))
     }),
-    ("tower, HHT", || Ok(tower_in_coordinates(Coordinates::Modes)?.scheme(HhtAlpha::new(-0.1)?))),
+    (
+        "tower, HHT",
+        || Ok(tower_in_coordinates(Coordinates::Modes)?.scheme(HhtAlpha::new(-0.1)?)),
+    ),
     ("building", || {
         Ok(in_plane(building()?, half_plane_under(&building()?)?).interface(Coulomb::new(0.4)?))
     }),
@@ -226,10 +238,9 @@ const GOLDEN_SCENES: [(&str, BuildScene); 42] = [
         let isolated = building()?.with_law(0, BoucWen::new(6.0e6, 6.0e4, 0.1)?)?;
         Ok(in_plane(isolated, half_plane_under(&building()?)?).interface(Coulomb::new(0.4)?))
     }),
-    (
-        "group",
-        || Ok(in_plane(group()?, half_plane_under(&group()?)?).interface(Coulomb::new(0.4)?)),
-    ),
+    ("group", || {
+        Ok(in_plane(group()?, half_plane_under(&group()?)?).interface(Coulomb::new(0.4)?))
+    }),
     ("group, without energy balance", || {
         Ok(in_plane(group()?, half_plane_under(&group()?)?)
             .interface(Coulomb::new(0.3)?)

@@ -32,8 +32,9 @@ fn add_wing(mass: &mut Triplets, along_x: [f64; 2], along_y: [f64; 2]) {
     mass.add_outer([(0, 1.0), (4, z), (5, -y)], m);
     mass.add_outer([(1, 1.0), (5, x), (3, -z)], m);
     mass.add_outer([(2, 1.0), (3, y), (4, -x)], m);
-    for (axis, [a, b]) in
-        [[width, BUILDING_HEIGHT], [length, BUILDING_HEIGHT], [length, width]].iter().enumerate()
+    for (axis, [a, b]) in [[width, BUILDING_HEIGHT], [length, BUILDING_HEIGHT], [length, width]]
+        .iter()
+        .enumerate()
     {
         mass.add(3 + axis, 3 + axis, m * (a * a + b * b) / 12.0);
     }

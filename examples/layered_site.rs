@@ -94,8 +94,9 @@ fn main() -> Result<()> {
         ("layers, damped", &surface, ground(damped_site)?),
     ] {
         let (run, spectrum) = shake(motion, ground)?;
-        let peak =
-            spectrum.iter().fold(0.0_f64, |peak, ordinate| peak.max(ordinate.pseudo_acceleration));
+        let peak = spectrum
+            .iter()
+            .fold(0.0_f64, |peak, ordinate| peak.max(ordinate.pseudo_acceleration));
         let soil = 100.0 * run.energy_balance.fraction(EnergyTerm::Soil).unwrap_or(f64::NAN);
         println!(
             "{name:<16} roof's spectrum {:.1} g, {soil:.0} % of the energy to the soil",

@@ -32,8 +32,10 @@ fn shake(
     corner: &[(usize, f64)],
 ) -> basemat::Result<Run> {
     let record = el_centro_1940();
-    let mut simulation =
-        builder.interface(law).probe(Probe::displacement("corner", corner.to_vec())).build()?;
+    let mut simulation = builder
+        .interface(law)
+        .probe(Probe::displacement("corner", corner.to_vec()))
+        .build()?;
     simulation.run(simulation.steps_for(record.duration()), |_| {})
 }
 
@@ -67,8 +69,10 @@ fn main() -> basemat::Result<()> {
 
     let slice = RigidBlock::new(BLOCK_SIDE, BLOCK_HEIGHT, MASS_DENSITY)?;
     let ground = ElasticGround::under(soil, &slice, 12)?;
-    let builder =
-        Simulation::builder(TIME_STEP).structure(slice).ground(ground).motion(el_centro_1940());
+    let builder = Simulation::builder(TIME_STEP)
+        .structure(slice)
+        .ground(ground)
+        .motion(el_centro_1940());
     let plane_strain = shake(builder, Bonded, &[(RigidBlock::ROTATION, 0.5 * BLOCK_SIDE)])?;
 
     println!("                    rise, mm  shear x/weight  open   slip, mm   energy error");

@@ -59,8 +59,9 @@ fn turbine() -> basemat::Result<MatrixModel> {
     let side = OCTAGON_WIDTH * (PI / 8.0).tan();
     let corners = (0..8).map(|k| (f64::from(k) + 0.5) * PI / 4.0);
     let corner_radius = 0.5 * OCTAGON_WIDTH / (PI / 8.0).cos();
-    let outline =
-        corners.map(|angle| [corner_radius * angle.cos(), corner_radius * angle.sin()]).collect();
+    let outline = corners
+        .map(|angle| [corner_radius * angle.cos(), corner_radius * angle.sin()])
+        .collect();
     let mat_mass = MAT_DENSITY * 2.0 * OCTAGON_WIDTH * side * MAT_HEIGHT;
     // Moments of inertia about the mat's centre, for tilting and twisting.
     let plate_inertia = mat_mass * (OCTAGON_WIDTH * OCTAGON_WIDTH / 16.0 + side * side / 48.0);

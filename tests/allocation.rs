@@ -201,7 +201,9 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ),
         (
             "loads, modes",
-            sliding_tower().coordinates(modes).load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
+            sliding_tower()
+                .coordinates(modes)
+                .load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
         ),
         ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
     ]

@@ -137,7 +137,11 @@ fn write(histories: &TimeSeries) -> Result<()> {
         columns.push(histories.face(face).map(|own| own.place).collect());
     }
     columns.push(
-        histories.energy_balances().iter().map(|energy_balance| energy_balance.input).collect(),
+        histories
+            .energy_balances()
+            .iter()
+            .map(|energy_balance| energy_balance.input)
+            .collect(),
     );
     for k in 0..histories.times().len() {
         let row: Vec<String> =

@@ -99,7 +99,9 @@ pub(crate) fn filled_array<T: Element>(
 pub(crate) fn whole_array<const N: usize>(object: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
     let found: Vec<usize> = whole_numbers(object)?;
     let count = found.len();
-    found.try_into().map_err(|_| input_error(format!("{count} numbers, but must be {N}")))
+    found
+        .try_into()
+        .map_err(|_| input_error(format!("{count} numbers, but must be {N}")))
 }
 
 /// Numbers that Python gets as an array of shape (n,).
@@ -292,7 +294,9 @@ fn sparse(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
 /// Indices of rows or columns of the entries of a sparse matrix.
 fn sparse_indices(entries: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<usize>> {
     let indices = entries.getattr(name)?.call_method0("tolist")?;
-    indices.extract().map_err(|error| input_error(format!("indices of a sparse matrix: {error}")))
+    indices
+        .extract()
+        .map_err(|error| input_error(format!("indices of a sparse matrix: {error}")))
 }
 
 fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {

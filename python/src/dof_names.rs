@@ -56,8 +56,10 @@ impl DofNames {
 
     /// The first names of these degrees of freedom.
     pub(crate) fn describe(&self, dofs: &[usize]) -> Option<String> {
-        let names =
-            dofs.iter().take(MAX_LISTED_NAMES).map(|&dof| Some(format!("'{}'", self.0.get(dof)?)));
+        let names = dofs
+            .iter()
+            .take(MAX_LISTED_NAMES)
+            .map(|&dof| Some(format!("'{}'", self.0.get(dof)?)));
         let mut text = names.collect::<Option<Vec<_>>>()?.join(", ");
         if let Some(more) = dofs.len().checked_sub(MAX_LISTED_NAMES + 1) {
             text = format!("{text} and {} more", more + 1);

@@ -52,7 +52,12 @@ pub(crate) struct Ticker {
 
 impl Ticker {
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { last_call: Instant::now(), interrupt_checked: false, progress, last_reported: None }
+        Self {
+            last_call: Instant::now(),
+            interrupt_checked: false,
+            progress,
+            last_reported: None,
+        }
     }
 
     /// Reports `done` of `total` parts if the interval has passed; called without the GIL.

@@ -74,7 +74,9 @@ impl FixedBaseMode {
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
         let found = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
-        let Some(Eigenpairs { values: squares, vectors: modes }) = found else { return Ok(None) };
+        let Some(Eigenpairs { values: squares, vectors: modes }) = found else {
+            return Ok(None);
+        };
         let mut momentum = vec![0.0; n];
         mass.multiply_add(1.0, &along, &mut momentum);
         let structural = squares.iter().zip(modes.chunks_exact(n)).filter(|(square, mode)| {

@@ -146,7 +146,9 @@ fn check(path: &PushControl) -> Result<()> {
     match path {
         PushControl::Forces(forces) => {
             at_least("forces of the push-over", forces.len(), 1)?;
-            forces.iter().try_for_each(|&force| finite("force of the push-over", force).map(drop))
+            forces
+                .iter()
+                .try_for_each(|&force| finite("force of the push-over", force).map(drop))
         }
         PushControl::Displacements { targets, first_force } => {
             at_least("displacements of the push-over", targets.len(), 1)?;

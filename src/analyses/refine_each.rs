@@ -132,7 +132,8 @@ impl fmt::Display for Refinements {
         let all: Vec<_> =
             self.peaks.iter().map(|(name, refinement)| (name.as_str(), refinement)).collect();
         f.write_str(&table(&all))?;
-        all.iter().try_for_each(|(name, refinement)| write!(f, "\n{name}: {}", refinement.notes()))
+        all.iter()
+            .try_for_each(|(name, refinement)| write!(f, "\n{name}: {}", refinement.notes()))
     }
 }
 

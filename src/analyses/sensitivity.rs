@@ -33,7 +33,9 @@ impl PeakTwins {
     /// Largest difference between a twin and the run, in the unit of the peak.
     pub fn spread(&self) -> f64 {
         let twins = [self.shorter_step, self.three_quarters, self.half];
-        twins.into_iter().fold(0.0, |spread, twin| f64::max(spread, (twin - self.value).abs()))
+        twins
+            .into_iter()
+            .fold(0.0, |spread, twin| f64::max(spread, (twin - self.value).abs()))
     }
 
     /// Number of significant digits that hold, six at most.

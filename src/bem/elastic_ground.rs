@@ -320,7 +320,9 @@ impl Ground for ElasticGround {
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
-        let Some(plan) = &self.source.plan else { return self.ground.finer_compliance() };
+        let Some(plan) = &self.source.plan else {
+            return self.ground.finer_compliance();
+        };
         let ElasticSource { profile, tolerance, .. } = &self.source;
         let plan = plan.quartered();
         let mut matrix = vec![0.0; (4 * COMPONENTS_IN_SPACE * self.elements().len()).pow(2)];

@@ -114,7 +114,9 @@ impl SharedKernels {
         elements: &[ContactElement],
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
-        let Some(identity) = source.identity() else { return source.kernel(elements, time_step) };
+        let Some(identity) = source.identity() else {
+            return source.kernel(elements, time_step);
+        };
         let any: &dyn Any = source;
         let key = Arc::new(KernelKey {
             source: any.type_id(),
@@ -132,7 +134,9 @@ impl SharedKernels {
         if kernels.entries.len() == MAX_STORED_KERNELS {
             kernels.entries.remove(0);
         }
-        kernels.entries.push(StoredKernel { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
+        kernels
+            .entries
+            .push(StoredKernel { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
         drop(kernels);
         drop(in_progress);
         Ok(kernel)

@@ -301,8 +301,10 @@ mod tests {
 
     #[test]
     fn a_constant_traction_leads_to_the_static_displacement() {
-        let mut bed =
-            SpringGround::new(0.0..1.0, 1, 100.0, 50.0).unwrap().with_dashpots(10.0, 5.0).unwrap();
+        let mut bed = SpringGround::new(0.0..1.0, 1, 100.0, 50.0)
+            .unwrap()
+            .with_dashpots(10.0, 5.0)
+            .unwrap();
         bed.prepare(0.01, None, &mut crate::unobserved).unwrap();
         let mut s = [0.0; 2];
         for _ in 0..10 {

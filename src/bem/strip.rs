@@ -203,8 +203,9 @@ impl Overlap {
         let left_offset = p.left() - q.left();
         let right_offset = p.right() - q.right();
         let max_overlap = p.length().min(q.length());
-        let largest_coordinate =
-            [p.left(), p.right(), q.left(), q.right()].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let largest_coordinate = [p.left(), p.right(), q.left(), q.right()]
+            .iter()
+            .fold(0.0_f64, |m, v| m.max(v.abs()));
         let rounding = 8.0 * f64::EPSILON * largest_coordinate;
         let mut nodes = vec![first.abs(), left_offset.abs(), right_offset.abs(), last.abs()];
         if first < rounding && last > -rounding {

@@ -31,7 +31,9 @@ pub(super) fn local_mode(
     let candidates = std::iter::once(current).chain(input.modes(e).iter().copied());
     for mode in candidates {
         let conditions = input.conditions(e, mode)?;
-        let Some(change) = solve_element(conditions, jump, block, fixed) else { continue };
+        let Some(change) = solve_element(conditions, jump, block, fixed) else {
+            continue;
+        };
         let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
         let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
         let state = ContactState {

@@ -69,8 +69,12 @@ impl OnBed {
         let found = Self { soil: soil.to_vec(), areas, modes, rank };
         let mut expected = vec![0.0; size];
         let mut product = vec![0.0; size];
-        let traction: Vec<f64> =
-            found.areas.iter().enumerate().map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
+        let traction: Vec<f64> = found
+            .areas
+            .iter()
+            .enumerate()
+            .map(|(i, area)| (1.0 + i as f64).sin() / area)
+            .collect();
         (structure.product)(&traction, &mut expected);
         found.add_modes(&traction, &mut product);
         let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));

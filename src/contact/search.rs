@@ -195,7 +195,9 @@ impl ModeSearch {
     ) -> Result<bool, LawError> {
         let sets =
             (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
-        let Some(sets) = sets.filter(|sets| *sets <= MAX_MODE_SETS) else { return Ok(false) };
+        let Some(sets) = sets.filter(|sets| *sets <= MAX_MODE_SETS) else {
+            return Ok(false);
+        };
         for set in 0..sets {
             let mut rest = set;
             for (e, mode) in modes.iter_mut().enumerate() {

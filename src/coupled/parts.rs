@@ -241,7 +241,8 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     require_part("contact search", builder.search == ContactSearch::Robust, needed)?;
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, builder.time_step);
     builder.laws.iter().try_for_each(|law| {
-        law.limits(&start.with_state_variables(&start.first_state_variables(law))).map(|_| ())
+        law.limits(&start.with_state_variables(&start.first_state_variables(law)))
+            .map(|_| ())
     })
 }
 

@@ -108,7 +108,11 @@ impl EarthPressure {
 impl InterfaceLaw for EarthPressure {
     fn modes(&self) -> &[Mode] {
         let friction = self.friction();
-        if self.opens() { Mode::with_yield(friction) } else { Mode::with_following(friction) }
+        if self.opens() {
+            Mode::with_yield(friction)
+        } else {
+            Mode::with_following(friction)
+        }
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {

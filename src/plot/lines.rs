@@ -100,8 +100,10 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
         curves.push(Curve { name: (*name).to_owned(), points });
     }
     let name = quantity.name();
-    let is_cut =
-        curves.iter().flat_map(|curve| &curve.points).any(|point| point.1 == MAX_DRAWN_DEMAND);
+    let is_cut = curves
+        .iter()
+        .flat_map(|curve| &curve.points)
+        .any(|point| point.1 == MAX_DRAWN_DEMAND);
     let y = match (limit, unit) {
         (Some(_), _) if is_cut => format!("1 / {name} (larger ones drawn at {MAX_DRAWN_DEMAND})"),
         (Some(_), _) => format!("1 / {name}"),
@@ -255,8 +257,9 @@ pub(super) fn draw_spectra(
 ) -> Drawing<()> {
     let mut chart = chart(area, x, y, true)?;
     for (k, (_, spectrum)) in spectra.iter().enumerate() {
-        let points =
-            spectrum.iter().map(|ordinate| (ordinate.period.log10(), ordinate.pseudo_acceleration));
+        let points = spectrum
+            .iter()
+            .map(|ordinate| (ordinate.period.log10(), ordinate.pseudo_acceleration));
         draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
     }
     Ok(())

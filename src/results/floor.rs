@@ -93,7 +93,10 @@ pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<Spe
         positive("step to the next period of a spectrum", ordinate.period - last)?;
         last = ordinate.period;
     }
-    Ok(spectrum.iter().map(|centre| broadened_ordinate(spectrum, centre, fraction)).collect())
+    Ok(spectrum
+        .iter()
+        .map(|centre| broadened_ordinate(spectrum, centre, fraction))
+        .collect())
 }
 
 /// The largest values of a spectrum in a band around one of its ordinates.
@@ -124,8 +127,9 @@ fn broadened_ordinate(
 
 /// The ordinate at `period`; `None` outside the spectrum.
 fn interpolated(spectrum: &[SpectralOrdinate], period: f64) -> Option<SpectralOrdinate> {
-    let pair =
-        spectrum.windows(2).find(|pair| period >= pair[0].period && period <= pair[1].period)?;
+    let pair = spectrum
+        .windows(2)
+        .find(|pair| period >= pair[0].period && period <= pair[1].period)?;
     let fraction = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
     let between = |shorter: f64, longer: f64| (1.0 - fraction) * shorter + fraction * longer;
     Some(SpectralOrdinate {

@@ -112,8 +112,10 @@ impl SoilColumn {
         options: &EquivalentLinearOptions,
         observer: &mut Observer<'_>,
     ) -> Result<EquivalentLinear> {
-        let total =
-            options.most_iterations.saturating_add(1).saturating_mul(PartProgress::STEPS_PER_PART);
+        let total = options
+            .most_iterations
+            .saturating_add(1)
+            .saturating_mul(PartProgress::STEPS_PER_PART);
         let mut watch = Watch::new("equivalent-linear response", total, observer);
         let mut iteration = Iteration::new(self, motion, curves, options)?;
         let Converged { properties, strains, iterations, last_change } =

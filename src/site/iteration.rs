@@ -316,8 +316,11 @@ impl Aitken {
         }
         let factor = -self.factor * product / change_square;
         // Without an earlier residual, or if the last step diverged, the step is not relaxed.
-        self.factor =
-            if factor > 0.0 { factor.clamp(RELAXATION_RANGE[0], RELAXATION_RANGE[1]) } else { 1.0 };
+        self.factor = if factor > 0.0 {
+            factor.clamp(RELAXATION_RANGE[0], RELAXATION_RANGE[1])
+        } else {
+            1.0
+        };
         let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
         self.residual = residual;
         next

@@ -55,7 +55,15 @@ impl<'a> SurfaceFunctions<'a> {
         slowness: f64,
         incident: IncidentWave,
     ) -> Self {
-        Self { profile, base, kind, control, slowness, incident, nyquist: NyquistLayers::default() }
+        Self {
+            profile,
+            base,
+            kind,
+            control,
+            slowness,
+            incident,
+            nyquist: NyquistLayers::default(),
+        }
     }
 
     /// These functions for layers modified for samples, on a contour that ends at s = `end`.

@@ -239,7 +239,8 @@ impl CaseFile {
         {
             self.fault = append_text(file, &text, self.sum).err().map(|fault| fault.kind());
         }
-        self.fault.map_or(Ok(()), |reason| Err(self.unwritten_error(&self.part_path, reason)))
+        self.fault
+            .map_or(Ok(()), |reason| Err(self.unwritten_error(&self.part_path, reason)))
     }
 
     /// The rows so far.

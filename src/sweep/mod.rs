@@ -157,7 +157,10 @@ enum ParameterValues {
 impl Parameter {
     /// A parameter with numbers; its name should contain the unit: `width_m`.
     pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
-        Self { name: name.into(), values: ParameterValues::Numbers(values.into_iter().collect()) }
+        Self {
+            name: name.into(),
+            values: ParameterValues::Numbers(values.into_iter().collect()),
+        }
     }
 
     /// A parameter with texts, for example names of records.

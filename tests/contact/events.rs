@@ -50,7 +50,10 @@ impl SampledRun {
 
     /// Displacements of the base at all samples, with rotations as displacements of its ends.
     fn displacements(&self) -> Vec<f64> {
-        self.history.iter().flat_map(|motion| [motion[0], motion[1], 2.0 * motion[2]]).collect()
+        self.history
+            .iter()
+            .flat_map(|motion| [motion[0], motion[1], 2.0 * motion[2]])
+            .collect()
     }
 }
 
@@ -154,7 +157,10 @@ fn thrown_block(time_step: f64) -> SimulationBuilder {
     }
 
     let motion = FreeFieldFn::new(|_, t| [0.0, rise(t) - rise(0.0)]);
-    Simulation::builder(time_step).structure(block(3.0)).interface(friction(0.5)).motion(motion)
+    Simulation::builder(time_step)
+        .structure(block(3.0))
+        .interface(friction(0.5))
+        .motion(motion)
 }
 
 #[test]
@@ -175,7 +181,10 @@ fn whole_base_lifts_off_and_lands() {
 /// A flat block on ground that sways harmonically.
 fn swaying_block(time_step: f64) -> SimulationBuilder {
     let motion = FreeFieldFn::new(|_, t: f64| [0.03 * (1.0 - (18.0 * t).cos()), 0.0]);
-    Simulation::builder(time_step).structure(block(1.0)).interface(friction(0.25)).motion(motion)
+    Simulation::builder(time_step)
+        .structure(block(1.0))
+        .interface(friction(0.25))
+        .motion(motion)
 }
 
 #[test]

@@ -241,7 +241,9 @@ impl Structure for BlockOnWheels {
 #[test]
 fn stiffness_within_a_structure_is_named() {
     let error = bonded().structure(BlockOnWheels).build().err().unwrap();
-    let Error::IllConditioned { quantity, ratio, .. } = error else { panic!("{error}") };
+    let Error::IllConditioned { quantity, ratio, .. } = error else {
+        panic!("{error}")
+    };
     assert_eq!(quantity, "largest over least stiffness within the structure");
     assert!(ratio > 1e12, "{ratio:e}");
 }

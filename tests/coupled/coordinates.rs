@@ -41,7 +41,10 @@ fn damped_tower() -> FemModel {
 
 fn building() -> ShearBuilding {
     let storeys = [Storey::new(1.5, 3.0e3, 2.0e6); 4];
-    ShearBuilding::new(4.0, 5e3, 1e4, &storeys).unwrap().with_stiffness_damping(0.03).unwrap()
+    ShearBuilding::new(4.0, 5e3, 1e4, &storeys)
+        .unwrap()
+        .with_stiffness_damping(0.03)
+        .unwrap()
 }
 
 fn energies(state: &State) -> Vec<f64> {
@@ -197,7 +200,9 @@ impl Structure for SlidingMasses {
     }
 
     fn base(&self) -> Base {
-        [-2.0, 2.0].map(|x| BaseNode { x, horizontal: 0.into(), ..BaseNode::default() }).into()
+        [-2.0, 2.0]
+            .map(|x| BaseNode { x, horizontal: 0.into(), ..BaseNode::default() })
+            .into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -154,8 +154,9 @@ fn cohesive_soil_stands_to_its_depth_of_tension() {
 #[test]
 fn soil_behind_a_wall_ratchets() {
     let ground = ground(soil(), 2);
-    let laws =
-        ground.interfaces(Coulomb::new(0.0).unwrap(), &[strength(30.0)], STANDARD_GRAVITY).unwrap();
+    let laws = ground
+        .interfaces(Coulomb::new(0.0).unwrap(), &[strength(30.0)], STANDARD_GRAVITY)
+        .unwrap();
     let limits = ActivePassive::rankine(30.0).thrusts();
     let push = 1.2 * (limits.passive - limits.active);
     let times = [0.0, 0.3, 0.6, 0.9];

@@ -144,7 +144,10 @@ fn shared_kernels_are_distinguished_and_change_no_bit() {
         graded_ground(profile().with_bedrock_damping(constant_q(0.02)), 6),
     ];
     for (index, ground) in others.into_iter().enumerate() {
-        ground.with_shared_kernels(&shared).prepare(TIME_STEP, None, &mut unobserved).unwrap();
+        ground
+            .with_shared_kernels(&shared)
+            .prepare(TIME_STEP, None, &mut unobserved)
+            .unwrap();
         assert_eq!(shared.count(), 2 + index);
     }
 }

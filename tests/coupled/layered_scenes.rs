@@ -40,8 +40,11 @@ fn run_scene(seed: u64) -> Result<SceneResult> {
     let mut profile = if random.chance(0.3) {
         SoilProfile::on_rigid_bedrock()
     } else {
-        let contrast =
-            if seed % 5 == 1 { random.pick(&[1.0, 100.0]) } else { random.log_within(1.0, 100.0) };
+        let contrast = if seed % 5 == 1 {
+            random.pick(&[1.0, 100.0])
+        } else {
+            random.log_within(1.0, 100.0)
+        };
         SoilProfile::on_half_plane(Soil::new(contrast * top.shear_modulus(), 0.25, 2200.0)?)
     };
     for layer in 0..random.pick(&[1, 1, 2, 3]) {
@@ -61,8 +64,11 @@ fn run_scene(seed: u64) -> Result<SceneResult> {
             _ => profile.with_damping(GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0)?),
         };
     }
-    let courant =
-        if seed % 5 == 4 { random.pick(&[0.02, 50.0]) } else { random.log_within(0.02, 50.0) };
+    let courant = if seed % 5 == 4 {
+        random.pick(&[0.02, 50.0])
+    } else {
+        random.log_within(0.02, 50.0)
+    };
     let step = courant * length / top.pressure_wave_speed();
     let half = 0.5 * BASE_WIDTH;
     let ground = if random.chance(0.5) {

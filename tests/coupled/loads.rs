@@ -107,8 +107,11 @@ fn static_loads_are_carried_by_statics() {
 #[test]
 fn elements_slide_while_a_load_is_applied() {
     let load = Load::constant(block().horizontal_at(0.5), 0.45 * BLOCK_WEIGHT);
-    let simulation =
-        on_half_plane(block()).interface(Coulomb::new(0.5).unwrap()).load(load).build().unwrap();
+    let simulation = on_half_plane(block())
+        .interface(Coulomb::new(0.5).unwrap())
+        .load(load)
+        .build()
+        .unwrap();
     let mut elements_at_limit = 0;
     for contact in &simulation.state().contact {
         assert!(contact.shear.abs() <= 0.5 * contact.pressure * (1.0 + 1e-9), "{contact:?}");

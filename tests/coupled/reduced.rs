@@ -309,7 +309,9 @@ fn structures_that_cannot_be_reduced_are_named() {
     let with_dashpot = scene(SI, 0.1).structure(DampedTowerWithDashpot(tower()));
     let error = error_of_reduction(with_dashpot, 1e-6);
     let Error::Item { item, source } = &error else { panic!("{error}") };
-    let Error::Input { quantity, value: coupling, .. } = **source else { panic!("{error}") };
+    let Error::Input { quantity, value: coupling, .. } = **source else {
+        panic!("{error}")
+    };
     assert!(item == "reduced coordinates" && quantity.contains("coupling of the modes"), "{error}");
     assert!(coupling > 1e-10, "{error}");
 }
@@ -320,7 +322,9 @@ fn tolerances_that_cannot_be_reached_are_refused() {
     let error = error_of_reduction(undamped.probe(Probe::acceleration("roof", roof())), 1e-3);
     assert!(matches!(error, Error::Accuracy { reached, .. } if reached > 1e-3), "{error}");
     let error = error_of_reduction(scene(SI, 0.1).structure(tower()), 1e-15);
-    let Error::Accuracy { tolerance, reached, remedy, .. } = &error else { panic!("{error}") };
+    let Error::Accuracy { tolerance, reached, remedy, .. } = &error else {
+        panic!("{error}")
+    };
     let vectors: usize = remedy.split(' ').nth(1).unwrap().parse().unwrap();
     assert!((tolerance / 1e-15 - 1.0).abs() < 1e-9 && reached > tolerance, "{error}");
     assert!(vectors > 20, "{error}");

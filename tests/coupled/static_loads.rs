@@ -172,7 +172,10 @@ impl Ground for RelaxingGround {
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         let factor = self.history_factor();
-        displacement.iter_mut().zip(&self.displacement).for_each(|(to, from)| *to = factor * from);
+        displacement
+            .iter_mut()
+            .zip(&self.displacement)
+            .for_each(|(to, from)| *to = factor * from);
         Ok(())
     }
 

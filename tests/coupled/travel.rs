@@ -30,7 +30,10 @@ fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
 
 fn building() -> ShearBuilding {
     let storeys = [Storey::new(3.0, 2.0e4, 2.0e7); 3];
-    ShearBuilding::new(4.0, 3.0e4, 8.0e4, &storeys).unwrap().with_stiffness_damping(0.03).unwrap()
+    ShearBuilding::new(4.0, 3.0e4, 8.0e4, &storeys)
+        .unwrap()
+        .with_stiffness_damping(0.03)
+        .unwrap()
 }
 
 /// A concrete wall, stiff against everything around it.

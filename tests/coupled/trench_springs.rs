@@ -48,7 +48,10 @@ impl TrenchSprings {
 
     fn set_diagonal(&self, value: f64, matrix: &mut [f64]) {
         matrix.fill(0.0);
-        matrix.iter_mut().step_by(self.displacement.len() + 1).for_each(|entry| *entry = value);
+        matrix
+            .iter_mut()
+            .step_by(self.displacement.len() + 1)
+            .for_each(|entry| *entry = value);
     }
 
     /// Displacement at the end of a step under a unit traction, m/Pa.

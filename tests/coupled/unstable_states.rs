@@ -282,7 +282,9 @@ fn a_block_that_its_ground_cannot_support_names_its_load_factor() {
 /// The block with a cohesive bond under a force, in weights, at this height, m.
 fn cohesive_block(height: f64, force: f64) -> SimulationBuilder {
     let load = Load::constant(block().horizontal_at(height), force * BLOCK_WEIGHT);
-    on_half_plane(block()).interface(Cohesive::new(1.0e3, 1.0e6, 0.3).unwrap()).load(load)
+    on_half_plane(block())
+        .interface(Cohesive::new(1.0e3, 1.0e6, 0.3).unwrap())
+        .load(load)
 }
 
 /// A bond is not friction: the error of a bonded base that overturns does not mention sliding.

@@ -98,7 +98,9 @@ fn errors_of_laws_are_printed_once() {
         .build()
         .unwrap();
     let Err(error) = simulation.run(100, |_| {}) else { panic!("no step failed") };
-    let Error::Step { source: StepError::Law(law), .. } = &error else { panic!("{error:?}") };
+    let Error::Step { source: StepError::Law(law), .. } = &error else {
+        panic!("{error:?}")
+    };
     let text = law.to_string();
     for error in
         [&error as &dyn StandardError, &StepError::Law(law.clone()), &Error::Law(law.clone())]

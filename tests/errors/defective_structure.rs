@@ -47,7 +47,11 @@ impl DefectiveStructure {
     }
 
     pub(crate) fn scene(self) -> SimulationBuilder {
-        Simulation::builder(1e-3).structure(self).ground(bed(4)).interface(Bonded).gravity(9.81)
+        Simulation::builder(1e-3)
+            .structure(self)
+            .ground(bed(4))
+            .interface(Bonded)
+            .gravity(9.81)
     }
 }
 

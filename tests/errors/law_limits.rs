@@ -28,7 +28,10 @@ const WRONG_LIMITS: [WrongLimit; 6] = [
     ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..valid() }),
     ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits { shear_strength, ..valid() }),
     ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..valid() }),
-    ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits { gap_offset, ..valid() }),
+    ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits {
+        gap_offset,
+        ..valid()
+    }),
 ];
 
 /// A law whose limits are wrong from a slip velocity on.

@@ -21,7 +21,9 @@ fn peak_memory() -> Option<f64> {
 /// Checks that this number is refused for its memory, of at least so many bytes.
 #[track_caller]
 fn assert_too_large<T>(result: Result<T>, quantity: &str, number: f64, min_bytes: f64) {
-    let Err(Error::Memory(error)) = result.map(drop) else { panic!("{quantity} is not refused") };
+    let Err(Error::Memory(error)) = result.map(drop) else {
+        panic!("{quantity} is not refused")
+    };
     assert_eq!((error.quantity, error.asked), (quantity, number));
     assert!(error.needed >= min_bytes && error.needed < 100.0 * min_bytes, "{error}");
     assert!(error.limit == memory_limit() as f64 && error.needed > error.limit, "{error}");
@@ -131,7 +133,9 @@ fn huge_numbers_of_steps_take_no_memory() {
         if kind == HistoryMethod::Auto {
             ground.history(&mut displacement).unwrap();
         } else {
-            let Err(Error::Memory(error)) = prepared else { panic!("{kind}: {prepared:?}") };
+            let Err(Error::Memory(error)) = prepared else {
+                panic!("{kind}: {prepared:?}")
+            };
             assert!(error.asked == steps as f64 && error.limit == f64::from(1 << 24), "{error}");
         }
         assert_memory_growth(previous_peak, 3e8);

@@ -30,7 +30,9 @@ fn unit_soil() -> Soil {
 
 /// `count` unit elements of a flat surface.
 fn flat(count: usize) -> Vec<Segment> {
-    (0..count).map(|k| Segment { from: [k as f64, 0.0], to: [k as f64 + 1.0, 0.0] }).collect()
+    (0..count)
+        .map(|k| Segment { from: [k as f64, 0.0], to: [k as f64 + 1.0, 0.0] })
+        .collect()
 }
 
 /// Matrices of displacements G and tractions H of one lag, row by row.

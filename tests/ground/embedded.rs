@@ -56,8 +56,11 @@ fn complex_numbers(parts: &[f64]) -> Vec<Complex> {
 fn errors(computed: &StripImpedance, expected: &[Complex]) -> [f64; 4] {
     let computed = components(computed);
     std::array::from_fn(|k| {
-        let size =
-            if k == 3 { (expected[0].abs() * expected[2].abs()).sqrt() } else { expected[k].abs() };
+        let size = if k == 3 {
+            (expected[0].abs() * expected[2].abs()).sqrt()
+        } else {
+            expected[k].abs()
+        };
         (computed[k] - expected[k]).abs() / size
     })
 }

@@ -106,7 +106,9 @@ fn bad_curves_are_told_by_layer() {
         assert!(bad_curves.at(1e-4).is_err(), "{bad_curves:?}");
         let curves = [StrainCurves::SeedIdrissMean, bad_curves.clone()];
         let outcome = analysed(&two_layer_column(), &single_sample(), &curves);
-        let Err(Error::Item { item, .. }) = outcome else { panic!("{bad_curves:?}: {outcome:?}") };
+        let Err(Error::Item { item, .. }) = outcome else {
+            panic!("{bad_curves:?}: {outcome:?}")
+        };
         assert_eq!(item, "layer 2", "{bad_curves:?}");
     }
     let good_curves = StrainCurves::SeedIdrissMean;
@@ -157,8 +159,9 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     };
     let compatible = "strain-compatible damping ratio";
     let strongly_damped = [good.clone(), StrainCurves::Linear { damping: 0.6 }];
-    let error =
-        column.equivalent_linear(&quiet, &strongly_damped, &options, &mut unobserved).unwrap_err();
+    let error = column
+        .equivalent_linear(&quiet, &strongly_damped, &options, &mut unobserved)
+        .unwrap_err();
     assert!(is_input_of(&error, "layer 2", compatible, 0.6), "{error}");
     // No body has this damping.
     let overdamped = [StrainCurves::Linear { damping: 0.99 }, good];

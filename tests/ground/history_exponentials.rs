@@ -276,7 +276,9 @@ fn bad_input_is_an_error() {
         let ground = unit_ground(Strip::graded(-1.0..1.0, 24).unwrap());
         let mut ground = ground.with_history(options).unwrap();
         let refused = ground.prepare(time_step, None, &mut unobserved).unwrap_err();
-        let Error::Memory(MemoryError { needed, limit, .. }) = refused else { panic!("{refused}") };
+        let Error::Memory(MemoryError { needed, limit, .. }) = refused else {
+            panic!("{refused}")
+        };
         assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
     }
     assert!(begin.elapsed().as_secs_f64() < 1.0, "{:?}", begin.elapsed());

@@ -298,7 +298,9 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
             );
         }
         let mut weights = [[7.0; 4]; 3];
-        patch.coefficients(class, 1100, &mut weights.each_mut().map(|list| &mut list[..])).unwrap();
+        patch
+            .coefficients(class, 1100, &mut weights.each_mut().map(|list| &mut list[..]))
+            .unwrap();
         assert_eq!(weights[0][2], weights_at(1102).zz);
         assert_eq!(weights[2][2], weights_at(1102).zx);
     }

@@ -22,7 +22,9 @@ fn weight_matrices(kernel: &dyn ConvolutionWeights) -> Vec<Vec<f64>> {
     let weights: Vec<[Vec<f64>; 3]> = (0..classes.count())
         .map(|class| {
             let mut weights = [(); 3].map(|()| vec![0.0; MARCH_STEPS]);
-            kernel.coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice)).unwrap();
+            kernel
+                .coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice))
+                .unwrap();
             weights
         })
         .collect();

@@ -62,7 +62,9 @@ fn weight_bits(kernel: &dyn ConvolutionWeights, lags: usize) -> Vec<u64> {
     let mut bits = vec![];
     for class in 0..kernel.classes().count() {
         let mut weights = [(); 3].map(|()| vec![0.0; lags]);
-        kernel.coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice)).unwrap();
+        kernel
+            .coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice))
+            .unwrap();
         bits.extend(weights.iter().flatten().map(|value| value.to_bits()));
     }
     bits
@@ -117,7 +119,9 @@ fn weight_bits_in_plan(kernel: &dyn ConvolutionWeights) -> Vec<u64> {
     let mut bits = vec![];
     for class in 0..kernel.classes().count() {
         let mut weights = [(); 6].map(|()| vec![0.0; 300]);
-        kernel.coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice)).unwrap();
+        kernel
+            .coefficients(class, 1, &mut weights.each_mut().map(Vec::as_mut_slice))
+            .unwrap();
         bits.extend(weights.iter().flatten().map(|value| value.to_bits()));
     }
     bits

@@ -129,7 +129,9 @@ fn faces_that_are_no_mat_are_errors() {
     // Faces that overlap by 0.8, 0.005 and 1e-5 of a square; a smaller overlap is the rounding of coordinates.
     for overlap in [0.8, 5e-3, 1e-5] {
         let error = fault(&[square.clone(), rectangle([1.0 - overlap, 2.0], [0.0, 1.0])], 8);
-        let PlanError::Overlap { faces: [0, 1], area } = error else { panic!("{error}") };
+        let PlanError::Overlap { faces: [0, 1], area } = error else {
+            panic!("{error}")
+        };
         assert!((area / overlap - 1.0).abs() < 1e-9, "{area} {overlap}");
     }
     let touching = Plan::on_faces(&[square.clone(), rectangle([1.0 - 1e-7, 2.0], [0.0, 1.0])], 8);
@@ -236,7 +238,11 @@ fn impedances_report_and_stop() {
     assert!(reports.is_sorted() && reports.last() == Some(&16));
     for last in [0, 8, 11] {
         let stopped = impedances_of_square(&profile, &[0.0, 2.0], &mut |progress| {
-            if progress.done == last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if progress.done == last {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         });
         assert!(matches!(stopped, Err(Error::Stopped(progress)) if progress.done == last));
     }

@@ -223,7 +223,9 @@ fn deconvolution_warns_of_what_it_amplifies() {
     let soft = damped_layer(100.0, 100.0, 0.15);
     let noisy = deconvolved(&soft, &record);
     assert!(noisy.peak() > 1e5);
-    let Some(SiteWarning::Amplified { frequency }) = noisy.warning() else { panic!("{noisy}") };
+    let Some(SiteWarning::Amplified { frequency }) = noisy.warning() else {
+        panic!("{noisy}")
+    };
     // At this frequency deconvolution amplifies a hundredfold, and above it more.
     let [below, gain, above] = [0.8, 1.0, 2.0].map(|ratio| {
         soft.transfer(ControlPoint::Outcrop, ratio * frequency).unwrap().abs().recip()

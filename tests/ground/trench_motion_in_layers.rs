@@ -20,7 +20,10 @@ const PULSE_RATE: f64 = 25.0;
 const PULSE_TIME: f64 = 1.0;
 
 fn elements() -> TrenchElements {
-    Trench::new(-4.0..6.0, TRENCH_DEPTH).unwrap().elements(BASE_ELEMENTS, WALL_ELEMENTS).unwrap()
+    Trench::new(-4.0..6.0, TRENCH_DEPTH)
+        .unwrap()
+        .elements(BASE_ELEMENTS, WALL_ELEMENTS)
+        .unwrap()
 }
 
 fn soil(speed: f64, poisson: f64, density: f64) -> Soil {

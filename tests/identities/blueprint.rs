@@ -232,8 +232,11 @@ impl Blueprint {
     ) -> Result<[DofCombination; 3]> {
         let node = self.node(point, view);
         let up = if self.in_space { Direction::Z } else { Direction::Y };
-        let across =
-            if self.in_space { model.row(node, Direction::Y)? } else { DofCombination::default() };
+        let across = if self.in_space {
+            model.row(node, Direction::Y)?
+        } else {
+            DofCombination::default()
+        };
         Ok([model.row(node, Direction::X)?, across, model.row(node, up)?])
     }
 }
@@ -244,10 +247,15 @@ fn reversed([a, b, c, d]: [usize; 4]) -> [usize; 4] {
 
 /// The list as an array.
 fn fixed<const N: usize>(list: Vec<usize>) -> [usize; N] {
-    list.try_into().unwrap_or_else(|list: Vec<usize>| panic!("{} nodes, {N} needed", list.len()))
+    list.try_into()
+        .unwrap_or_else(|list: Vec<usize>| panic!("{} nodes, {N} needed", list.len()))
 }
 
 /// Adds an element, as a user's one if the view says so.
 fn add(mesh: &mut Mesh, element: impl Element + 'static, view: &View) -> Result<usize> {
-    if view.by_user { mesh.add(user::UserElement(Box::new(element))) } else { mesh.add(element) }
+    if view.by_user {
+        mesh.add(user::UserElement(Box::new(element)))
+    } else {
+        mesh.add(element)
+    }
 }

@@ -129,7 +129,8 @@ pub(crate) fn bricks(numbers: &Numbers) -> Blueprint {
         }
     }
     plan.pieces.push(Piece::Mass(levels[2][0][0], 0.1 * numbers.mass(true)));
-    plan.pieces.push(Piece::Spring([levels[0][0][0], levels[2][2][2]], 1e-3 * plan.young));
+    plan.pieces
+        .push(Piece::Spring([levels[0][0][0], levels[2][2][2]], 1e-3 * plan.young));
     plan.damping = 0.03;
     plan.top = levels[2][2][2];
     plan

@@ -231,7 +231,11 @@ struct FoundationVectors<'a>(&'a basemat::coupled::Foundation);
 
 impl FoundationVectors<'_> {
     fn force_in_space(&self, in_plan: bool) -> [f64; 3] {
-        if in_plan { self.0.force_vector() } else { [self.0.base_shear, 0.0, -self.0.normal_force] }
+        if in_plan {
+            self.0.force_vector()
+        } else {
+            [self.0.base_shear, 0.0, -self.0.normal_force]
+        }
     }
 
     /// In the plane a moment is about the axis towards the reader, −y.

@@ -104,8 +104,10 @@ fn rows_name_parts_of_the_library() {
         existing.extend(implemented(name, folder));
     }
     let rows = types!(GroundPart).chain(types!(BodyPart)).chain(types!(LawPart));
-    for part in
-        rows.chain(types!(MotionPart)).chain(types!(SchemePart)).chain(types!(CoordinatePart))
+    for part in rows
+        .chain(types!(MotionPart))
+        .chain(types!(SchemePart))
+        .chain(types!(CoordinatePart))
     {
         assert!(existing.contains(part), "{part} is no part of the library");
     }

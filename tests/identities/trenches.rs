@@ -250,7 +250,10 @@ impl SpringScene {
         let tangential = 0.6 * self.stiffness;
         let bed = SpringGround::in_plan(cells, [self.stiffness, tangential, tangential])?;
         let bed = bed.with_dashpots(4e5, 3e5)?;
-        self.builder().ground(bed).structure(RigidBody::cuboid(self.size, self.density)?).build()
+        self.builder()
+            .ground(bed)
+            .structure(RigidBody::cuboid(self.size, self.density)?)
+            .build()
     }
 }
 

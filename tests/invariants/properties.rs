@@ -192,8 +192,10 @@ fn eccentric_preload_balances_moments() {
 
 #[test]
 fn a_structure_at_rest_stays_at_rest() {
-    let simulation =
-        scene(SI_UNITS, 0.0).structure(tower(SI_UNITS, None)).interface(friction(0.3)).build();
+    let simulation = scene(SI_UNITS, 0.0)
+        .structure(tower(SI_UNITS, None))
+        .interface(friction(0.3))
+        .build();
     let states = states(&mut simulation.unwrap(), 50);
     let displacements = states.iter().flat_map(State::displacement);
     let max_displacement = displacements.fold(0.0_f64, |max, u| max.max(u.abs()));

@@ -186,7 +186,9 @@ fn bad_files_are_refused_with_their_line() {
     assert_eq!(refusal(&"1".repeat(100_000)), (1, long));
     let truncated = refusal(&MANUAL_EXAMPLE[..MANUAL_EXAMPLE.find("2 2 5 6 3").unwrap()]);
     assert!(matches!(truncated, (24, FileFault::Missing { .. })), "{truncated:?}");
-    let Err(Error::File(error)) = GmshMesh::read("no such file") else { panic!("there is a file") };
+    let Err(Error::File(error)) = GmshMesh::read("no such file") else {
+        panic!("there is a file")
+    };
     assert!(error.line == 0 && matches!(error.fault, FileFault::Unreadable(_)), "{error}");
 }
 
@@ -241,7 +243,9 @@ fn groups_that_are_not_there_are_named() {
     let crossed_text = MANUAL_EXAMPLE.replacen("1 1 2 3 4", "1 1 3 2 4", 1);
     let crossed = read(&crossed_text).unwrap();
     let error = crossed.mesh(&[("", concrete())]).unwrap_err();
-    let Error::File(FileError { line, fault, .. }) = &error else { panic!("{error}") };
+    let Error::File(FileError { line, fault, .. }) = &error else {
+        panic!("{error}")
+    };
     let FileFault::Unusable(inside) = fault else { panic!("{error}") };
     assert!(matches!(&**inside, Error::Item { item, .. } if item == "element 1"), "{error}");
     let refused_line = crossed_text.lines().nth(line - 1).unwrap();

@@ -133,7 +133,11 @@ fn compliance(model: &FemModel) -> f64 {
     model.mass(&mut mass).unwrap();
     let matrix = stiffness(model);
     let mut diagonal = vec![0.0; n];
-    matrix.entries().iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, k)| diagonal[i] += k);
+    matrix
+        .entries()
+        .iter()
+        .filter(|(i, j, _)| i == j)
+        .for_each(|&(i, _, k)| diagonal[i] += k);
     let weight = product(&mass, &model.rigid_motion(Direction::X, [0.0; 3]));
     let load = without_fixed(weight, &fixed);
     let mut u = vec![0.0; n];

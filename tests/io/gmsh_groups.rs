@@ -25,7 +25,9 @@ $Elements\n2 5 1 5\n1 1 1 2\n1 4 3\n2 1 2\n2 1 3 3\n3 1 2 6 5\n4 2 3 7 6\n5 3 4 
 fn line_given_twice(text: &str, part: &str) -> usize {
     let refusal = refusal(text);
     let line = refusal.0;
-    let FileFault::Value { quantity, found, .. } = refusal.1 else { panic!("{}", refusal.1) };
+    let FileFault::Value { quantity, found, .. } = refusal.1 else {
+        panic!("{}", refusal.1)
+    };
     assert!(line > 0 && quantity.contains(part), "{line}: {quantity}, not {part}");
     assert_eq!(found, "given twice");
     line

@@ -31,7 +31,9 @@ impl Element for Tetrahedron {
     fn mass(&self, _: &[[f64; 3]], _: MassKind, _: &mut [f64]) {}
     fn faces(&self) -> Vec<ElementFace> {
         let [a, b, c, d] = self.0;
-        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]].map(|side| ElementFace::side(&side)).to_vec()
+        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]]
+            .map(|side| ElementFace::side(&side))
+            .to_vec()
     }
 }
 
@@ -53,7 +55,8 @@ fn model() -> FemModel {
     let bricks = grid.extrude(&mut mesh, &[1.0]).unwrap();
     let second = bricks[1];
     mesh.add(Hex8::new(bricks[0], concrete)).unwrap();
-    mesh.add(Hex8::new([0, 3, 7, 4, 1, 2, 6, 5].map(|corner| second[corner]), concrete)).unwrap();
+    mesh.add(Hex8::new([0, 3, 7, 4, 1, 2, 6, 5].map(|corner| second[corner]), concrete))
+        .unwrap();
     mesh.add(Shell::new(vec![6, 7, 10, 9], concrete, 0.4).unwrap()).unwrap();
     for x in [0.0, 2.0] {
         mesh.add_node_at([x, 0.0, 9.0]).unwrap();
@@ -63,7 +66,8 @@ fn model() -> FemModel {
     let head = mesh.add_node_at([0.0, 3.0, 10.0]).unwrap();
     let arm = mesh.add_node_at([1.0, 2.0, 10.5]).unwrap();
     let section = BeamSection::new(0.16, [2.1e-3, 2.1e-3], 3.6e-3).unwrap();
-    mesh.add(SpaceBeam::new([9, head], concrete, section, [1.0, 0.0, 0.0]).unwrap()).unwrap();
+    mesh.add(SpaceBeam::new([9, head], concrete, section, [1.0, 0.0, 0.0]).unwrap())
+        .unwrap();
     mesh.add(LumpedMass::in_space(arm, 2.0e4, [1.0e4; 3]).unwrap()).unwrap();
     let tip = mesh.add_node_at([0.5, 0.5, 7.0]).unwrap();
     mesh.add(Tetrahedron([6, 7, 9, tip])).unwrap();

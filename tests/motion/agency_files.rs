@@ -142,7 +142,9 @@ fn components_of_a_station_are_read_at_once() {
 
 /// The samples of the short files, repeated and scaled.
 fn repeated(repetitions: usize, factor: f64) -> impl Iterator<Item = f64> {
-    std::iter::repeat_n(SHORT_FILE_SAMPLES, repetitions).flatten().map(move |value| value * factor)
+    std::iter::repeat_n(SHORT_FILE_SAMPLES, repetitions)
+        .flatten()
+        .map(move |value| value * factor)
 }
 
 /// GOAL: COSMOS files are read with the interval of their data, or the recorder's if it is unknown.

@@ -221,7 +221,11 @@ fn lists_of_samples_have_their_headers_step_and_unit() {
 /// Numbers of the list of samples.
 fn words_of_list() -> Vec<f64> {
     let text = String::from_utf8(bytes("slist.txt")).unwrap();
-    text.lines().skip(1).flat_map(str::split_whitespace).map(|word| word.parse().unwrap()).collect()
+    text.lines()
+        .skip(1)
+        .flat_map(str::split_whitespace)
+        .map(|word| word.parse().unwrap())
+        .collect()
 }
 
 /// GOAL: units of titles, lines of headers and words that are no numbers are checked.

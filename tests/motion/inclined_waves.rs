@@ -97,7 +97,9 @@ fn vertical_incidence_doubles_one_component() {
 /// Asserts the error of a component that hardly moves.
 #[track_caller]
 fn assert_refused(outcome: Result<TravellingWave>, name: &str) {
-    let Err(error @ Error::Input { value, .. }) = outcome else { panic!("{name}: accepted") };
+    let Err(error @ Error::Input { value, .. }) = outcome else {
+        panic!("{name}: accepted")
+    };
     assert!(error.to_string().contains("of the wave") && value <= 0.1, "{name}: {error}");
 }
 

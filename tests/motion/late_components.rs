@@ -142,7 +142,9 @@ fn records_that_do_not_end_at_rest_are_refused() {
     for outcome in
         [wave.field_from_horizontal(&drifting, 0.0), wave.field_from_vertical(&drifting, 0.0)]
     {
-        let Err(Error::Input { quantity, value, .. }) = outcome else { panic!("accepted") };
+        let Err(Error::Input { quantity, value, .. }) = outcome else {
+            panic!("accepted")
+        };
         assert_eq!(quantity, "velocity at the end of the record");
         assert!((value - 0.01).abs() < 1e-12);
     }

@@ -267,7 +267,8 @@ fn full_columns_may_touch() {
 
 /// The CSMIP file with these words in place of its unit and format, and a misleading title.
 fn csmip_with_units(units: &str) -> String {
-    CSMIP_TEXT.replace("in cm/sec2. (8f10.3)", units).replace("Corrected", "Galileo Street")
+    let text = CSMIP_TEXT.replace("in cm/sec2. (8f10.3)", units);
+    text.replace("Corrected", "Galileo Street")
 }
 
 /// GOAL: units of COSMOS files are whole words: a thousandth of a gal is not a gal, and a gallery is not a unit.

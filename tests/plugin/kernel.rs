@@ -110,7 +110,9 @@ impl ConvolutionWeights for BlockwiseWeights {
 }
 
 fn traction(step: usize, size: usize) -> Vec<f64> {
-    (0..size).map(|i| (1e4 * (1.7 + (3 * step + 7 * i) as f64).sin()).sin() + 0.3).collect()
+    (0..size)
+        .map(|i| (1e4 * (1.7 + (3 * step + 7 * i) as f64).sin()).sin() + 0.3)
+        .collect()
 }
 
 /// Displacements of all steps by a history.

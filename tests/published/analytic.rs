@@ -212,7 +212,11 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
     let edge = ground.elements()[0].length();
     let mut simulation = Simulation::builder(time_step)
         .structure(pushed_block(block, move |t: f64| {
-            if t < push_duration { 1.6 * weight * b * (PI * t / push_duration).sin() } else { 0.0 }
+            if t < push_duration {
+                1.6 * weight * b * (PI * t / push_duration).sin()
+            } else {
+                0.0
+            }
         }))
         .ground(ground)
         .interface(Coulomb::uplift_only())

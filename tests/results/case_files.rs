@@ -144,6 +144,8 @@ fn a_shard_whose_cases_all_failed_merges_and_one_without_results_does_not() {
     let mut file = sweep_of_two().shard(0, 2).unwrap().open(&bare).unwrap();
     file.append::<&str>(0, &[], Ok(vec![]), "").unwrap();
     file.finish().unwrap();
-    let Err(Error::File(error)) = sweep_of_two().merge([&bare, &paths[1]]) else { panic!() };
+    let Err(Error::File(error)) = sweep_of_two().merge([&bare, &paths[1]]) else {
+        panic!()
+    };
     assert!(matches!(error.fault, FileFault::Value { .. }), "{error}");
 }

@@ -201,7 +201,12 @@ fn other_sweep(friction: f64, width: &str) -> Sweep<'static> {
 fn fault_of_other_shard(shards: &[PathBuf], sweep: Sweep<'_>, columns: [&str; 2]) -> FileFault {
     let other = shards[0].with_file_name("other.csv");
     let shard = sweep.shard(3, 4).unwrap();
-    shard.table(columns, |_| Ok::<_, Error>([0.0; 2])).unwrap().csv().save(&other).unwrap();
+    shard
+        .table(columns, |_| Ok::<_, Error>([0.0; 2]))
+        .unwrap()
+        .csv()
+        .save(&other)
+        .unwrap();
     match self::sweep().merge([&shards[0], &shards[1], &shards[2], &other]) {
         Err(Error::File(FileError { fault, file, .. })) => {
             assert_eq!(file, other.display().to_string());

@@ -199,7 +199,9 @@ fn a_full_disk_ends_the_sweep_with_its_rows() {
             Result::Ok(index_results(case))
         });
         let Err(Error::Sweep(error)) = fault else { panic!("{fault:?}") };
-        let SweepError::Unwritten { computed, left, rows, .. } = &error else { panic!("{error}") };
+        let SweepError::Unwritten { computed, left, rows, .. } = &error else {
+            panic!("{error}")
+        };
         assert_eq!((*computed, computed + left), (runs.load(Ordering::Relaxed), 400), "{error}");
         // Nothing is begun after the first row that found no place.
         assert!(*computed < 150, "{error}");

@@ -164,8 +164,9 @@ fn floors_that_the_vertical_mass_lacks() {
 fn raft(density: f64, thickness: f64) -> FemModel {
     let concrete = Material::new(30e9, 0.2, density).unwrap();
     let mut mesh = Mesh::in_space();
-    let grid =
-        mesh.add_grid(4, 4, |row, column| [2.0 * column as f64, 2.0 * row as f64, 0.0]).unwrap();
+    let grid = mesh
+        .add_grid(4, 4, |row, column| [2.0 * column as f64, 2.0 * row as f64, 0.0])
+        .unwrap();
     for (_, cell) in grid.cells() {
         mesh.add(Shell::new(cell, concrete, thickness).unwrap()).unwrap();
     }

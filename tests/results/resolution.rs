@@ -275,7 +275,9 @@ fn uncovered_base(half: f64) -> Option<Warning> {
         .build()
         .unwrap();
     let run = simulation.run(200, |_| {}).unwrap();
-    run.warnings.into_iter().find(|warning| matches!(warning, Warning::UncoveredBase { .. }))
+    run.warnings
+        .into_iter()
+        .find(|warning| matches!(warning, Warning::UncoveredBase { .. }))
 }
 
 /// A base of 8 m on elements that end 2 m within it; one that ends within an element of theirs passes.

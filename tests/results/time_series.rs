@@ -69,8 +69,10 @@ fn assert_envelopes(recorded: &Recorded) {
 /// Stretches of uplift as runs in a string.
 fn assert_uplift(recorded: &Recorded) {
     let Recorded { simulation, states, run, .. } = recorded;
-    let letters: String =
-        states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
+    let letters: String = states[1..]
+        .iter()
+        .map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' })
+        .collect();
     let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
     let uplift = run.whole.uplift;
     let dt = simulation.time_step();

@@ -35,7 +35,9 @@ fn elements_of_walls_have_heights_and_pictures_show_the_trench() {
     let lines: Vec<_> = text.lines().collect();
     assert!(lines[0].starts_with("time_s,element,left_m,right_m,bottom_m,top_m,mode,gap_m"));
     for (line, place) in
-        lines[1..].iter().zip(["-3.0,-3.0,-4.0,0.0", "-3.0,0.0,-4.0,-4.0", "0.0,3.0,-4.0,-4.0"])
+        lines[1..]
+            .iter()
+            .zip(["-3.0,-3.0,-4.0,0.0", "-3.0,0.0,-4.0,-4.0", "0.0,3.0,-4.0,-4.0"])
     {
         assert!(line.contains(place), "{line}");
     }

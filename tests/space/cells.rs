@@ -171,7 +171,11 @@ pub(crate) struct CrossingPulses {
 /// (1 − cos ωt)² in mm, from the arrival at `distance` on.
 fn pulse(time: f64, distance: f64, velocity: f64, frequency: f64) -> f64 {
     let local_time = time - (distance + PULSE_START_DISTANCE) / velocity;
-    if local_time > 0.0 { 1e-3 * (1.0 - (frequency * local_time).cos()).powi(2) } else { 0.0 }
+    if local_time > 0.0 {
+        1e-3 * (1.0 - (frequency * local_time).cos()).powi(2)
+    } else {
+        0.0
+    }
 }
 
 impl FreeField for CrossingPulses {

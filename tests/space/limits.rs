@@ -92,7 +92,10 @@ fn linear_pressures(simulation: &Simulation, eccentricity: f64) -> Vec<f64> {
     let elements = simulation.ground().elements();
     let middles: Vec<f64> = elements.iter().map(|element| element.center()[0]).collect();
     let mean_square = middles.iter().map(|x| x * x).sum::<f64>() / middles.len() as f64;
-    middles.iter().map(|x| MEAN_PRESSURE * (1.0 + eccentricity * x / mean_square)).collect()
+    middles
+        .iter()
+        .map(|x| MEAN_PRESSURE * (1.0 + eccentricity * x / mean_square))
+        .collect()
 }
 
 fn assert_close(computed: &[f64], expected: &[f64]) {
@@ -113,7 +116,9 @@ fn stability_error(law: impl InterfaceLaw + 'static) -> StabilityError {
 fn caps_below_the_weight_are_bearing_failure() {
     let limits = Limits { friction: 0.3, pressure_cap: 1e3, ..Limits::default() };
     let error = stability_error(LimitsLaw::new(limits));
-    let StabilityError::BearingFailure { ratio, .. } = error else { panic!("{error}") };
+    let StabilityError::BearingFailure { ratio, .. } = error else {
+        panic!("{error}")
+    };
     assert!((ratio / (MEAN_PRESSURE / 1e3) - 1.0).abs() < 1e-9, "{ratio}");
     assert_eq!(error, stability_error(Yielding::new(1e3, 0.3).unwrap()));
 }
@@ -223,7 +228,10 @@ fn layers_are_compressed_while_the_weight_comes_on() {
 
 /// The warning of a large settlement.
 fn large_settlement(warnings: &[Warning]) -> Option<Warning> {
-    warnings.iter().find(|warning| matches!(warning, Warning::LargeSettlement { .. })).copied()
+    warnings
+        .iter()
+        .find(|warning| matches!(warning, Warning::LargeSettlement { .. }))
+        .copied()
 }
 
 /// Released at t = 0 on soil that bears 1 kPa, a body sinks by ½ (g − cap/m) t², and the run says so: whatever the law.

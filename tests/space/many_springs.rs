@@ -106,8 +106,11 @@ fn scene(number: u64, is_disclosed: bool) -> Simulation {
     }
     let motion = Sines::random(random, time_step, gravity);
     let push = random.within(0.0, 0.05) * pressure * sides[0] * sides[1];
-    let stage =
-        if random.chance(0.2) { GravityStage::Frictional } else { GravityStage::Frictionless };
+    let stage = if random.chance(0.2) {
+        GravityStage::Frictional
+    } else {
+        GravityStage::Frictionless
+    };
     Simulation::builder(time_step)
         .structure(body)
         .motion(motion)

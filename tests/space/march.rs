@@ -14,7 +14,10 @@ const ECCENTRIC_CUBOID: Cuboid =
 const STRAIGHT_PULSES: CrossingPulses = CrossingPulses { quarter_turns: 0 };
 
 fn body(cuboid: Cuboid) -> RigidBody {
-    RigidBody::cuboid(cuboid.sides, cuboid.density).unwrap().centered_at(cuboid.center).unwrap()
+    RigidBody::cuboid(cuboid.sides, cuboid.density)
+        .unwrap()
+        .centered_at(cuboid.center)
+        .unwrap()
 }
 
 fn cells(cuboid: Cuboid) -> SpringCells {
@@ -247,8 +250,12 @@ fn an_eccentric_weight_tilts_the_body_about_both_axes() {
         &metre_lines(BASE_WIDTH, 6),
         BED_PROPERTIES,
     );
-    let simulation =
-        Simulation::builder(0.01).structure(body).ground(cells).interface(Bonded).build().unwrap();
+    let simulation = Simulation::builder(0.01)
+        .structure(body)
+        .ground(cells)
+        .interface(Bonded)
+        .build()
+        .unwrap();
     let weight = STANDARD_GRAVITY * mass;
     let u = simulation.static_displacement();
     let expected = [

@@ -30,7 +30,8 @@ fn model() -> FemModel {
     mesh.add(Hex8::new(brick, concrete)).unwrap();
     let top = mesh.add_node_at([2.0, 2.0, 11.0]).unwrap();
     let section = BeamSection::new(0.16, [2.1e-3, 2.1e-3], 3.6e-3).unwrap();
-    mesh.add(SpaceBeam::new([5, top], concrete, section, [1.0, 0.0, 0.0]).unwrap()).unwrap();
+    mesh.add(SpaceBeam::new([5, top], concrete, section, [1.0, 0.0, 0.0]).unwrap())
+        .unwrap();
     mesh.add(LumpedMass::in_space(top, 2.0e4, [0.0; 3]).unwrap()).unwrap();
     FemModel::on_base(mesh).unwrap()
 }

@@ -223,7 +223,11 @@ fn level_motion(dofs: &[f64], level: usize, [dx, dy]: [f64; 2]) -> [f64; 3] {
         _ => [3 + 3 * level, 4 + 3 * level, 5 + 3 * level],
     };
     let motion = level_dofs.map(|dof| dofs[dof]);
-    [motion[0] - dy * motion[2], motion[1] + dx * motion[2], dofs[2] + dy * dofs[3] - dx * dofs[4]]
+    [
+        motion[0] - dy * motion[2],
+        motion[1] + dx * motion[2],
+        dofs[2] + dy * dofs[3] - dx * dofs[4],
+    ]
 }
 
 #[test]

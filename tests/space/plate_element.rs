@@ -7,8 +7,11 @@ pub(super) const NODE_DOFS: usize = 3;
 /// Of a plate element.
 const PLATE_DOFS: usize = 4 * NODE_DOFS;
 /// Points and weights of Gauss' rule of three.
-const GAUSS_RULE: [(f64, f64); 3] =
-    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+const GAUSS_RULE: [(f64, f64); 3] = [
+    (-0.774_596_669_241_483_4, 5.0 / 9.0),
+    (0.0, 8.0 / 9.0),
+    (0.774_596_669_241_483_4, 5.0 / 9.0),
+];
 
 /// The twelve monomials of an ACM rectangle: powers of x and y.
 const MONOMIAL_POWERS: [[i32; 2]; PLATE_DOFS] = [
@@ -42,7 +45,9 @@ fn curvatures(coefficients: &[f64], point: [f64; 2], by: [i32; 2]) -> Vec<f64> {
     let derivatives = monomials(point, by);
     (0..PLATE_DOFS)
         .map(|j| {
-            (0..PLATE_DOFS).map(|k| derivatives[k] * coefficients[k * PLATE_DOFS + j]).sum::<f64>()
+            (0..PLATE_DOFS)
+                .map(|k| derivatives[k] * coefficients[k * PLATE_DOFS + j])
+                .sum::<f64>()
         })
         .collect()
 }

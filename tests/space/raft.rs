@@ -309,8 +309,9 @@ fn a_load_on_the_edge_of_a_round_raft_settles_it_as_the_ritz_solution() {
     let edge_rows: Vec<DofCombination> =
         raft.edge_nodes().iter().map(|&node| vertical(&raft.model, node)).collect();
     let ground = ElasticGround::under(soil, &raft.model, 13).unwrap();
-    let loads =
-        edge_rows.iter().map(|row| Load::constant(row.clone(), -TOTAL_LOAD / SECTOR_COUNT as f64));
+    let loads = edge_rows
+        .iter()
+        .map(|row| Load::constant(row.clone(), -TOTAL_LOAD / SECTOR_COUNT as f64));
     let simulation = loaded_simulation(&raft.model, ground, NEGLIGIBLE_GRAVITY, loads);
     let displacement = simulation.static_displacement();
     let scale = -soil.shear_modulus() * ROUND_RAFT_RADIUS / TOTAL_LOAD;

@@ -36,8 +36,9 @@ fn block(young_modulus: f64, damping: Option<RayleighDamping>) -> FemModel {
 fn layered_block(layers: usize, young_modulus: f64, damping: Option<RayleighDamping>) -> FemModel {
     let material = Material::new(young_modulus, 0.2, 1800.0).unwrap();
     let mut mesh = Mesh::in_space();
-    let lines: Vec<f64> =
-        (0..=BRICKS_PER_SIDE).map(|k| 8.0 * k as f64 / BRICKS_PER_SIDE as f64 - 4.0).collect();
+    let lines: Vec<f64> = (0..=BRICKS_PER_SIDE)
+        .map(|k| 8.0 * k as f64 / BRICKS_PER_SIDE as f64 - 4.0)
+        .collect();
     let base_grid = mesh
         .add_grid(lines.len(), lines.len(), |row, column| [lines[column], lines[row], 0.0])
         .unwrap();

@@ -18,8 +18,9 @@ fn pictures_show_open_and_sliding_cells() {
     let RockingBody { time_series, run, states } = RockingBody::new();
     let time = run.whole.uplifted_area.highest.time;
     let frames = states.iter().step_by(10);
-    let shown =
-        frames.min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs())).unwrap();
+    let shown = frames
+        .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+        .unwrap();
     let open_count = shown.modes.iter().filter(|mode| !mode.is_closed()).count();
     let slip_count = shown.modes.iter().filter(|mode| mode.is_slip()).count();
     assert!(open_count > 2 && slip_count > 2, "{open_count} {slip_count}");

@@ -32,7 +32,9 @@ impl FreeField for TurnedStrongPulses {
         unreachable!("a ground in plan asks for three directions")
     }
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
-        CrossingPulses { quarter_turns: self.0 }.displacement_at(place, time).map(|u| 12.0 * u)
+        CrossingPulses { quarter_turns: self.0 }
+            .displacement_at(place, time)
+            .map(|u| 12.0 * u)
     }
 }
 
@@ -139,7 +141,9 @@ impl ContactSums {
 }
 
 fn body_weight(number: usize) -> f64 {
-    BODY_SIDES[number].iter().fold(STANDARD_GRAVITY * BODY_DENSITY, |weight, side| weight * side)
+    BODY_SIDES[number]
+        .iter()
+        .fold(STANDARD_GRAVITY * BODY_DENSITY, |weight, side| weight * side)
 }
 
 #[test]

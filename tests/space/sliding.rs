@@ -300,7 +300,9 @@ fn laws_without_limits_are_named() {
     let law = VariableFriction::new(|start| if start.slip_rate > 0.05 { f64::NAN } else { 0.2 });
     let mut simulation = scene(law, 4e-3, 2.0).unwrap();
     let error = simulation.run(1000, |_| {}).unwrap_err();
-    let Error::Step { source: StepError::Law(_), .. } = &error else { panic!("{error}") };
+    let Error::Step { source: StepError::Law(_), .. } = &error else {
+        panic!("{error}")
+    };
     assert!(error.to_string().contains("friction coefficient"), "{error}");
 }
 
@@ -317,7 +319,9 @@ fn build_with_load(weights: f64) -> Result<Simulation> {
 
 /// Why a scene cannot stand.
 fn stability_error(built: Result<Simulation>) -> StabilityError {
-    let Error::Stability(cause) = built.unwrap_err() else { panic!("another error") };
+    let Error::Stability(cause) = built.unwrap_err() else {
+        panic!("another error")
+    };
     *cause
 }
 
@@ -355,7 +359,9 @@ fn moments_overturn_about_either_axis() {
             .load(Load::new(dof, move |_| 3.6 * sign * BODY_WEIGHT))
             .build();
         let cause = stability_error(built);
-        let StabilityError::Overturning { ratio, .. } = cause else { panic!("{cause}") };
+        let StabilityError::Overturning { ratio, .. } = cause else {
+            panic!("{cause}")
+        };
         assert!((ratio - 1.2).abs() < 1e-9, "{ratio}");
     }
 }

@@ -23,7 +23,10 @@ const ECCENTRIC_CUBOID: Cuboid =
     Cuboid { sides: [8.0, 6.0, 9.0], density: 2000.0, center: [2.0, -1.0] };
 
 fn body(cuboid: Cuboid) -> RigidBody {
-    RigidBody::cuboid(cuboid.sides, cuboid.density).unwrap().centered_at(cuboid.center).unwrap()
+    RigidBody::cuboid(cuboid.sides, cuboid.density)
+        .unwrap()
+        .centered_at(cuboid.center)
+        .unwrap()
 }
 
 /// The eccentric cuboid's base along an axis.
@@ -160,8 +163,11 @@ fn square_mat() -> Plan {
 #[test]
 fn springs_have_no_overhang() {
     let union_sizes = [1, 2, 2, 1];
-    let united =
-        square_mat().without_overhang().unwrap().with_unions(&union_sizes, &union_sizes).unwrap();
+    let united = square_mat()
+        .without_overhang()
+        .unwrap()
+        .with_unions(&union_sizes, &union_sizes)
+        .unwrap();
     for (plan, count) in [(square_mat(), 36), (united, 16)] {
         let ground = SpringGround::in_plan(plan, [1.0; 3]).unwrap();
         assert_eq!(ground.elements().len(), count);

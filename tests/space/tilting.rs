@@ -74,7 +74,8 @@ fn blocks_stand_on_their_outermost_cells() {
         assert!((along_push - (8.0 - 0.21) / 7.0).abs() < 1e-6, "{axis}: {along_push}");
         assert!(across_push > 1e3, "{axis}: {across_push}");
         assert!(
-            run.to_string().contains("0.90 of the half width from the middle of the base at most"),
+            run.to_string()
+                .contains("0.90 of the half width from the middle of the base at most"),
             "{run}"
         );
         assert_eq!(run.whole.ends, [-3.0, 3.0]);

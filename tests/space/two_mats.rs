@@ -54,7 +54,8 @@ fn cells_that_do_not_fit_two_mats_are_errors() {
     // Row by row under both: the elements of a mat do not follow one another.
     let lines: Vec<f64> = (-4..=11).map(f64::from).collect();
     let mut rows = SpringCells::between(&lines, &[-3.0, 0.0, 3.0], BED_PROPERTIES);
-    rows.elements.retain(|element| !(element.center()[0] > 4.0 && element.center()[0] < 7.0));
+    rows.elements
+        .retain(|element| !(element.center()[0] > 4.0 && element.center()[0] < 7.0));
     let error = cells_error(rows.resized());
     assert!(error.to_string().contains("apart from the others of its mat"), "{error}");
     // One element reaches from one mat to the other.

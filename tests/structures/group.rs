@@ -112,8 +112,9 @@ fn twins_mirror_each_other_under_a_vertical_pulse() {
     let simulation =
         base_scene().structure(group).motion(pulse).ground(half_plane(&strips)).build();
     let states_of_twins = states(simulation.unwrap(), 400);
-    let peak =
-        states_of_twins.iter().fold(0.0_f64, |m, s| m.max(s.foundations[0].base_rotation.abs()));
+    let peak = states_of_twins
+        .iter()
+        .fold(0.0_f64, |m, s| m.max(s.foundations[0].base_rotation.abs()));
     assert!(peak > 1e-6);
     for state in &states_of_twins {
         let [left, right] = &state.foundations[..] else { panic!() };
@@ -211,8 +212,10 @@ fn groups_that_make_no_sense_are_refused() {
     assert!(matches!(built, Err(Error::Part { .. })), "{:?}", built.err());
     let built = base_scene().structure(block_pair()).ground(half_plane(&across[..1])).build();
     assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
-    let empty =
-        base_scene().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
+    let empty = base_scene()
+        .structure(StructureGroup::new())
+        .ground(half_plane(&across[..1]))
+        .build();
     assert!(empty.is_err());
 }
 
@@ -265,7 +268,9 @@ fn foundations_stay_apart_in_every_wrapper() {
     ];
     let plain: Box<dyn Structure> = Box::new(tower_and_block());
     for structure in wrapped.into_iter().chain([plain]) {
-        let Base::Lines(lines) = structure.base() else { panic!("a base in the plane") };
+        let Base::Lines(lines) = structure.base() else {
+            panic!("a base in the plane")
+        };
         assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
     let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];

@@ -12,7 +12,10 @@ use super::group::{base_scene, block, states, tower, traction_difference};
 /// Bed of a foundation of this width.
 fn spring_bed(center: f64, width: f64) -> SpringGround {
     let range = center - 0.5 * width..center + 0.5 * width;
-    SpringGround::new(range, 6, 60.0e6, 40.0e6).unwrap().with_dashpots(3.0e5, 2.0e5).unwrap()
+    SpringGround::new(range, 6, 60.0e6, 40.0e6)
+        .unwrap()
+        .with_dashpots(3.0e5, 2.0e5)
+        .unwrap()
 }
 
 /// GOAL: without a soil between them, two structures are two single runs: modes, weight, uplift,

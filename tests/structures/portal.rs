@@ -111,7 +111,9 @@ impl Portal {
         let mut error = 0.0_f64;
         simulation.run(simulation.steps_for(8.0), |state| {
             // The axial pair of the footings and their base moments balance the inertia forces.
-            let [left, right] = &state.foundations[..] else { unreachable!("two foundations") };
+            let [left, right] = &state.foundations[..] else {
+                unreachable!("two foundations")
+            };
             let pair = 0.5 * BEAM_SPAN * (left.normal_force - right.normal_force);
             let moment = pair + left.base_moment + right.base_moment;
             largest = largest.max(moment.abs());

@@ -66,8 +66,11 @@ fn measure(cells: usize, crossed: f64, bonded: bool, end: f64) -> Result<StepCos
             up: None,
         })
         .expected_steps(steps);
-    builder =
-        if bonded { builder.interface(Bonded) } else { builder.interface(Coulomb::new(0.5)?) };
+    builder = if bonded {
+        builder.interface(Bonded)
+    } else {
+        builder.interface(Coulomb::new(0.5)?)
+    };
     let mut simulation = builder.build()?;
     let mut times = Vec::new();
     let mut trials = 0;

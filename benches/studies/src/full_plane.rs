@@ -171,7 +171,9 @@ fn error_points(
     error: impl Fn(&TruncationRow) -> Option<f64>,
 ) -> Vec<(f64, f64)> {
     let mesh_rows = quadrature_rows(rows).filter(|row| row.mesh.elements == elements);
-    mesh_rows.filter_map(|row| Some(((row.mesh.free as f64).max(0.5), error(row)?))).collect()
+    mesh_rows
+        .filter_map(|row| Some(((row.mesh.free as f64).max(0.5), error(row)?)))
+        .collect()
 }
 
 /// Draws errors of the impedances over the free elements, a panel per mesh of convolution quadrature.

@@ -73,8 +73,9 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
         return 1.0;
     }
     let roots = roots_of_diagonal((0..order).map(|i| matrix[i * order + i]));
-    let scaled: Vec<f64> =
-        (0..order * order).map(|k| matrix[k] / (roots[k / order] * roots[k % order])).collect();
+    let scaled: Vec<f64> = (0..order * order)
+        .map(|k| matrix[k] / (roots[k / order] * roots[k % order]))
+        .collect();
     let norm = (0..order)
         .map(|j| (0..order).map(|i| scaled[i * order + j].abs()).sum::<f64>())
         .fold(0.0, f64::max);

@@ -212,7 +212,11 @@ impl SparseMatrix {
     /// (A x) of one row.
     fn row_product(&self, row: usize, x: &[f64]) -> f64 {
         let range = self.row_start[row]..self.row_start[row + 1];
-        self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum()
+        self.column[range.clone()]
+            .iter()
+            .zip(&self.value[range])
+            .map(|(&j, a)| a * x[j])
+            .sum()
     }
 
     /// y ← y + factor · A x.

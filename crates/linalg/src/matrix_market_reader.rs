@@ -42,7 +42,9 @@ fn required_data_line(lines: &mut Lines, missing: FileFault) -> LineResult<Strin
 /// Reads a square matrix.
 pub(super) fn read(source: &mut dyn Read) -> LineResult<Triplets> {
     let mut lines = Lines::new(source);
-    let Some(first) = lines.next()? else { return Err((0, FileFault::missing("header"))) };
+    let Some(first) = lines.next()? else {
+        return Err((0, FileFault::missing("header")));
+    };
     let header = lines.with_line_number(header(&first))?;
     let size_fields = if header.is_coordinate { 3 } else { 2 };
     let line = required_data_line(&mut lines, wrong_fields(0, size_fields))?;

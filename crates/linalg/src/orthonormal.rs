@@ -139,8 +139,9 @@ fn append_combined_rows(
 /// Gram–Schmidt, the longest remainder first, while its square exceeds `min_square`. Vectors of separate parts
 /// stay separate.
 pub fn independent_combinations(mut products: Vec<f64>, count: usize, min_square: f64) -> Vec<f64> {
-    let mut remainders: Vec<Vec<f64>> =
-        (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    let mut remainders: Vec<Vec<f64>> = (0..count)
+        .map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect())
+        .collect();
     let mut weights = Vec::new();
     let mut candidates: Vec<usize> = (0..count).collect();
     let square = |products: &[f64], i: usize| products[i * (count + 1)];

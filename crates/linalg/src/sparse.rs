@@ -187,7 +187,9 @@ impl SparseFactor {
     /// matrix that is not positive definite.
     pub fn with_condensed(mut self, last: &[usize], matrix: &[f64]) -> Option<Self> {
         let count = last.len();
-        let Factors::Cholesky { symbolic, values } = &mut self.factors else { return None };
+        let Factors::Cholesky { symbolic, values } = &mut self.factors else {
+            return None;
+        };
         let lower = MatRef::from_row_major_slice(matrix, count, count).llt(Side::Lower).ok()?;
         let entries = last_entries(symbolic, last)?;
         // Entries outside the pattern are zero in this factor, and may not be in the new one.
@@ -233,7 +235,9 @@ impl SparseFactor {
 ///
 /// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
 fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {
-    let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
+    let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
+        return None;
+    };
     let count = last.len();
     let first = symbolic.nrows().checked_sub(count)?;
     if symbolic.perm()?.arrays().0[first..] != *last {

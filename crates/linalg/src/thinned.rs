@@ -61,7 +61,10 @@ impl CompressedMatrix {
     pub fn filled(&self, order: usize) -> Vec<f64> {
         let Some(diagonal) = self.as_diagonal() else { return self.values.clone() };
         let mut all = vec![0.0; order * order];
-        all.iter_mut().step_by(order + 1).zip(diagonal).for_each(|(entry, own)| *entry = *own);
+        all.iter_mut()
+            .step_by(order + 1)
+            .zip(diagonal)
+            .for_each(|(entry, own)| *entry = *own);
         all
     }
 

@@ -36,7 +36,9 @@ impl DataBlock {
 /// The count at the beginning of a title; an error names its `quantity`.
 pub(super) fn leading_count(title: &str, quantity: &'static str) -> FaultResult<usize> {
     let first = title.split_whitespace().next();
-    first.and_then(|field| sample_count(finite(field)?)).ok_or_else(|| not_in_header(quantity))
+    first
+        .and_then(|field| sample_count(finite(field)?))
+        .ok_or_else(|| not_in_header(quantity))
 }
 
 /// A time step, which must be there and above zero.

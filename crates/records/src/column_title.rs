@@ -122,7 +122,9 @@ fn endings(title: &str) -> impl Iterator<Item = &str> {
     let separators = title.match_indices([' ', '_', ',', '=', '/', '-']);
     let endings =
         separators.map(|(position, separator)| title[position + separator.len()..].trim());
-    std::iter::once(title).chain(endings).filter(|text| text.len() <= MAX_UNIT_NAME_BYTES)
+    std::iter::once(title)
+        .chain(endings)
+        .filter(|text| text.len() <= MAX_UNIT_NAME_BYTES)
 }
 
 #[cfg(test)]

@@ -133,7 +133,10 @@ impl LineTitles {
     /// The title of a column, counted from 1, if the line has one.
     fn title(&self, column: usize) -> Option<&str> {
         let Self::All(titles) = self else { return None };
-        titles.get(column.checked_sub(1)?).map(String::as_str).filter(|title| !title.is_empty())
+        titles
+            .get(column.checked_sub(1)?)
+            .map(String::as_str)
+            .filter(|title| !title.is_empty())
     }
 
     /// The line, if it is a single title and `is_key` accepts its first word.
@@ -292,7 +295,9 @@ mod tests {
             ("t (s), CH 1 (g)", "t (s)|CH 1 (g)"),
             ("t,a,", "t|a|"),
         ] {
-            let LineTitles::All(found) = LineTitles::read(line, &(2..=2)) else { panic!("{line}") };
+            let LineTitles::All(found) = LineTitles::read(line, &(2..=2)) else {
+                panic!("{line}")
+            };
             assert_eq!(found.join("|"), titles, "{line}");
         }
         for line in [

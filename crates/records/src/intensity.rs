@@ -49,8 +49,11 @@ impl Record {
     /// assert!((record.arias_intensity() - 1.800979).abs() < 1e-6);
     /// ```
     pub fn arias_intensity(&self) -> f64 {
-        let sum: f64 =
-            self.accelerations().windows(2).map(|a| f64::midpoint(a[0] * a[0], a[1] * a[1])).sum();
+        let sum: f64 = self
+            .accelerations()
+            .windows(2)
+            .map(|a| f64::midpoint(a[0] * a[0], a[1] * a[1]))
+            .sum();
         std::f64::consts::FRAC_PI_2 / STANDARD_GRAVITY * sum * self.time_step()
     }
 

@@ -126,7 +126,9 @@ impl KNetHeader {
 
 /// The positive number behind a unit in lower case; `None` without the unit or without such a number.
 fn positive_after(unit: &str, line: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
-    let Some(position) = line.to_ascii_lowercase().find(unit) else { return Ok(None) };
+    let Some(position) = line.to_ascii_lowercase().find(unit) else {
+        return Ok(None);
+    };
     let value = quantity.read(&line[position + unit.len()..])?;
     Ok(value.filter(|&value| value > 0.0))
 }
@@ -142,7 +144,9 @@ fn store(entry: &mut Option<f64>, value: Option<f64>, line: &str) -> FaultResult
 
 /// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
 fn gal_per_count(text: &str) -> FaultResult<Option<f64>> {
-    let Some(position) = text.to_ascii_lowercase().find("(gal)/") else { return Ok(None) };
+    let Some(position) = text.to_ascii_lowercase().find("(gal)/") else {
+        return Ok(None);
+    };
     let range = finite(text[..position].trim());
     let range = range.ok_or_else(|| unclear("scale factor", text))?;
     let counts = finite(text[position + "(gal)/".len()..].trim());

@@ -358,8 +358,9 @@ pub(super) fn is_like_number(field: &str) -> bool {
     let bare =
         field.trim_start_matches(['"', '\'', '(', '[', '$', '~', '<', '>', '=', '+', '-', '.']);
     // An exponent alone, whose digits were lost.
-    let exponent =
-        bare.strip_prefix(['e', 'E', 'd', 'D']).and_then(|rest| rest.strip_prefix(['+', '-']));
+    let exponent = bare
+        .strip_prefix(['e', 'E', 'd', 'D'])
+        .and_then(|rest| rest.strip_prefix(['+', '-']));
     finite(field).is_some()
         || bare.starts_with(char::is_numeric)
         || exponent.is_some_and(|digits| digits.starts_with(char::is_numeric))

@@ -153,7 +153,9 @@ fn has_factor(rest: &str) -> bool {
 
 /// Whether a value is gravity, in m/s² or in cm/s².
 fn is_gravity(value: f64) -> bool {
-    [1.0, 1e-2].iter().any(|unit| (value * unit / STANDARD_GRAVITY - 1.0).abs() < GRAVITY_TOLERANCE)
+    [1.0, 1e-2]
+        .iter()
+        .any(|unit| (value * unit / STANDARD_GRAVITY - 1.0).abs() < GRAVITY_TOLERANCE)
 }
 
 /// Whether a word after ACCELERATION may be meant as its unit.

@@ -99,7 +99,10 @@ impl PyEnergyBalance {
 
     /// All terms by their names: dict of numbers, J, in the plane J/m.
     fn to_dict(&self) -> OrderedDict<String, f64> {
-        EnergyTerm::ALL.into_iter().map(|term| (term.to_string(), self.0.term(term))).collect()
+        EnergyTerm::ALL
+            .into_iter()
+            .map(|term| (term.to_string(), self.0.term(term)))
+            .collect()
     }
 
     fn _repr_html_(&self) -> String {

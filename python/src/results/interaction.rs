@@ -101,7 +101,9 @@ impl PyInteraction {
     #[getter]
     fn probe_ratios(&self) -> PyResult<OrderedDict<String, f64>> {
         let names = self.found.on_ground.probes.iter().map(|probe| probe.name.clone());
-        names.map(|name| Ok((name.clone(), self.found.probe_ratio(&name).or_raise()?))).collect()
+        names
+            .map(|name| Ok((name.clone(), self.found.probe_ratio(&name).or_raise()?)))
+            .collect()
     }
 
     /// Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;

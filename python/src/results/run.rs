@@ -199,7 +199,8 @@ impl PyRun {
     /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
     #[getter]
     pub(crate) fn warnings(&self) -> Vec<String> {
-        self.run.warnings.iter().map(|warning| in_python_words(warning.to_string())).collect()
+        let warnings = self.run.warnings.iter();
+        warnings.map(|warning| in_python_words(warning.to_string())).collect()
     }
 
     /// All time series: dict of arrays of shape (steps + 1,), "time" first.
@@ -261,7 +262,8 @@ impl PyRun {
     /// Peaks of all scalar quantities of each foundation.
     #[getter]
     fn _foundation_peaks(&self) -> Vec<OrderedDict<String, Option<f64>>> {
-        self.run.foundations.iter().map(|foundation| self.peaks(foundation).collect()).collect()
+        let foundations = self.run.foundations.iter();
+        foundations.map(|foundation| self.peaks(foundation).collect()).collect()
     }
 
     /// Wall time, s.

@@ -41,7 +41,9 @@ pub(super) fn probe_names(time_series: &TimeSeries) -> Vec<String> {
 pub(super) fn all_series(time_series: &TimeSeries) -> PyResult<OrderedDict<String, Array>> {
     let scalars = Quantity::recorded(time_series.in_plan()).map(|quantity| quantity.to_string());
     let names = std::iter::once("time".into()).chain(scalars).chain(probe_names(time_series));
-    names.map(|name| series_named(time_series, &name).map(|values| (name, values))).collect()
+    names
+        .map(|name| series_named(time_series, &name).map(|values| (name, values)))
+        .collect()
 }
 
 /// Terms of the energy balance over time.
@@ -144,7 +146,9 @@ pub(super) fn units(run: &Run) -> OrderedDict<String, &str> {
 /// Envelopes of the elements, by their names.
 pub(super) fn envelope(run: &Run) -> OrderedDict<&'static str, Array> {
     let columns = Run::ENVELOPE.into_iter().filter(|column| column.2(run));
-    columns.map(|(name, .., value)| (name, run.envelope.iter().map(value).collect())).collect()
+    columns
+        .map(|(name, .., value)| (name, run.envelope.iter().map(value).collect()))
+        .collect()
 }
 
 /// Units of the numbers of elements, in snapshots and envelopes.

@@ -96,7 +96,12 @@ impl PySummary {
     /// Slip events: list of tuples (start in s, end in s, slip in m).
     #[getter]
     fn slip_events(&self) -> Vec<(f64, f64, f64)> {
-        self.0.sliding.events.iter().map(|event| (event.start, event.end, event.slip)).collect()
+        self.0
+            .sliding
+            .events
+            .iter()
+            .map(|event| (event.start, event.end, event.slip))
+            .collect()
     }
 
     /// Sliding distance: |slip| of it summed over time, m.

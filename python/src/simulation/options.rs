@@ -217,7 +217,11 @@ const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
         "SolverOptions",
         &["scheme", "coordinates", "expected_steps", "rotation_limit", "flow_chart_iterations"],
     ),
-    ("results", "ResultOptions", &["moment_center", "energy_balance", "safety_friction", "label"]),
+    (
+        "results",
+        "ResultOptions",
+        &["moment_center", "energy_balance", "safety_friction", "label"],
+    ),
     (
         "service_limits",
         "ServiceLimits",
@@ -227,7 +231,9 @@ const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
 
 /// A `TypeError` for an argument that a simulation does not have; of an option it names the group.
 pub(super) fn refuse_others(others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
-    let Some((name, _)) = others.and_then(|others| others.iter().next()) else { return Ok(()) };
+    let Some((name, _)) = others.and_then(|others| others.iter().next()) else {
+        return Ok(());
+    };
     let name = name.to_string();
     let group = OPTION_GROUPS.iter().find(|(.., options)| options.contains(&&*name));
     Err(PyTypeError::new_err(match group {

@@ -35,7 +35,15 @@ impl RunReporter {
         time_series: Option<TimeSeries>,
     ) -> Self {
         let ticker = Ticker::new(progress);
-        Self { ticker, steps, observe, observe_every, time_series, steps_done: 0, exception: None }
+        Self {
+            ticker,
+            steps,
+            observe,
+            observe_every,
+            time_series,
+            steps_done: 0,
+            exception: None,
+        }
     }
 
     /// Records and reports the state at the end of a step; `Break` ends the run.
@@ -66,7 +74,11 @@ impl RunReporter {
             let found = observe.call1(py, (PyState(state.clone()),))?;
             extract_returned::<Option<bool>>("observe", found.bind(py))
         })?;
-        Ok(if ends_run == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        Ok(if ends_run == Some(true) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        })
     }
 
     /// The run, or the exception that ended it.

@@ -105,5 +105,6 @@ impl PyMesh {
 fn two_arms(points: Points) -> PyResult<[[f64; 3]; 2]> {
     let arms = points.in_space()?;
     let found = arms.len();
-    arms.try_into().map_err(|_| input_error(format!("offsets has {found} rows, but must have 2")))
+    arms.try_into()
+        .map_err(|_| input_error(format!("offsets has {found} rows, but must have 2")))
 }

@@ -127,7 +127,9 @@ impl PyMesh {
         columns: Count,
         layers: ListOf<'_, PyLayer>,
     ) -> PyResult<Self> {
-        Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self)
+        Mesh::layered_block(left..right, columns.0, &self::layers(&layers))
+            .or_raise()
+            .map(Self)
     }
 
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):

@@ -249,7 +249,11 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn check_start(&self, start: &PreviousContact<'_>) -> Result<()> {
-        if self.object.has("conditions") { Ok(()) } else { LimitsOf(self).check_start(start) }
+        if self.object.has("conditions") {
+            Ok(())
+        } else {
+            LimitsOf(self).check_start(start)
+        }
     }
 
     /// Called before a step is accepted, so that an exception of `next_mode` ends it.
@@ -322,6 +326,7 @@ impl InterfaceLaw for UserLaw {
             return Ok(());
         }
         let numbers = (scene.gravity, scene.time_step);
-        self.object.try_call(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
+        self.object
+            .try_call(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
     }
 }

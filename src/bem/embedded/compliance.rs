@@ -57,7 +57,9 @@ impl TrenchModel<'_> {
         let whole_stack = self.stack(false);
         let (coarse, coarse_values) = whole_stack.coarsened(&self.groups());
         let far_column = elements.column(grid.column, &coarse, self.soils, EdgeLoads::NO_LOADS)?;
-        let Some(far) = far_columns(far_column, coarse.nodes())? else { return Ok(None) };
+        let Some(far) = far_columns(far_column, coarse.nodes())? else {
+            return Ok(None);
+        };
         let mut side = SideStiffness { matrix: far, nodes: coarse.nodes(), loads: 0 };
         let count = self.loads();
         let no_load_on_top = EdgeLoads { count, first: None };

@@ -314,8 +314,10 @@ pub(super) struct FreeFieldAtFaces {
 /// Lines of the mesh around `elements` with backfill of a `width`, which may be zero.
 fn trench_grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> TrenchGrid {
     let half_width = elements.trench().half_width();
-    let slowest =
-        profile.soils().map(|(soil, _)| soil.shear_wave_speed()).fold(f64::INFINITY, f64::min);
+    let slowest = profile
+        .soils()
+        .map(|(soil, _)| soil.shear_wave_speed())
+        .fold(f64::INFINITY, f64::min);
     let mut layers = vec![];
     for (soil, bottom) in profile.soils_to() {
         // An interface beside a line of the wall is this line.

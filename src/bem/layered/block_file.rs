@@ -27,7 +27,11 @@ impl LagBlock {
     /// Number of the block that contains `lag` ≥ 1.
     pub(crate) fn number_of(lag: usize) -> usize {
         let index = lag - 1;
-        if index < FIRST_BLOCK_LAGS { 0 } else { (index / FIRST_BLOCK_LAGS).ilog2() as usize + 1 }
+        if index < FIRST_BLOCK_LAGS {
+            0
+        } else {
+            (index / FIRST_BLOCK_LAGS).ilog2() as usize + 1
+        }
     }
 
     /// The first lag in block `number`.

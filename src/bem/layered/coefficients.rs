@@ -183,8 +183,9 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             .collect();
         let transform = RealPlanner::new().plan_fft_inverse(length);
         // r⁻ⁿ/L.
-        let scales: Vec<_> =
-            (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();
+        let scales: Vec<_> = (first..first + lags)
+            .map(|n| (-logarithm * n as f64).exp() / length as f64)
+            .collect();
         let mut values = vec![vec![]; self.classes * KINDS];
         let transform_row = |buffers: &mut Option<_>, (row, lags): (&[Complex], &mut Vec<f64>)| {
             let (input, output, scratch) = buffers.get_or_insert_with(|| {

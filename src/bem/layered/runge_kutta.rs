@@ -166,7 +166,10 @@ pub(crate) fn on_circle(logarithm: f64, angle: f64) -> CirclePoint {
 
 /// A polynomial at `x`, constant term first.
 fn polynomial(coefficients: &[f64], x: Complex) -> Complex {
-    coefficients.iter().rev().fold(Complex::default(), |sum, c| sum * x + Complex::real(*c))
+    coefficients
+        .iter()
+        .rev()
+        .fold(Complex::default(), |sum, c| sum * x + Complex::real(*c))
 }
 
 /// Derivative of the polynomial at `x`.

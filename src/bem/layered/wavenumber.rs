@@ -227,7 +227,8 @@ impl Wavenumbers {
         surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
         let panels = self.panels(min_k)?;
-        self.sum_panels(panels, work, surface).map_err(|k| unresolved(Complex::default(), k))?;
+        self.sum_panels(panels, work, surface)
+            .map_err(|k| unresolved(Complex::default(), k))?;
         self.add_tail(compliance, panels, work);
         self.copy_sums(work, values);
         Ok(())

@@ -210,5 +210,8 @@ impl<'a> MatCorners<'a> {
 
 /// Terms of a combination in free degrees of freedom, by their numbers.
 fn free_terms(combination: &DofCombination, free_dofs: &[Option<usize>]) -> Vec<(usize, f64)> {
-    combination.iter().filter_map(|&(dof, weight)| Some((free_dofs[dof]?, weight))).collect()
+    combination
+        .iter()
+        .filter_map(|&(dof, weight)| Some((free_dofs[dof]?, weight)))
+        .collect()
 }

@@ -268,8 +268,9 @@ fn add_resultants(
         return Err(Error::Singular { matrix: "compliance of a mat in plan", order });
     }
     factor.solve_columns(&mut tractions, RIGID_MOTION_COUNT);
-    for (load, traction) in
-        loads.chunks_exact(RIGID_MOTION_COUNT).zip(tractions.chunks_exact(RIGID_MOTION_COUNT))
+    for (load, traction) in loads
+        .chunks_exact(RIGID_MOTION_COUNT)
+        .zip(tractions.chunks_exact(RIGID_MOTION_COUNT))
     {
         for (sum, load) in sum.iter_mut().zip(load) {
             for (sum, traction) in sum.iter_mut().zip(traction) {

@@ -236,7 +236,9 @@ fn solve(problem: &mut ConeProblem) -> bool {
     let mut proximal = Proximal::new(count);
     let mut start = vec![0.0; 3 * count];
     let mut limited = start.clone();
-    search(problem, &mut newton, &mut proximal, &mut start, &mut limited, true).method.is_some()
+    search(problem, &mut newton, &mut proximal, &mut start, &mut limited, true)
+        .method
+        .is_some()
 }
 
 fn is_among(problem: &ConeProblem, solutions: &[Vec<f64>]) -> bool {

@@ -48,7 +48,10 @@ pub(super) fn state(
     let floor_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
     let (found, contact) = placed(&on_floor, floor_laws, parts.builder.gravity_stage, &total)?;
 
-    places.iter().zip(&found.traction).for_each(|(place, value)| traction[*place] = *value);
+    places
+        .iter()
+        .zip(&found.traction)
+        .for_each(|(place, value)| traction[*place] = *value);
     let mut state = StaticState::weightless(layout, weight.len());
     state.traction = traction;
     let mut states: Vec<ContactState> = (0..layout.elements())

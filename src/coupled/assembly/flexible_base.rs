@@ -86,7 +86,9 @@ fn check_on(
     let base = &assembled.base;
     let soil = at_rest::compliance(parts)?;
     let on_soil = (&soil, shared);
-    let Some(floating) = floating(parts, assembled, on_soil)? else { return Ok(None) };
+    let Some(floating) = floating(parts, assembled, on_soil)? else {
+        return Ok(None);
+    };
     // The stiffness of the soil follows from neighbouring elements, or from the halves of the only element of a face.
     let has_single_element = faces(base).any(|(.., elements)| elements.len() == 1);
     let halves = if has_single_element { finer(base) } else { None };
@@ -154,7 +156,9 @@ fn floating(
     }
     let tangent = Tangent::at(parts.structure.as_ref(), &vec![0.0; assembled.dofs()])?.matrix;
     let springs = springs(assembled, soil)?;
-    let Ok(floating) = Floating::new(assembled, &tangent, springs) else { return Ok(None) };
+    let Ok(floating) = Floating::new(assembled, &tangent, springs) else {
+        return Ok(None);
+    };
     let floating = Rc::new(floating);
     shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)?));
     Ok(Some(floating))

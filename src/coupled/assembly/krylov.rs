@@ -212,7 +212,9 @@ impl<'a> Reduction<'a> {
 
     /// Factored K_eff, with the proportional damping if the damping differs from it by P–Δ alone.
     pub(super) fn effective(&self) -> Result<Box<SparseFactor>> {
-        let Some([beta, alpha]) = self.without_p_delta else { return (self.factored)() };
+        let Some([beta, alpha]) = self.without_p_delta else {
+            return (self.factored)();
+        };
         let mass: &SparseMatrix = &self.assembled.mass;
         let c = self.coefficients;
         let mass_factor = c.acceleration[0] + c.velocity[0] * alpha;

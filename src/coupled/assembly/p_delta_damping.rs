@@ -30,7 +30,9 @@ impl Reduction<'_> {
         factors: &[&SparseFactor],
         tolerance: f64,
     ) -> Result<ModalBasis> {
-        let Some([beta, alpha]) = self.without_p_delta else { return Ok(space.basis(modes)) };
+        let Some([beta, alpha]) = self.without_p_delta else {
+            return Ok(space.basis(modes));
+        };
         let mass: &SparseMatrix = &self.assembled.mass;
         let damping: &SparseMatrix = &self.assembled.damping;
         let stiffness: &SparseMatrix = &self.assembled.stiffness;

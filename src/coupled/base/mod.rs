@@ -365,7 +365,9 @@ fn components(
 /// Error for a foundation without elements.
 pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
-    foundations.iter().try_for_each(|footing| at_least(quantity, footing.elements.len(), 1))
+    foundations
+        .iter()
+        .try_for_each(|footing| at_least(quantity, footing.elements.len(), 1))
 }
 
 #[cfg(test)]

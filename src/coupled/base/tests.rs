@@ -15,7 +15,9 @@ fn matching_meshes_give_halves() {
     let elements: Vec<_> =
         (0..3).map(|k| ContactElement::new(f64::from(k), f64::from(k + 1))).collect();
     let base = base(nodes, &elements, 8).unwrap();
-    let Rows::Sparse(rows) = base.rows else { panic!("rows of degrees of freedom") };
+    let Rows::Sparse(rows) = base.rows else {
+        panic!("rows of degrees of freedom")
+    };
     assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
     assert_eq!(rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
 }

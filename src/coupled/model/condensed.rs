@@ -42,7 +42,9 @@ impl Condensed {
         loads: impl FnOnce() -> Result<[Vec<f64>; 2]>,
     ) -> Result<Option<Self>> {
         let dofs = whole.base.dofs();
-        let Some(mut stiffness) = fixed_factor.condensed(&dofs) else { return Ok(None) };
+        let Some(mut stiffness) = fixed_factor.condensed(&dofs) else {
+            return Ok(None);
+        };
         let Ok(loads) = loads() else { return Ok(None) };
         let order = dofs.len();
         let n = whole.dofs();
@@ -116,7 +118,9 @@ impl Condensed {
     pub(crate) fn on_springs(self, on_base: &SparseMatrix) -> Option<SparseFactor> {
         let order = on_base.order();
         let mut dense = vec![0.0; order * order];
-        on_base.entries().for_each(|(row, column, value)| dense[row * order + column] = value);
+        on_base
+            .entries()
+            .for_each(|(row, column, value)| dense[row * order + column] = value);
         self.fixed_factor.with_condensed(&self.dofs, &dense)
     }
 }

@@ -120,7 +120,9 @@ const RESPONSE_QUANTITIES: [(DofResponse, &str); 4] = [
 
 impl PartialEq for Kinematics {
     fn eq(&self, other: &Self) -> bool {
-        RESPONSE_QUANTITIES.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
+        RESPONSE_QUANTITIES
+            .into_iter()
+            .all(|(which, _)| self.dofs(which) == other.dofs(which))
     }
 }
 

@@ -167,7 +167,11 @@ impl Load {
         self.row.check("degree of freedom of a load", dofs)?;
         let quantity = "external load at t = 0";
         let value = self.value(0.0);
-        if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(Error::NotFinite { quantity, index, value })
+        }
     }
 }
 

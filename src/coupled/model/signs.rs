@@ -45,7 +45,11 @@ pub(crate) fn with_constraints(
     penalty: f64,
 ) -> Result<SparseMatrix> {
     let multipliers = multipliers(stiffness, [mass, damping]);
-    if multipliers.contains(&true) { constrain(&matrix, &multipliers, penalty) } else { Ok(matrix) }
+    if multipliers.contains(&true) {
+        constrain(&matrix, &multipliers, penalty)
+    } else {
+        Ok(matrix)
+    }
 }
 
 /// Marks the degrees of freedom that are Lagrange multipliers.

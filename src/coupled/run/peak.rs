@@ -59,7 +59,11 @@ impl Extremes {
 
     /// The peak of larger magnitude, with its sign.
     pub fn largest(&self) -> Peak {
-        if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
+        if self.lowest.value.abs() > self.highest.value.abs() {
+            self.lowest
+        } else {
+            self.highest
+        }
     }
 
     /// Largest magnitude, without its sign.

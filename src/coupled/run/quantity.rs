@@ -283,7 +283,9 @@ impl Quantity {
 
     /// The quantities of a ground in plan, or of a ground in the plane.
     pub fn recorded(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
-        Self::ALL.into_iter().filter(move |quantity| in_plan || !quantity.is_shown(ShownIn::Plan))
+        Self::ALL
+            .into_iter()
+            .filter(move |quantity| in_plan || !quantity.is_shown(ShownIn::Plan))
     }
 
     /// SI unit of its values; empty for a ratio.

@@ -147,8 +147,9 @@ impl Resolution {
         };
         let fineness = if in_plan { CELL_FINENESS } else { STRIP_FINENESS };
         let foundations = state.foundations.iter().map(|shape| axes_of(shape, elements));
-        let coarsest =
-            foundations.enumerate().min_by_key(|(_, axes)| axes[0].elements.min(axes[1].elements));
+        let coarsest = foundations
+            .enumerate()
+            .min_by_key(|(_, axes)| axes[0].elements.min(axes[1].elements));
         let (foundation, axes) = coarsest.unwrap_or_default();
         Self {
             time_step,
@@ -259,7 +260,8 @@ impl Resolution {
 
     /// Wavelength of the base shear if elements are too long for it, m.
     fn short_waves(&self) -> Option<f64> {
-        self.wavelength().filter(|length| *length < self.fineness.per_wavelength[0] * self.longest)
+        self.wavelength()
+            .filter(|length| *length < self.fineness.per_wavelength[0] * self.longest)
     }
 
     /// Adds warnings of motion that time step and elements do not resolve.

@@ -71,7 +71,9 @@ pub(crate) fn check(
     if ground_of_base.is_none_or(|ground| ground.is_fixed_base(on_base.stiffness_at_rest())) {
         return Ok(());
     }
-    let Some(ground) = GroundStiffness::new(grounded, is_closed) else { return Ok(()) };
+    let Some(ground) = GroundStiffness::new(grounded, is_closed) else {
+        return Ok(());
+    };
     // Without a factor between 0 and 1 the cause is not P–Δ, such as a mechanism, which has its own error.
     let factor_on = |ground: &GroundStiffness<'_>| {
         loaded.factor(1.0, |stiffness| ground.is_fixed_base(stiffness))

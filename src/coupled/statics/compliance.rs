@@ -99,9 +99,9 @@ fn vertical_stiffness(soil: &CompressedMatrix, base: &PlacedBase) -> f64 {
     // Integral of the settlement under a unit pressure.
     let settled_volume: f64 = match soil.as_diagonal() {
         Some(diagonal) => areas.iter().zip(diagonal).map(|(area, entry)| area * entry).sum(),
-        None => {
-            (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum()
-        }
+        None => (0..count)
+            .map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
+            .sum(),
     };
     area * area / settled_volume
 }

@@ -93,6 +93,10 @@ impl Measure {
         let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
         // Unlike `max`, the sum keeps NaN.
         let sum: f64 = force.iter().sum();
-        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
+        if sum.is_finite() {
+            weighted.fold(0.0, f64::max) / self.scale
+        } else {
+            f64::INFINITY
+        }
     }
 }

@@ -63,5 +63,9 @@ fn check(increment: &[f64]) -> Result<(), StepError> {
     }
     StepError::check_finite("displacement of the structure", increment)?;
     let change = largest(increment);
-    if change > MAX_STEP_CHANGE { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
+    if change > MAX_STEP_CHANGE {
+        Err(StepError::Runaway { increment: change })
+    } else {
+        Ok(())
+    }
 }

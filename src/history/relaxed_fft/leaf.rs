@@ -204,5 +204,8 @@ fn shear<S: Simd>(
 ) -> [S::f64s; 2] {
     let re = simd.add_f64s(simd.mul_f64s(first, a), simd.mul_f64s(second, c));
     let im = simd.add_f64s(simd.mul_f64s(first, b), simd.mul_f64s(second, d));
-    [simd.add_f64s(re, simd.mul_f64s(coupling, q)), simd.sub_f64s(im, simd.mul_f64s(coupling, p))]
+    [
+        simd.add_f64s(re, simd.mul_f64s(coupling, q)),
+        simd.sub_f64s(im, simd.mul_f64s(coupling, p)),
+    ]
 }

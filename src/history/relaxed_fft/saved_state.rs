@@ -22,7 +22,9 @@ impl<'a> SavedState<'a> {
         if !neglects_lags {
             return Ok(Self { inputs: values, largest: 0.0, last_lag: None });
         }
-        let [inputs @ .., largest, last] = values else { return Err(Self::CORRUPT_STATE.into()) };
+        let [inputs @ .., largest, last] = values else {
+            return Err(Self::CORRUPT_STATE.into());
+        };
         let mut powers = (0..usize::BITS - 1).map(|power| 1_usize << power);
         let last_lag = powers.find(|lag| *lag as f64 == *last);
         Ok(Self { inputs, largest: *largest, last_lag })

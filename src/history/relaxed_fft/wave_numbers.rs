@@ -14,7 +14,11 @@ pub(super) struct WaveNumbers {
 impl WaveNumbers {
     /// Place of the spectrum of a wavenumber.
     pub(super) fn spectrum(self, wave: usize) -> usize {
-        if wave < self.with_spectra { wave } else { wave - self.with_spectra + self.first_mirrored }
+        if wave < self.with_spectra {
+            wave
+        } else {
+            wave - self.with_spectra + self.first_mirrored
+        }
     }
 
     /// Ranges of wavenumbers, and the place of the first spectrum of each range.

@@ -173,8 +173,11 @@ impl WaveBlocks {
             }
         }
         let number = ring.level(now, self.levels.len());
-        let part =
-            if self.levels[number].has(COUPLING_KIND) { Components::All } else { Components::Even };
+        let part = if self.levels[number].has(COUPLING_KIND) {
+            Components::All
+        } else {
+            Components::Even
+        };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
         levels[number].apply(rows, *stride, ring, now, part, blocks, scratch);
         if part == Components::Even

@@ -67,12 +67,20 @@ impl<R: Read> MshFields<R> {
 
     /// A count or a tag of eight bytes, or of text.
     pub(super) fn size(&mut self, item: &'static str) -> LineResult<u64> {
-        if self.is_binary { Ok(u64::from_le_bytes(self.bytes(item)?)) } else { self.text(item) }
+        if self.is_binary {
+            Ok(u64::from_le_bytes(self.bytes(item)?))
+        } else {
+            self.text(item)
+        }
     }
 
     /// A number that may be infinite.
     pub(super) fn real(&mut self, item: &'static str) -> LineResult<f64> {
-        if self.is_binary { Ok(f64::from_le_bytes(self.bytes(item)?)) } else { self.text(item) }
+        if self.is_binary {
+            Ok(f64::from_le_bytes(self.bytes(item)?))
+        } else {
+            self.text(item)
+        }
     }
 
     /// A finite number.
@@ -82,7 +90,11 @@ impl<R: Read> MshFields<R> {
             return self.field_as(item, finite);
         }
         let value = self.real(item)?;
-        if value.is_finite() { Ok(value) } else { Err(self.wrong_field(&value.to_string(), item)) }
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(self.wrong_field(&value.to_string(), item))
+        }
     }
 
     /// Fault of a field that is not an `item`.

@@ -18,7 +18,10 @@ const ELEMENT_LENGTH: f64 = 1.3;
 const LAYER_HEIGHT: f64 = 0.8;
 
 fn layer(ratio: f64) -> ThinLayer {
-    ThinLayer::new(soil(SI), LAYER_HEIGHT, 0.3).unwrap().with_thickness_ratio(ratio).unwrap()
+    ThinLayer::new(soil(SI), LAYER_HEIGHT, 0.3)
+        .unwrap()
+        .with_thickness_ratio(ratio)
+        .unwrap()
 }
 
 /// Nodal forces of a thin quadrilateral, nodes counter-clockwise from below left.

@@ -34,7 +34,9 @@ fn flow_chart_follows_the_robust_search_until_it_cycles() {
                 continue;
             }
             let error = chart.step().unwrap_err();
-            let Error::Step { step: failed_step, source, .. } = &error else { panic!("{error}") };
+            let Error::Step { step: failed_step, source, .. } = &error else {
+                panic!("{error}")
+            };
             let StepError::Contact { iterations, residual, modes, .. } = source else {
                 panic!("{error}")
             };

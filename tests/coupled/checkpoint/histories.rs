@@ -189,7 +189,9 @@ fn on_half_plane(method: HistoryMethod, memory: usize) -> SimulationBuilder {
 }
 
 fn assert_memory_error(error: &Error, memory: usize) {
-    let Error::Memory(MemoryError { needed, limit, .. }) = error else { panic!("{error}") };
+    let Error::Memory(MemoryError { needed, limit, .. }) = error else {
+        panic!("{error}")
+    };
     assert!(*limit == memory as f64 && needed > limit, "{needed}");
 }
 

@@ -7,8 +7,17 @@ use serde_json::Value;
 
 use basemat_problems::check_sum::{check_sum, text_words};
 
-const CHECKPOINT_FIELDS: [&str; 9] =
-    ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure", "set_loads"];
+const CHECKPOINT_FIELDS: [&str; 9] = [
+    "format",
+    "identity",
+    "steps",
+    "modes",
+    "laws",
+    "state",
+    "ground",
+    "structure",
+    "set_loads",
+];
 const IDENTITY_FIELDS: [&str; 11] = [
     "label",
     "dofs",

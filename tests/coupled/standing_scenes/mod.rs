@@ -69,7 +69,11 @@ impl ComparedScene {
         if !self.is_bonded {
             return self.reference.follow_path();
         }
-        if self.bonded_factor > 1.0 { PathEnd::Stands } else { PathEnd::LostAt(self.bonded_factor) }
+        if self.bonded_factor > 1.0 {
+            PathEnd::Stands
+        } else {
+            PathEnd::LostAt(self.bonded_factor)
+        }
     }
 
     fn count(&self, counts: &mut SceneCounts) {

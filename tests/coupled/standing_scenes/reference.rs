@@ -266,8 +266,10 @@ impl Reference {
 
     /// Gap of an open element above the soil that the pressures of the closed elements deform.
     fn gap(&self, place: usize, closed: &[usize], pressures: &[f64], displacement: &[f64]) -> f64 {
-        let products =
-            closed.iter().zip(pressures).map(|(&j, pressure)| self.compliance[place][j] * pressure);
+        let products = closed
+            .iter()
+            .zip(pressures)
+            .map(|(&j, pressure)| self.compliance[place][j] * pressure);
         products.sum::<f64>() - dot(&self.means[place], displacement)
     }
 }

@@ -24,7 +24,8 @@ fn mast(random: &mut Random, offset: f64) -> FemModel {
     for pair in nodes.windows(2) {
         mesh.add(Beam::new([pair[0], pair[1]], 30e9, 0.5, inertia, 2500.0).unwrap()).unwrap();
     }
-    mesh.add(LumpedMass::new(nodes[count], random.log_within(10e3, 500e3)).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(nodes[count], random.log_within(10e3, 500e3)).unwrap())
+        .unwrap();
     on_rigid_base(mesh, nodes[0], width)
 }
 
@@ -78,7 +79,8 @@ fn mast_in_space(random: &mut Random, offset: f64) -> FemModel {
     let nodes: Vec<usize> = (0..=3)
         .map(|k| {
             let fraction = f64::from(k) / 3.0;
-            mesh.add_node_at([lean[0] * fraction, lean[1] * fraction, height * fraction]).unwrap()
+            mesh.add_node_at([lean[0] * fraction, lean[1] * fraction, height * fraction])
+                .unwrap()
         })
         .collect();
     for pair in nodes.windows(2) {

@@ -33,7 +33,9 @@ fn every_run_is_finite_balanced_and_admissible() {
     let strategy = (recipes(10.0), 0..5_u8)
         .prop_map(|(recipe, choice)| SceneRecipe { weightless: choice == 0, ..recipe });
     let tally = for_all("runs", 40, &strategy, |recipe, tally| {
-        let Some(states) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else { return Ok(()) };
+        let Some(states) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
+            return Ok(());
+        };
         let unreduced = recipe.unreduced().build(SI_UNITS, 0).unwrap();
         let condition = unreduced.conditioning().effective_stiffness;
         tally.add_run(&states);
@@ -91,7 +93,9 @@ fn assert_no_unit_warnings(
 ) -> Result<(), TestCaseError> {
     // A step is far below the period of a record where elements are small and soil is stiff.
     const MAX_STEPS: usize = 4000;
-    let Ok(run) = simulation.run(steps.min(MAX_STEPS), |_| {}) else { return Ok(()) };
+    let Ok(run) = simulation.run(steps.min(MAX_STEPS), |_| {}) else {
+        return Ok(());
+    };
     tally.count(kind, 1);
     let is_whole = has_end && steps <= MAX_STEPS;
     for warning in &run.warnings {
@@ -161,7 +165,9 @@ fn static_state_is_found_in_any_unit_of_length() {
 #[test]
 fn runs_repeat_to_the_bit() {
     for_all("repetition", 12, &recipes(10.0), |recipe, tally| {
-        let Some(first) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else { return Ok(()) };
+        let Some(first) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
+            return Ok(());
+        };
         tally.add_run(&first);
         let second = recipe.run(SI_UNITS, 0).unwrap();
         prop_assert!(first == second);
@@ -247,7 +253,9 @@ fn mirrored_scenes_respond_as_mirror_images() {
     let mirror = UnitFrame { mirrored: true, ..SI_UNITS };
     let relation = RunRelation { factors: [1.0, -1.0, -1.0, -1.0], mirrored: true };
     for_all("mirror", 12, &recipes(MAX_UNIQUE_FRICTION), |recipe, tally| {
-        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else { return Ok(()) };
+        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
+            return Ok(());
+        };
         tally.add_run(&plain);
         let Some(mirrored) = accepted(recipe, recipe.run(mirror, 0), tally)? else {
             return Ok(());
@@ -267,7 +275,9 @@ fn units_do_not_matter_over_twelve_orders_of_magnitude() {
             mass: 10.0_f64.powf(*mass),
             mirrored: false,
         };
-        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else { return Ok(()) };
+        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
+            return Ok(());
+        };
         tally.add_run(&plain);
         let Some(in_frame) = accepted(recipe, recipe.run(frame, 0), tally)? else {
             return Err(TestCaseError::fail("refused in other units"));
@@ -283,7 +293,9 @@ fn units_do_not_matter_over_twelve_orders_of_magnitude() {
 fn later_shaking_gives_the_same_response_later() {
     let strategy = (recipes(MAX_UNIQUE_FRICTION), 1_usize..40);
     for_all("shift", 12, &strategy, |(recipe, delay), tally| {
-        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else { return Ok(()) };
+        let Some(plain) = accepted(recipe, recipe.run(SI_UNITS, 0), tally)? else {
+            return Ok(());
+        };
         tally.add_run(&plain);
         let Some(delayed) = accepted(recipe, recipe.run(SI_UNITS, *delay), tally)? else {
             return Ok(());

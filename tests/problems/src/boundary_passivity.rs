@@ -163,7 +163,9 @@ impl<'a> KernelSeries<'a> {
                 work[(n + i) * order + j] = length * (re * b + im * a);
             }
         }
-        (0..order * order).map(|k| 0.5 * (work[k] + work[k % order * order + k / order])).collect()
+        (0..order * order)
+            .map(|k| 0.5 * (work[k] + work[k % order * order + k / order]))
+            .collect()
     }
 }
 

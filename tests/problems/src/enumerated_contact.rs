@@ -236,8 +236,10 @@ impl EnumeratedContact {
             .unwrap();
         let start = contact.start(&starts).unwrap();
         let solution = contact.solve(&self.free_jump, &start).unwrap();
-        let same_solutions =
-            solutions.iter().filter(|states| have_same_tractions(states, solution.states)).count();
+        let same_solutions = solutions
+            .iter()
+            .filter(|states| have_same_tractions(states, solution.states))
+            .count();
         assert!(same_solutions > 0, "{:?} {:?}", solution.modes, solution.states);
         (solution.modes.to_vec(), same_solutions < solutions.len())
     }

@@ -118,7 +118,8 @@ impl InterfaceLaw for BreakingBond {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        self.current_law(start).next_mode(mode, &Self::without_opening(start), trial, tolerance)
+        self.current_law(start)
+            .next_mode(mode, &Self::without_opening(start), trial, tolerance)
     }
 
     fn state_variables(&self) -> usize {

@@ -139,5 +139,8 @@ pub fn min_work_ratio(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
 }
 
 fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
-    matrix.chunks_exact(x.len()).map(|row| row.iter().zip(x).map(|(a, b)| a * b).sum()).collect()
+    matrix
+        .chunks_exact(x.len())
+        .map(|row| row.iter().zip(x).map(|(a, b)| a * b).sum())
+        .collect()
 }

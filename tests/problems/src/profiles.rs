@@ -36,7 +36,10 @@ pub fn p1(
 
 /// The same layer on a rigid base.
 pub fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
-    SoilProfile::on_rigid_bedrock().with_layer(layer(), 2.0).unwrap().with_damping(damping)
+    SoilProfile::on_rigid_bedrock()
+        .with_layer(layer(), 2.0)
+        .unwrap()
+        .with_damping(damping)
 }
 
 /// Soft soil, shear waves of 150 m/s.

@@ -127,7 +127,9 @@ impl SupportedMesh {
     pub fn displacements(&self, loads: &[NodalLoad]) -> Vec<[f64; 6]> {
         let solution = self.solve(loads);
         let nodes = 0..self.mesh.nodes().len();
-        nodes.map(|node| CLAMPED_DIRECTIONS.map(|direction| solution(node, direction))).collect()
+        nodes
+            .map(|node| CLAMPED_DIRECTIONS.map(|direction| solution(node, direction)))
+            .collect()
     }
 
     /// Displacement in the direction of the `loads`: their work.

@@ -142,8 +142,9 @@ pub fn march(ground: &mut dyn Ground, time_step: f64, steps: usize, cause: Cause
     let mut compliance = vec![0.0; size * size];
     ground.step_compliance(&mut compliance).unwrap();
     let stiffness = inverse(&compliance, size);
-    let loads: Vec<[f64; MOTION_COUNT]> =
-        (0..size).map(|i| rows[i].map(|value| value * elements[i % count].length())).collect();
+    let loads: Vec<[f64; MOTION_COUNT]> = (0..size)
+        .map(|i| rows[i].map(|value| value * elements[i % count].length()))
+        .collect();
     let mass = mass_matrix();
     // Mean acceleration over a step: 2 (Δu/Δt − v)/Δt.
     let mut system = [0.0; MOTION_COUNT * MOTION_COUNT];

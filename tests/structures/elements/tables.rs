@@ -51,7 +51,9 @@ fn compare(file: &str, element: &dyn Element, points: &[[f64; 3]]) {
 }
 
 fn beam(orientation: [f64; 3]) -> SpaceBeam {
-    SpaceBeam::new([0, 1], concrete(), sheared(), orientation).unwrap().with_rotary_inertia()
+    SpaceBeam::new([0, 1], concrete(), sheared(), orientation)
+        .unwrap()
+        .with_rotary_inertia()
 }
 
 #[test]

@@ -126,7 +126,8 @@ fn bracket_of_two_trusses_sinks_by_its_closed_form() {
     let nodes = [[-2.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
     let top = nodes[2];
     for foot in [nodes[0], nodes[1]] {
-        mesh.add(Truss::new([foot, top], YOUNG_MODULUS, 0.01, MASS_DENSITY).unwrap()).unwrap();
+        mesh.add(Truss::new([foot, top], YOUNG_MODULUS, 0.01, MASS_DENSITY).unwrap())
+            .unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
     let fixed: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();

@@ -17,7 +17,9 @@ fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulati
 
 fn fixed_base(model: &FemModel) -> Vec<(usize, f64)> {
     let base = model.base();
-    base.nodes().flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)]).collect()
+    base.nodes()
+        .flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)])
+        .collect()
 }
 
 /// Tip deflection under a unit shear, relative to Timoshenko's beam in plane strain.

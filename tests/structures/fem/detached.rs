@@ -20,7 +20,11 @@ fn build(structure: impl Structure + 'static) -> Result<Simulation> {
     let left = nodes[0].x;
     let right = nodes[nodes.len() - 1].x;
     let ground = SpringGround::new(left..right, 4, 4.0e7, 2.0e7)?;
-    Simulation::builder(0.01).structure(structure).ground(ground).interface(Bonded).build()
+    Simulation::builder(0.01)
+        .structure(structure)
+        .ground(ground)
+        .interface(Bonded)
+        .build()
 }
 
 /// What a refusal says of a detached part.
@@ -249,7 +253,11 @@ fn appended(
     let n = 3 + masses.len();
     let mut mass = Triplets::new(n);
     let mut springs = Triplets::new(n);
-    [1e4, 1e4, 5e4].iter().chain(masses).enumerate().for_each(|(i, m)| mass.add(i, i, *m));
+    [1e4, 1e4, 5e4]
+        .iter()
+        .chain(masses)
+        .enumerate()
+        .for_each(|(i, m)| mass.add(i, i, *m));
     for &(i, j, value) in coupling {
         mass.add(i, j, value);
         mass.add(j, i, value);

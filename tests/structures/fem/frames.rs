@@ -73,8 +73,11 @@ fn beam_columns_sway_by_their_closed_form() {
         let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
         let found = solve_held(&stiffness(&model), &force, &fixed)[tip];
         let k = (compression.abs() / (YOUNG_MODULUS * SECOND_MOMENT)).sqrt();
-        let curve =
-            if compression > 0.0 { (k * COLUMN_LENGTH).tan() } else { (k * COLUMN_LENGTH).tanh() };
+        let curve = if compression > 0.0 {
+            (k * COLUMN_LENGTH).tan()
+        } else {
+            (k * COLUMN_LENGTH).tanh()
+        };
         let exact = load / compression * (curve / k - COLUMN_LENGTH);
         assert!((found / exact - 1.0).abs() < 1e-6, "{compression}: {found} {exact}");
     }

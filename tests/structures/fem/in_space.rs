@@ -75,7 +75,9 @@ fn a_mesh_takes_elements_of_its_kind_only() {
     let mut mesh = Mesh::new();
     mesh.add_node(0.0, 0.0).unwrap();
     mesh.add_node_at([0.0, 1.0, 0.0]).unwrap();
-    let Err(Error::Input { value, .. }) = mesh.add_node_at([0.0, 2.0, 0.5]) else { panic!() };
+    let Err(Error::Input { value, .. }) = mesh.add_node_at([0.0, 2.0, 0.5]) else {
+        panic!()
+    };
     assert_eq!(value, 0.5);
     mesh.add(Spring::new([0, 1], Direction::Rotation, 1.0).unwrap()).unwrap();
     for absent in [Direction::Z, Direction::RotationX, Direction::RotationY, Direction::RotationZ] {
@@ -162,7 +164,9 @@ fn sorted(row: &DofCombination) -> Vec<(usize, f64)> {
 #[test]
 fn a_mat_stands_on_its_underside() {
     let model = tower();
-    let Base::Faces(faces) = model.base() else { panic!("a base in space has faces") };
+    let Base::Faces(faces) = model.base() else {
+        panic!("a base in space has faces")
+    };
     assert_eq!(faces.len(), 1);
     let places: Vec<_> = faces[0].iter().map(|node| [node.x, node.y, node.z]).collect();
     assert_eq!(places, [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]]);
@@ -180,7 +184,9 @@ fn a_mat_stands_on_its_underside() {
     }
     // The linked corner moves with its leader, 2 m to the left and as much in front, and stands as deep.
     let linked = tower().with_rigid_link(7, &[6, 4]).unwrap();
-    let Base::Faces(faces) = linked.base() else { panic!("a base in space has faces") };
+    let Base::Faces(faces) = linked.base() else {
+        panic!("a base in space has faces")
+    };
     let [x, y, z, about_x, about_y, about_z] =
         [0, 1, 2, 3, 4, 5].map(|k| linked.dof(7, DIRECTIONS[k]).unwrap());
     let corner = &faces[0][2];
@@ -279,7 +285,9 @@ fn bricks_stand_on_their_lower_sides() {
     let again = mesh.add(brick_on(1)).unwrap_err().to_string();
     assert!(again.contains("it lies where element 1 is, and would count twice"), "{again}");
     let model = FemModel::on_base(mesh).unwrap();
-    let Base::Faces(faces) = model.base() else { panic!("a base in space has faces") };
+    let Base::Faces(faces) = model.base() else {
+        panic!("a base in space has faces")
+    };
     assert_eq!(places(&faces[0]), [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
     assert_eq!(places(&faces[1]), [[1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 0.0]]);
     assert!(model.base().nodes().all(|node| node.z == 0.0 && node.vertical.len() == 1));

@@ -27,7 +27,8 @@ fn block_of_eight_nodes() -> FemModel {
         [0.0, 1.5],
     ];
     let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
-    mesh.add(Quad8::new(nodes, material()).with_integration(Quad8Integration::Full)).unwrap();
+    mesh.add(Quad8::new(nodes, material()).with_integration(Quad8Integration::Full))
+        .unwrap();
     FemModel::on_base(mesh).unwrap()
 }
 

@@ -306,8 +306,10 @@ fn braced_column(load: f64) -> FemModel {
     let mut mesh = Mesh::new();
     let places = [[0.0, 0.0], [0.0, BRACED_HEIGHT], [BRACED_HEIGHT, 0.0]];
     let nodes = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
-    mesh.add(Truss::new([nodes[0], nodes[1]], COLUMN_STIFFNESS, 1.0, 0.0).unwrap()).unwrap();
-    mesh.add(Truss::new([nodes[1], nodes[2]], BRACE_STIFFNESS, 1.0, 0.0).unwrap()).unwrap();
+    mesh.add(Truss::new([nodes[0], nodes[1]], COLUMN_STIFFNESS, 1.0, 0.0).unwrap())
+        .unwrap();
+    mesh.add(Truss::new([nodes[1], nodes[2]], BRACE_STIFFNESS, 1.0, 0.0).unwrap())
+        .unwrap();
     mesh.add(LumpedMass::new(nodes[1], load).unwrap()).unwrap();
     FemModel::new(mesh, &[nodes[0], nodes[2]]).unwrap()
 }

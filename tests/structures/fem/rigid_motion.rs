@@ -33,7 +33,8 @@ fn menagerie(formulation: QuadFormulation, seed: u64) -> FemModel {
     mesh.add(Dashpot::axial([1, 5], 3.0e4).unwrap()).unwrap();
     mesh.add(Dashpot::new([3, 4], Direction::Rotation, 3.0e4).unwrap()).unwrap();
     mesh.add(LumpedMass::new(4, 800.0).unwrap()).unwrap();
-    mesh.add(LumpedMass::new(5, 500.0).unwrap().with_rotary_inertia(90.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(5, 500.0).unwrap().with_rotary_inertia(90.0).unwrap())
+        .unwrap();
     let rayleigh = RayleighDamping::new(0.0, 0.01).unwrap();
     FemModel::on_base(mesh).unwrap().with_rayleigh(rayleigh)
 }
@@ -108,7 +109,8 @@ fn consistent_mass_has_the_exact_rotary_inertia() {
     let ends = [mesh.add_node(-2.0, 0.0).unwrap(), mesh.add_node(2.0, 0.0).unwrap()];
     mesh.add(Beam::new(ends, 1.0, 1.0, 1.0, 6.0).unwrap()).unwrap();
     mesh.add(Truss::new(ends, 1.0, 1.0, 1.0).unwrap()).unwrap();
-    mesh.add(LumpedMass::new(ends[1], 5.0).unwrap().with_rotary_inertia(2.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(ends[1], 5.0).unwrap().with_rotary_inertia(2.0).unwrap())
+        .unwrap();
     let bar = FemModel::on_base(mesh).unwrap();
     let turn = bar.rigid_motion(Direction::Rotation, [0.0; 3]);
     let exact = 7.0 * 4.0 * 16.0 / 12.0 + 5.0 * 4.0 + 2.0;

@@ -17,7 +17,10 @@ use basemat_problems::needed_from;
 fn floor() -> MatrixModel {
     let mut mass = Triplets::new(4);
     let mut stiffness = Triplets::new(4);
-    [2.0e4, 3.0e4, 6.0e4, 1.0e4].into_iter().enumerate().for_each(|(i, m)| mass.add(i, i, m));
+    [2.0e4, 3.0e4, 6.0e4, 1.0e4]
+        .into_iter()
+        .enumerate()
+        .for_each(|(i, m)| mass.add(i, i, m));
     stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
     MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2])).unwrap()
 }

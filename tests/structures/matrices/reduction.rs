@@ -84,7 +84,9 @@ impl FullRun {
             .build()
             .unwrap();
         let mut history = Vec::new();
-        simulation.run(steps, |state| history.push([state.probes[0], state.base_moment])).unwrap();
+        simulation
+            .run(steps, |state| history.push([state.probes[0], state.base_moment]))
+            .unwrap();
         Self { history, displacement: simulation.state().displacement().to_vec() }
     }
 

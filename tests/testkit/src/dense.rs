@@ -75,8 +75,9 @@ pub fn solve_with_prescribed(
     for &(index, value) in prescribed {
         x[index] = value;
     }
-    let free: Vec<usize> =
-        (0..x.len()).filter(|index| prescribed.iter().all(|&(dof, _)| dof != *index)).collect();
+    let free: Vec<usize> = (0..x.len())
+        .filter(|index| prescribed.iter().all(|&(dof, _)| dof != *index))
+        .collect();
     let reaction = multiply(matrix, &x);
     let free_load: Vec<f64> = free.iter().map(|&index| load[index] - reaction[index]).collect();
     for (&index, value) in free.iter().zip(solve(&submatrix(matrix, &free), &free_load)) {
@@ -199,5 +200,7 @@ pub fn condition_by_inverse(matrix: &[f64], n: usize) -> f64 {
 
 /// Largest column sum of magnitudes of a row-major matrix.
 fn one_norm(matrix: &[f64], n: usize) -> f64 {
-    (0..n).map(|j| (0..n).map(|i| matrix[i * n + j].abs()).sum::<f64>()).fold(0.0, f64::max)
+    (0..n)
+        .map(|j| (0..n).map(|i| matrix[i * n + j].abs()).sum::<f64>())
+        .fold(0.0, f64::max)
 }

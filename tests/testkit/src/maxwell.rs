@@ -3,7 +3,12 @@
 /// The numbers between brackets after a name.
 fn number_list(block: &str, name: &str) -> Vec<f64> {
     let list = block.split(&format!("\"{name}\": [")).nth(1).unwrap();
-    list.split(']').next().unwrap().split(',').map(|x| x.trim().parse().unwrap()).collect()
+    list.split(']')
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|x| x.trim().parse().unwrap())
+        .collect()
 }
 
 /// Long-term modulus, moduli and frequencies of the law of `gmb.json` for 5 % or 1 %.

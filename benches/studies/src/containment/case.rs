@@ -40,7 +40,10 @@ impl ContainmentCase {
             ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
         let sliding =
             friction.iter().map(|friction| (format!("friction {friction}"), Some(*friction)));
-        without_sliding.chain(sliding).map(|(name, friction)| Self { name, friction }).collect()
+        without_sliding
+            .chain(sliding)
+            .map(|(name, friction)| Self { name, friction })
+            .collect()
     }
 
     /// Peak base shear of the paper's Table 1, lb/ft, where it has this case.

@@ -234,8 +234,10 @@ pub(crate) fn draw(folder: &Path, results: &[ContainmentOutcome]) -> Result<(), 
         }
         curves(title, "time, s", unit, &lines)?.save(folder.join(format!("{file}.svg")))?;
     }
-    let lines: Vec<_> =
-        shown.iter().map(|outcome| (outcome.case.name.as_str(), &outcome.time_series)).collect();
+    let lines: Vec<_> = shown
+        .iter()
+        .map(|outcome| (outcome.case.name.as_str(), &outcome.time_series))
+        .collect();
     let title = "Displacement of the base relative to the soil";
     basemat::plot::time_series(title, &lines, Quantity::MeanSlip)?
         .save(folder.join("base_slip.svg"))?;

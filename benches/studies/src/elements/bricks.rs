@@ -30,7 +30,10 @@ fn mean_tip_displacement(block: &Block, direction: Direction) -> f64 {
     let loads = block.tip_force(direction);
     let displacement = block.scene.solve(&loads);
     let weight = 1.0 / loads.len() as f64;
-    loads.iter().map(|&(node, direction, _)| weight * displacement(node, direction)).sum()
+    loads
+        .iter()
+        .map(|&(node, direction, _)| weight * displacement(node, direction))
+        .sum()
 }
 
 fn curved(rows: &mut BenchmarkRows) -> Result<(), AnyError> {

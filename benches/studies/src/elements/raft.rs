@@ -139,8 +139,12 @@ fn put(
 
 fn on_springs(rows: &mut BenchmarkRows, count: usize) -> Result<(), AnyError> {
     let mut raft = raft(count)?;
-    let corners: Vec<[usize; 4]> =
-        raft.surface.shells.iter().filter_map(|shell| shell.nodes().try_into().ok()).collect();
+    let corners: Vec<[usize; 4]> = raft
+        .surface
+        .shells
+        .iter()
+        .filter_map(|shell| shell.nodes().try_into().ok())
+        .collect();
     for corners in corners {
         raft.surface.scene.add(SpringElement { nodes: corners, stiffness: 20.0e6 });
     }

@@ -16,16 +16,32 @@ const SETTLEMENT_QUANTITIES: &[&str] =
 
 const TABLE_LINES: &[TableLine] = &[
     ("MacNeal-Harder straight cantilever", &["twist"], &["6"]),
-    ("MacNeal-Harder straight cantilever, rectangles", SHEAR_QUANTITIES, &["Shell4 6x1", "6x1x1"]),
+    (
+        "MacNeal-Harder straight cantilever, rectangles",
+        SHEAR_QUANTITIES,
+        &["Shell4 6x1", "6x1x1"],
+    ),
     ("MacNeal-Harder straight cantilever, rectangles", &["twist"], &["Shell4 6x1", "6x1x1"]),
     ("MacNeal-Harder straight cantilever, parallelograms", SHEAR_QUANTITIES, &["Shell4 6x1"]),
-    ("MacNeal-Harder straight cantilever, trapezoids", SHEAR_QUANTITIES, &["Shell4 6x1", "6x1x1"]),
+    (
+        "MacNeal-Harder straight cantilever, trapezoids",
+        SHEAR_QUANTITIES,
+        &["Shell4 6x1", "6x1x1"],
+    ),
     ("MacNeal-Harder curved cantilever", &["in-plane", "out-of-plane"], &["48", "Shell4 24x4"]),
     ("MacNeal-Harder twisted beam t=0.32", TIP_QUANTITIES, &["96", "Shell4 12x2", "12x2x1"]),
     ("MacNeal-Harder twisted beam t=0.0032", TIP_QUANTITIES, &["96"]),
     ("MacNeal-Harder thick cylinder, nu = 0.4999 (Lame)", &["ur inside"], &["5x1x1"]),
-    ("Scordelis-Lo roof", &["uz at the middle of the free edge"], &["Shell4 8x8", "Shell4 16x16"]),
-    ("pinched cylinder with diaphragms", &["uz under the load"], &["Shell4 16x16", "Shell4 32x32"]),
+    (
+        "Scordelis-Lo roof",
+        &["uz at the middle of the free edge"],
+        &["Shell4 8x8", "Shell4 16x16"],
+    ),
+    (
+        "pinched cylinder with diaphragms",
+        &["uz under the load"],
+        &["Shell4 16x16", "Shell4 32x32"],
+    ),
     (
         "hemisphere with 18 degree hole",
         &["ux under the load"],

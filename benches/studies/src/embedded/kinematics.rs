@@ -29,7 +29,10 @@ fn motions(
     let frequencies: Vec<f64> =
         dimensionless.iter().map(|frequency| frequency / depth / TAU).collect();
     let motions = ground.kinematic_motions(&frequencies, &mut unobserved)?;
-    Ok(motions.iter().map(|motion| [motion.horizontal.abs(), motion.rotation.abs()]).collect())
+    Ok(motions
+        .iter()
+        .map(|motion| [motion.horizontal.abs(), motion.rotation.abs()])
+        .collect())
 }
 
 pub(super) fn tables(short: bool) -> Result<String, AnyError> {

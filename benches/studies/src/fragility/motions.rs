@@ -70,8 +70,11 @@ pub(crate) fn list(step: f64, short: bool) -> Result<Vec<EnsembleMotion>> {
         motions.push((format!("El Centro 1940{name}"), stretched));
     }
     let periods: &[f64] = if short { &[0.6, 1.6] } else { &[0.4, 0.6, 1.0, 1.6, 2.5] };
-    let shapes: &[(f64, f64)] =
-        if short { &[(1.5, 0.0), (2.0, 90.0)] } else { &[(1.3, 0.0), (2.0, 90.0), (3.0, 45.0)] };
+    let shapes: &[(f64, f64)] = if short {
+        &[(1.5, 0.0), (2.0, 90.0)]
+    } else {
+        &[(1.3, 0.0), (2.0, 90.0), (3.0, 45.0)]
+    };
     for &period in periods {
         for &(oscillations, phase) in shapes {
             let pulse = Pulse { period, oscillations, phase };

@@ -61,8 +61,9 @@ fn draw_panel(area: &SheetArea, groups: &[&FragilityGroup], width: f64) -> Resul
         .axis_desc_style(("sans-serif", 16))
         .light_line_style(WHITE)
         .draw()?;
-    let velocities: Vec<f64> =
-        (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
+    let velocities: Vec<f64> = (1..=CURVE_POINTS)
+        .map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS))
+        .collect();
     for (group, color) in groups.iter().zip(FRICTION_COLORS.iter().cycle()) {
         let bands: Vec<_> =
             velocities.iter().map(|&x| (x, group.band(|curve| curve.probability(x)))).collect();

@@ -52,8 +52,10 @@ pub(crate) fn shake(
         .build()?;
     let steps = simulation.steps_for(motion.duration().min(MAX_RECORD_DURATION) + REST_DURATION);
     let run = simulation.run(steps, |_| {})?;
-    let drift =
-        run.probes.iter().fold(0.0_f64, |largest, probe| largest.max(probe.extremes.magnitude()));
+    let drift = run
+        .probes
+        .iter()
+        .fold(0.0_f64, |largest, probe| largest.max(probe.extremes.magnitude()));
     Ok([
         run.whole.mean_slip.magnitude(),
         run.whole.residual_slip.abs(),

@@ -20,7 +20,9 @@ impl Sizes {
     }
 
     fn pairs(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.widths.iter().flat_map(|width| self.heights.iter().map(|height| [*width, *height]))
+        self.widths
+            .iter()
+            .flat_map(|width| self.heights.iter().map(|height| [*width, *height]))
     }
 }
 

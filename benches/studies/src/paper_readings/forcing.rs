@@ -52,7 +52,9 @@ impl Structure for PrintedForcing {
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
         let free_field = self.record.at(time).displacement;
-        load.iter_mut().zip(&self.column).for_each(|(load, column)| *load += column * free_field);
+        load.iter_mut()
+            .zip(&self.column)
+            .for_each(|(load, column)| *load += column * free_field);
         Ok(())
     }
 }

@@ -56,8 +56,11 @@ fn measures(row: &SchemeRow, outcome: &MarchOutcome) -> Option<Measures> {
     let half_plane = row.outcome(ComparedScheme::HalfPlane)?;
     let growth = outcome.growth(half_plane);
     let is_sound = outcome.end == MarchEnd::Record && growth.is_none();
-    let limit =
-        if is_sound { None } else { outcome.steps_until_difference(half_plane, SOUND_DIFFERENCE) };
+    let limit = if is_sound {
+        None
+    } else {
+        outcome.steps_until_difference(half_plane, SOUND_DIFFERENCE)
+    };
     let sound_steps = limit.unwrap_or(outcome.shear.len());
     Some(Measures {
         sound_steps,
@@ -119,7 +122,11 @@ pub(crate) fn print_marches(rows: &[SchemeRow]) {
 
 /// A difference in percent, if any.
 fn percent(difference: f64) -> String {
-    if difference == 0.0 { "–".to_owned() } else { format!("{:.1} %", 100.0 * difference) }
+    if difference == 0.0 {
+        "–".to_owned()
+    } else {
+        format!("{:.1} %", 100.0 * difference)
+    }
 }
 
 fn ending(end: MarchEnd) -> &'static str {

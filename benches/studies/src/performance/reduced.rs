@@ -63,8 +63,12 @@ impl ReducedTower {
             builder = builder.probe(Probe::acceleration("acceleration", roof));
         }
         let builder = builder.coordinates(coordinates).expected_steps(STEP_COUNT);
-        if self.bonded { builder.interface(Bonded) } else { builder.interface(Coulomb::new(0.4)?) }
-            .build()
+        if self.bonded {
+            builder.interface(Bonded)
+        } else {
+            builder.interface(Coulomb::new(0.4)?)
+        }
+        .build()
     }
 
     /// The smallest times of a few runs.

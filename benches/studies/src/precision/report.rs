@@ -131,12 +131,18 @@ fn row(point: &SweepPoint, crossing: f64) -> String {
 }
 
 fn time(seconds: f64) -> String {
-    if seconds < 0.1 { format!("{:.2} ms", 1e3 * seconds) } else { format!("{seconds:.2} s") }
+    if seconds < 0.1 {
+        format!("{:.2} ms", 1e3 * seconds)
+    } else {
+        format!("{seconds:.2} s")
+    }
 }
 
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+    letters
+        .next()
+        .map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
 }
 
 /// Processor and compiler.

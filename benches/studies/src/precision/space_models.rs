@@ -92,7 +92,8 @@ pub(super) fn containment(
 fn on_base(mesh: Mesh, top: usize) -> basemat::Result<(FemModel, usize)> {
     let damping = RayleighDamping::new(0.0, 0.1 / (std::f64::consts::TAU * 5.0))?;
     let model = FemModel::on_base(mesh)?.with_rayleigh(damping);
-    let dof =
-        model.dof(top, Direction::X).ok_or(basemat::Error::part("top", "no motion along x"))?;
+    let dof = model
+        .dof(top, Direction::X)
+        .ok_or(basemat::Error::part("top", "no motion along x"))?;
     Ok((model, dof))
 }

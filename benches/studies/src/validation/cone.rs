@@ -76,7 +76,9 @@ impl ConeMarch {
 
     fn curve(&self, violation: usize) -> Vec<(f64, f64)> {
         let intervals = self.series.iter().enumerate();
-        intervals.map(|(n, interval)| (0.1 * n as f64, interval[violation].max(1e-20))).collect()
+        intervals
+            .map(|(n, interval)| (0.1 * n as f64, interval[violation].max(1e-20)))
+            .collect()
     }
 }
 

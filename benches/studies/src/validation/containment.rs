@@ -35,8 +35,9 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         run_all(&ContainmentCase::list(&[0.4, 0.3, 0.2]), Containment::default(), duration)?;
     let shear: Vec<f64> =
         computed.iter().map(|outcome| outcome.peak_shear / POUND_FORCE_PER_FOOT).collect();
-    let energy_balance =
-        computed.iter().fold(0.0_f64, |worst, outcome| worse(worst, outcome.run.energy_error));
+    let energy_balance = computed
+        .iter()
+        .fold(0.0_f64, |worst, outcome| worse(worst, outcome.run.energy_error));
     let mut checks = vec![
         ValidationCheck::below(
             "bonded: peak base shear, relative (calibrated)",

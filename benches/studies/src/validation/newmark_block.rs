@@ -115,8 +115,10 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
             error,
             limits[0],
         ));
-        let row =
-            rows.iter().zip(&records).find(|(row, name)| **name == "peknold" && row[0] == friction);
+        let row = rows
+            .iter()
+            .zip(&records)
+            .find(|(row, name)| **name == "peknold" && row[0] == friction);
         let ([_, peak, residual], _) = row.ok_or("no such row in the table")?;
         let label = |name: &str| format!("friction {friction}: {name} against the table, m");
         let error = (largest(&stiff) - peak).abs();

@@ -62,7 +62,11 @@ pub(crate) fn worse(error: f64, other: f64) -> f64 {
 
 /// Curve of samples at an interval, with values multiplied by 1000.
 pub(crate) fn milli_curve(interval: f64, values: &[f64]) -> Vec<(f64, f64)> {
-    values.iter().enumerate().map(|(k, value)| (k as f64 * interval, 1e3 * value)).collect()
+    values
+        .iter()
+        .enumerate()
+        .map(|(k, value)| (k as f64 * interval, 1e3 * value))
+        .collect()
 }
 
 /// A case that has run.

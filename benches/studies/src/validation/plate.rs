@@ -207,8 +207,10 @@ fn discs(short: bool) -> Result<(Vec<ValidationCheck>, FigurePanel), AnyError> {
         }
     }
     for ((k, color), points) in [CURVE_BLUE, CURVE_GREEN].into_iter().enumerate().zip(points) {
-        let references =
-            DISC_CASES.iter().map(|(rigidity, references, _)| (*rigidity, references[k])).collect();
+        let references = DISC_CASES
+            .iter()
+            .map(|(rigidity, references, _)| (*rigidity, references[k]))
+            .collect();
         discs = discs.line(&format!("Ritz solution, {}", names[k]), color, references).circles(
             &format!("basemat, {}", names[k]),
             color,

@@ -64,7 +64,11 @@ fn section(finished: &Finished) -> Result<String, AnyError> {
 fn limits(check: &ValidationCheck) -> String {
     let low = *check.limits.start();
     let high = *check.limits.end();
-    if low == 0.0 { format!("≤ {}", number(high)) } else { format!("{low} … {high}") }
+    if low == 0.0 {
+        format!("≤ {}", number(high))
+    } else {
+        format!("{low} … {high}")
+    }
 }
 
 /// Two or three digits: 0.71, 1.98, 3.4e-3.

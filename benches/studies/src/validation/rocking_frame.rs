@@ -46,7 +46,11 @@ const IMPACT_COUNT: usize = 4;
 
 /// Part of the largest push.
 fn pulse(time: f64) -> f64 {
-    if time > 0.0 && time < PUSH_DURATION { (PI * time / PUSH_DURATION).sin() } else { 0.0 }
+    if time > 0.0 && time < PUSH_DURATION {
+        (PI * time / PUSH_DURATION).sin()
+    } else {
+        0.0
+    }
 }
 
 /// Displacement of the cap to the right and tilt of the footings, at every sample.
@@ -103,8 +107,9 @@ fn march(
     duration: f64,
 ) -> Result<FrameHistory, AnyError> {
     // The stiff bed is damped, so that a corner lands without rebound.
-    let bed =
-        SpringGround::under(&model, 2, 4e12, 1e13)?.with_dashpots(2e8, 0.0)?.with_theta(1.0)?;
+    let bed = SpringGround::under(&model, 2, 4e12, 1e13)?
+        .with_dashpots(2e8, 0.0)?
+        .with_theta(1.0)?;
     let pushed = model.row(hinges[0], Direction::X)? + model.row(hinges[1], Direction::X)?;
     let rows = [model.row(hinges[0], Direction::X)?, model.row(left_foot, Direction::Rotation)?];
     let mut simulation = Simulation::builder(time_step)
@@ -184,8 +189,11 @@ impl BendingColumn {
         let shear = self.sway_stiffness * (state[0] + HINGE_HEIGHT * state[2]);
         let thrust = self.axial_stiffness * (self.side * B * state[2] - state[1]);
         let weight = self.side * B * (thrust + FOOTING_MASS * STANDARD_GRAVITY);
-        let turn =
-            if self.side == 0.0 { 0.0 } else { (-HINGE_HEIGHT * shear - weight) / footing_inertia };
+        let turn = if self.side == 0.0 {
+            0.0
+        } else {
+            (-HINGE_HEIGHT * shear - weight) / footing_inertia
+        };
         let cap = (self.push * pulse(time) - shear) / CAP_MASS;
         [state[3], state[4], state[5], cap, thrust / CAP_MASS - STANDARD_GRAVITY, turn]
     }

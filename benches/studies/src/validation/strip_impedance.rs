@@ -37,8 +37,10 @@ fn curves(name: &str, poisson: f64, bonded: bool) -> StripCurves {
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let strip = |contact| RigidStrip::new(poisson, Grading::Cosine, 16, TIME_STEP, contact);
     let computed = impedances(strip, TIME_STEP, Force::Mean, bonded, &frequencies);
-    let tabled =
-        rows.iter().map(|row| std::array::from_fn(|k| [row[2 * k + 1], row[2 * k + 2]])).collect();
+    let tabled = rows
+        .iter()
+        .map(|row| std::array::from_fn(|k| [row[2 * k + 1], row[2 * k + 2]]))
+        .collect();
     StripCurves { frequencies, tabled, computed }
 }
 
@@ -57,7 +59,9 @@ impl StripCurves {
     /// Real part (stiffness) or imaginary part over a₀ (dashpot) of component k.
     fn points(&self, list: &[[[f64; 2]; 4]], k: usize, part: usize) -> Vec<(f64, f64)> {
         let impedances = self.frequencies.iter().zip(list);
-        impedances.map(|(a0, z)| (*a0, if part == 0 { z[k][0] } else { z[k][1] / a0 })).collect()
+        impedances
+            .map(|(a0, z)| (*a0, if part == 0 { z[k][0] } else { z[k][1] / a0 }))
+            .collect()
     }
 }
 

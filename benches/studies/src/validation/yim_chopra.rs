@@ -252,8 +252,11 @@ fn computed(
         .ground(bed)
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY);
-    let builder =
-        if uplifts { builder.interface(Coulomb::uplift_only()) } else { builder.interface(Bonded) };
+    let builder = if uplifts {
+        builder.interface(Coulomb::uplift_only())
+    } else {
+        builder.interface(Bonded)
+    };
     let mut simulation = builder.build()?;
     let settlement = -simulation.static_displacement()[1];
     let stride = whole(SAMPLE_INTERVAL / time_step);

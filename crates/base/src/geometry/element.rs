@@ -162,7 +162,8 @@ impl ContactElement {
             let [x, y, up] = vector;
             return [0.0 - up, 0.0 + x, 0.0 + y];
         }
-        self.directions.map(|unit| unit[0] * vector[0] + unit[1] * vector[1] + unit[2] * vector[2])
+        self.directions
+            .map(|unit| unit[0] * vector[0] + unit[1] * vector[1] + unit[2] * vector[2])
     }
 
     /// The vector `[x, y, z]` with these components along the normal and both sides.

@@ -46,7 +46,11 @@ impl Lattice {
     /// Number of offsets along x and y that are integrated; the smaller number first if cells are square.
     pub fn extent(&self) -> [usize; 2] {
         let counts = self.counts;
-        if self.is_square() { [counts[0].min(counts[1]), counts[0].max(counts[1])] } else { counts }
+        if self.is_square() {
+            [counts[0].min(counts[1]), counts[0].max(counts[1])]
+        } else {
+            counts
+        }
     }
 
     /// Offsets whose compliances give all others by symmetry: none negative, and i ≤ j if cells are square.

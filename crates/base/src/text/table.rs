@@ -61,7 +61,11 @@ impl Table {
             block.push(column);
         }
         blocks.push(block);
-        blocks.iter().map(|block| self.block(block, &widths)).collect::<Vec<_>>().join("\n\n")
+        blocks
+            .iter()
+            .map(|block| self.block(block, &widths))
+            .collect::<Vec<_>>()
+            .join("\n\n")
     }
 
     /// Largest number of characters of a cell in a column.
@@ -100,7 +104,11 @@ impl Table {
 
 /// Number of characters of a line with these columns.
 fn line_width(columns: &[usize], widths: &[usize]) -> usize {
-    columns.iter().map(|&k| widths[k] + COLUMN_GAP).sum::<usize>().saturating_sub(COLUMN_GAP)
+    columns
+        .iter()
+        .map(|&k| widths[k] + COLUMN_GAP)
+        .sum::<usize>()
+        .saturating_sub(COLUMN_GAP)
 }
 
 /// The cells of a row in some columns, aligned by spaces.

@@ -163,7 +163,9 @@ impl Element for Hex8 {
     }
 
     fn faces(&self) -> Vec<ElementFace> {
-        Self::FACE_CORNERS.map(|face| ElementFace::side(&face.map(|k| self.nodes[k]))).to_vec()
+        Self::FACE_CORNERS
+            .map(|face| ElementFace::side(&face.map(|k| self.nodes[k])))
+            .to_vec()
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {

@@ -57,7 +57,11 @@ impl ElementLine {
     /// Lengthening of the line, m, when its ends are displaced along the first axes.
     pub(super) fn lengthening(&self, first: &[f64], second: &[f64]) -> f64 {
         let ends = first.iter().zip(second);
-        self.along.iter().zip(ends).map(|(along, (first, second))| along * (second - first)).sum()
+        self.along
+            .iter()
+            .zip(ends)
+            .map(|(along, (first, second))| along * (second - first))
+            .sum()
     }
 
     /// Transforms a `local` matrix to global degrees of freedom of the plane and adds it.

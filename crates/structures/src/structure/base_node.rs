@@ -57,7 +57,14 @@ impl BaseNode {
     ///
     /// Displacements along x, along y and up.
     pub fn free_in_plan([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
-        Self { x, y, z: 0.0, horizontal: along.into(), across: across.into(), vertical: up.into() }
+        Self {
+            x,
+            y,
+            z: 0.0,
+            horizontal: along.into(),
+            across: across.into(),
+            vertical: up.into(),
+        }
     }
 
     /// A point `[x, y]` (m) of a rigid flat base in plan.

@@ -45,7 +45,11 @@ pub fn numbers(dofs: &[usize]) -> String {
 /// Joins the texts, and adds the number of those left out of `count`.
 pub(super) fn listed(texts: &[String], count: usize) -> String {
     let list = texts.join(", ");
-    if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
+    if count > texts.len() {
+        format!("{list} and {} more", count - texts.len())
+    } else {
+        list
+    }
 }
 
 /// Degrees of freedom of all parts that stiffness does not connect to `base`, ascending.

@@ -206,7 +206,11 @@ fn column(matrix: &[f64], j: usize, vector: &mut [f64]) {
 impl WithModalDamping {
     fn new(structure: impl Structure + 'static) -> Self {
         let n = structure.dofs();
-        Self { structure: Box::new(structure), damping: vec![0.0; n * n], frequencies: Vec::new() }
+        Self {
+            structure: Box::new(structure),
+            damping: vec![0.0; n * n],
+            frequencies: Vec::new(),
+        }
     }
 
     /// Adds a mode: factor × vector vectorᵀ.

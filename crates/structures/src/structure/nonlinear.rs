@@ -17,7 +17,10 @@ impl std::ops::Add for InternalEnergy {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self { stored: self.stored + other.stored, dissipated: self.dissipated + other.dissipated }
+        Self {
+            stored: self.stored + other.stored,
+            dissipated: self.dissipated + other.dissipated,
+        }
     }
 }
 

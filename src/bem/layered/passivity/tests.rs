@@ -60,7 +60,9 @@ fn mobility_of_random_grounds_is_accretive() {
         let s = Complex::new(real, (size * size - real * real).max(0.0).sqrt());
         let integrals = Wavenumbers::new(&classes, 1e-10);
         let mut values = vec![[Complex::default(); 3]; classes.count()];
-        integrals.compliance(&profile, s, &mut StripWorkspace::default(), &mut values).unwrap();
+        integrals
+            .compliance(&profile, s, &mut StripWorkspace::default(), &mut values)
+            .unwrap();
         for value in values.iter_mut().flatten() {
             *value = *value * s;
         }
@@ -117,7 +119,9 @@ fn mobilities_are_reciprocal() {
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     let mut scratch = values.clone();
     let place = [CHECK_RADIUS.ln(), 0.4];
-    quadrature.mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values).unwrap();
+    quadrature
+        .mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values)
+        .unwrap();
     let matrix = assembled(&classes, &values);
     let order = classes.layout().len();
     let mut largest_imaginary = 0.0_f64;
@@ -150,7 +154,9 @@ fn the_check_reports_the_smallest_eigenvalue() {
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     let mut scratch = values.clone();
     let place = [CHECK_RADIUS.ln(), 1.0];
-    quadrature.mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values).unwrap();
+    quadrature
+        .mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values)
+        .unwrap();
     assert!(margin(&classes, &values) > 0.0);
     // With the mobilities of the elements scaled to one, the sign of the coupling between elements decides.
     for class in 0..classes.count() {

@@ -43,7 +43,9 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     for line in table.lines().skip(2) {
         let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let s = Complex::new(n[0], n[1]);
-        integrals.compliance(&profile, s, &mut StripWorkspace::default(), &mut values).unwrap();
+        integrals
+            .compliance(&profile, s, &mut StripWorkspace::default(), &mut values)
+            .unwrap();
         let mut indices = line.split(',').skip(2).map(str::parse::<usize>);
         let row = indices.next().unwrap().unwrap();
         let column = indices.next().unwrap().unwrap();

@@ -239,8 +239,10 @@ struct RandomNumbers(u64);
 impl RandomNumbers {
     /// Number with an even distribution of its logarithm.
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         low * (high / low).powf((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }
 

@@ -103,7 +103,11 @@ fn blocks_and_motions_are_those_of_all_entries() {
         let mut pairs = blocks.iter().zip(whole.element_blocks.as_flattened().as_flattened());
         assert!(pairs.all(|(a, b)| near(*a, *b)), "case {case}");
         assert!(
-            low.rho.as_flattened().iter().zip(whole.rho.as_flattened()).all(|(a, b)| near(*a, *b))
+            low.rho
+                .as_flattened()
+                .iter()
+                .zip(whole.rho.as_flattened())
+                .all(|(a, b)| near(*a, *b))
         );
     }
 }

@@ -77,7 +77,8 @@ impl Assembly {
     }
 
     pub(super) fn fix(&mut self, node: usize, directions: &[Direction]) {
-        self.prescribed.extend(directions.iter().map(|&direction| (dof(node, direction), 0.0)));
+        self.prescribed
+            .extend(directions.iter().map(|&direction| (dof(node, direction), 0.0)));
     }
 
     /// Elements of a list that match each other where they meet.

@@ -39,8 +39,10 @@ fn frequencies(plate: &Assembly) -> Vec<f64> {
     let free: Vec<usize> = (0..plate.load.len()).filter(|index| is_free[*index]).collect();
     let stiffness = part(&plate.stiffness(), &free);
     let mass = part(&plate.mass(MassKind::Consistent), &free);
-    let flexibility: Matrix =
-        inverse(&stiffness.concat(), free.len()).chunks(free.len()).map(<[f64]>::to_vec).collect();
+    let flexibility: Matrix = inverse(&stiffness.concat(), free.len())
+        .chunks(free.len())
+        .map(<[f64]>::to_vec)
+        .collect();
     let mut shapes: Matrix = (0..16).map(|k| noise(free.len(), k)).collect();
     for _ in 0..30 {
         for k in 0..shapes.len() {

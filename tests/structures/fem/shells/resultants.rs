@@ -23,7 +23,9 @@ fn at_node(model: &Assembly, u: &[f64], node: usize) -> [f64; 8] {
     let mut sum = [0.0; 8];
     let mut count = 0.0;
     for shell in &model.shells {
-        let Some(corner) = shell.nodes().iter().position(|&other| other == node) else { continue };
+        let Some(corner) = shell.nodes().iter().position(|&other| other == node) else {
+            continue;
+        };
         let displacements = Assembly::node_displacements(shell, u);
         let all = shell.resultants(&model.points(shell.nodes()), &displacements).unwrap();
         for (sum, value) in

@@ -171,7 +171,8 @@ impl FemModel {
         let mass = self.matrix_of(MatrixKind::Mass(self.mass_kind))?;
         let upwards = self.mesh.upwards();
         let mut reactions = self.inertia_forces(&mass, upwards, gravity);
-        self.matrix_of(MatrixKind::Stiffness)?.multiply_add(1.0, displacement, &mut reactions);
+        self.matrix_of(MatrixKind::Stiffness)?
+            .multiply_add(1.0, displacement, &mut reactions);
         let is_held = self.is_held();
         let mut targets = Vec::with_capacity(base.motions.len());
         for (_, rotation) in self.rotations() {

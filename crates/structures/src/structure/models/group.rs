@@ -185,7 +185,9 @@ impl StructureGroup {
 
     /// The nonlinear forces of the members that have one, each with its member.
     fn forces(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
-        self.members.iter().filter_map(|member| Some((member, member.structure.nonlinear()?)))
+        self.members
+            .iter()
+            .filter_map(|member| Some((member, member.structure.nonlinear()?)))
     }
 }
 
