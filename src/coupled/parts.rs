@@ -92,8 +92,9 @@ impl Parts {
         check_motion(&builder, dofs)?;
         let coefficients = builder.scheme.coefficients(time_step);
         coefficients.check()?;
-        let [x, y] = elements.center();
-        let moment_center = [finite("moment center", builder.moment_center.unwrap_or(x))?, y];
+        let center = elements.center();
+        let moment_x = finite("moment center", builder.moment_center.unwrap_or(center[0]))?;
+        let moment_center = [moment_x, center[1]];
         // Before the ground is prepared, which can take long.
         let description = ground.description();
         let motion = builder.motion.as_ref();

@@ -141,8 +141,12 @@ impl TrenchGround {
         let responses = self.soil().responses(frequencies, observer)?;
         let mut motions = Vec::with_capacity(frequencies.len());
         for (&frequency, response) in frequencies.iter().zip(responses) {
-            let [horizontal, rotation, vertical] = response.motion;
-            motions.push(KinematicMotion { frequency, horizontal, rotation, vertical });
+            motions.push(KinematicMotion {
+                frequency,
+                horizontal: response.motion[0],
+                rotation: response.motion[1],
+                vertical: response.motion[2],
+            });
         }
         Ok(motions)
     }

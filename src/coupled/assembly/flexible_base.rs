@@ -266,8 +266,8 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     }
     let sides = patch.layout().axes().map(|axis| {
         let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
-        let [start, end] = far_ends(ends.iter().copied());
-        (end - start, in_a_row(ends), axis)
+        let edges = far_ends(ends.iter().copied());
+        (edges[1] - edges[0], in_a_row(ends), axis)
     });
     let shorter = sides.min_by(|(one, ..), (other, ..)| one.total_cmp(other));
     let (_, count, axis) = shorter.unwrap_or_default();

@@ -104,8 +104,8 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     model.stiffness.multiply_add(-1.0, &displacement, &mut force);
     model.damping.multiply_add(-1.0, &state.kinematics.velocity, &mut force);
     if !model.linear {
-        let (nonlinear, _) =
-            nonlinear_state(structure, &scene.force_displacement_of(&state.kinematics))?;
+        let displacement = scene.force_displacement_of(&state.kinematics);
+        let nonlinear = nonlinear_state(structure, &displacement)?.0;
         for (force, (now, at_rest)) in force.iter_mut().zip(nonlinear.iter().zip(&at_rest.force)) {
             *force -= now - at_rest;
         }

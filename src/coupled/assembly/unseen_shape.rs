@@ -164,7 +164,8 @@ fn moduli(
 fn alternating(base: &PlacedBase, soil: &[f64], component: usize, elements: [usize; 2]) -> f64 {
     let order = base.layout().len();
     let row = |element: usize| &soil[base.layout().place(component, element) * order..][..order];
-    let [i, j] = elements.map(|e| base.layout().place(component, e));
+    let i = base.layout().place(component, elements[0]);
+    let j = base.layout().place(component, elements[1]);
     0.5 * (row(elements[0])[i] + row(elements[1])[j] - row(elements[0])[j] - row(elements[1])[i])
 }
 

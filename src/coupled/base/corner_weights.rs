@@ -63,7 +63,9 @@ impl Quadrilateral {
     fn step(&self, [s, t]: Point, p: Point) -> Option<Point> {
         let weights = bilinear([s, t]);
         let rest = [0, 1].map(|k| p[k] - self.blend(weights, k));
-        let [by_s, by_t] = slopes([s, t]).map(|slope| [0, 1].map(|k| self.blend(slope, k)));
+        let slopes = slopes([s, t]);
+        let by_s = [0, 1].map(|k| self.blend(slopes[0], k));
+        let by_t = [0, 1].map(|k| self.blend(slopes[1], k));
         let determinant = by_s[0] * by_t[1] - by_s[1] * by_t[0];
         let ds = (rest[0] * by_t[1] - rest[1] * by_t[0]) / determinant;
         let dt = (by_s[0] * rest[1] - by_s[1] * rest[0]) / determinant;

@@ -239,8 +239,8 @@ impl PlacedBase {
         for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
             *value = displacement[layout.place(component, e)];
         }
-        let [right, away, up] = self.elements[e].vector(components);
-        [right, up, away]
+        let vector = self.elements[e].vector(components);
+        [vector[0], vector[2], vector[1]]
     }
 
     /// Mean `[right, up, away]` of contact displacements over the whole base.

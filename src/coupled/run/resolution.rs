@@ -123,8 +123,7 @@ pub(crate) struct Resolution {
 
 /// Mean free field along x, upwards and along y.
 fn free_field(state: &State) -> [f64; COMPONENTS_IN_SPACE] {
-    let [along, up] = state.free_field;
-    [along, up, state.free_field_across]
+    [state.free_field[0], state.free_field[1], state.free_field_across]
 }
 
 /// Properties of the ground motion, from samples between the steps.
@@ -182,9 +181,8 @@ impl Resolution {
         self.steps += 1;
         self.normal_force = self.normal_force.max(state.normal_force.abs());
         if let Some(foundation) = state.foundations.get(self.foundation) {
-            let [along, across] = &mut self.axes;
-            along.update(foundation.base_shear, foundation.base_moment);
-            across.update(foundation.shear_across, foundation.moment_across);
+            self.axes[0].update(foundation.base_shear, foundation.base_moment);
+            self.axes[1].update(foundation.shear_across, foundation.moment_across);
         }
         let across = state.foundations.iter().map(|foundation| foundation.shear_across).sum();
         let shear = [state.base_shear, across];
@@ -245,8 +243,8 @@ impl Resolution {
     /// Whether the base shear varies as the ground does.
     fn follows(&self) -> bool {
         let ground = self.ground.ratio();
-        let [low, high] = FOLLOWING_RATIO_RANGE.map(|multiple| multiple * ground);
-        (low..high).contains(&self.base_shear.ratio())
+        let range = FOLLOWING_RATIO_RANGE.map(|multiple| multiple * ground);
+        (range[0]..range[1]).contains(&self.base_shear.ratio())
     }
 
     /// Wavelength of shear waves at the frequency of the base shear, without vibrations of the contact, m.

@@ -93,9 +93,10 @@ impl FaceForces {
             let element = &elements[e];
             let state = &contact[e];
             let area = element.area();
-            let [x, _, z] = element.center();
+            let center = element.center();
             let below_middle = pressure_depths.get(e).copied().unwrap_or(0.0);
-            let arm = if face == Face::Base { x - middle } else { z - below_middle - bottom };
+            let height = center[2] - below_middle - bottom;
+            let arm = if face == Face::Base { center[0] - middle } else { height };
             thrust += area * state.pressure;
             shear += area * state.shear;
             moment += area * state.pressure * arm;

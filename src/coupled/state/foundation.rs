@@ -152,10 +152,10 @@ impl Foundation {
             if !element.faces_down() {
                 continue;
             }
-            let [right, away, _] = element.vector([0.0, state.slip, state.slip_across]);
+            let slip = element.vector([0.0, state.slip, state.slip_across]);
             sums.area += area;
-            sums.slip += area * right;
-            sums.slip_across += area * away;
+            sums.slip += area * slip[0];
+            sums.slip_across += area * slip[1];
             if !modes[e].is_closed() {
                 sums.open += area;
             }

@@ -185,8 +185,8 @@ impl LoadedPart {
     }
 
     fn half_width(&self, axis: usize) -> f64 {
-        let [start, end] = self.bounds[axis];
-        0.5 * (end - start)
+        let bounds = self.bounds[axis];
+        0.5 * (bounds[1] - bounds[0])
     }
 
     /// e along both axes, m.

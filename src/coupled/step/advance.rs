@@ -78,9 +78,9 @@ impl State {
         std::mem::swap(&mut kinematics.acceleration, &mut increment.acceleration);
         kinematics.translations.copy_from_slice(&forcing.translations);
         kinematics.changed();
-        let [right, up, away] = scene.base.mean(&forcing.free_field);
-        self.free_field = [right, up];
-        self.free_field_across = away;
+        let free_field = scene.base.mean(&forcing.free_field);
+        self.free_field = [free_field[0], free_field[1]];
+        self.free_field_across = free_field[2];
         self.contact.copy_from_slice(&increment.contact);
         self.transitions.clear();
         let step = self.step;

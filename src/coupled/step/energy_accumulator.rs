@@ -189,9 +189,8 @@ impl EnergyAccumulator {
     /// The latter counts for a structure that the ground leaves behind, whose own energy is only rounding.
     fn update_largest(&mut self, time_step: f64) {
         let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
-            let [along, up, away] =
-                [0, 1, 2].map(|k| 0.5 * mass[k] * (increment[k] / time_step).powi(2));
-            along + up + away
+            let energy = [0, 1, 2].map(|k| 0.5 * mass[k] * (increment[k] / time_step).powi(2));
+            energy[0] + energy[1] + energy[2]
         });
         self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
     }
