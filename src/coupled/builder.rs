@@ -324,7 +324,7 @@ impl SimulationBuilder {
 
     /// Sets a label that a [`Checkpoint`](crate::coupled::Checkpoint) keeps; default: empty.
     ///
-    /// [`Simulation::resume`] compares it. Let it name interface laws, ground motion and loads, which are not compared.
+    /// [`Simulation::resume`](crate::Simulation::resume) compares it. Let it name interface laws, ground motion and loads, which are not compared.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
