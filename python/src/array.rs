@@ -318,7 +318,7 @@ pub(crate) fn memory_limit() -> u64 {
     basemat::memory_limit()
 }
 
-/// Does nothing, with a `DeprecationWarning`: the limit of one part is fixed (`memory_limit`).
+/// Deprecated: warns, and ignores bytes. The limit of one part is fixed (`memory_limit`).
 #[pyfunction]
 pub(crate) fn set_memory_limit(
     py: Python<'_>,

@@ -217,7 +217,7 @@ fn ground_with_memory(memory: usize) -> ElasticGround {
     ground.with_history(HistoryOptions { memory, ..HistoryOptions::default() }).unwrap()
 }
 
-/// Histories that may contain all lags are refused; exponentials need no such memory.
+/// A history that may contain all lags is refused; exponentials need no such memory.
 #[test]
 fn histories_that_need_too_much_memory_are_refused_beforehand() {
     let start = Instant::now();

@@ -3788,7 +3788,7 @@ def memory_limit() -> int:
     """
 
 def set_memory_limit(bytes: int) -> None:
-    """Does nothing, with a `DeprecationWarning`: the limit of one part is fixed (`memory_limit`)."""
+    """Deprecated: warns, and ignores bytes. The limit of one part is fixed (`memory_limit`)."""
 
 def _case_numbers(grid: Sequence[tuple[str, Any]], shard: tuple[int, int] | None = None) -> list[int]: ...
 
