@@ -248,7 +248,7 @@ fn mirrored(row: usize, nodes: usize, value: Complex64) -> Complex64 {
     if row < nodes { -value } else { value }
 }
 
-/// Stiffness of a side of endless equal columns; `None` if waves do not come to rest in 2^45 of them.
+/// Stiffness of a side of infinitely many equal columns; `None` if waves do not come to rest in 2^45 of them.
 fn far_columns(mut column: ElementColumn, nodes: usize) -> Result<Option<ComplexBlock>> {
     for _ in 0..MAX_COLUMN_DOUBLINGS {
         let stiffness = column.mean(1.0);

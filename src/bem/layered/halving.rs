@@ -17,7 +17,7 @@ pub(crate) const ROUNDING_FLOOR_FACTOR: f64 = 3e-14;
 pub(crate) const PANEL_TOLERANCE_EXPONENT: f64 = 2.0 / 3.0;
 /// Largest number of successive halvings of a panel.
 const MAX_HALVING_DEPTH: u32 = 44;
-/// Largest number of halves of one integral: rounding above [`ROUNDING_FLOOR_FACTOR`] must not cause endless halving.
+/// Largest number of halves of one integral: rounding above [`ROUNDING_FLOOR_FACTOR`] must not halve for ever.
 const MAX_HALVES: usize = 1 << 16;
 
 /// Halves the panel from `start`, of width `panel_width`, until C is resolved on every part.
