@@ -39,9 +39,9 @@ const TIMED_JOBS: [(&str, PrepareCall); 8] = [
 ];
 
 fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<TimedCall> {
-    let (builder, ground) = headline::headline(headline::COUNT)?;
+    let (builder, ground) = headline::headline(headline::ELEMENT_COUNT)?;
     // With fewer expected steps, the simulation would use degrees of freedom instead of modes.
-    let builder = builder.ground(ground).interface(law).expected_steps(headline::STEPS);
+    let builder = builder.ground(ground).interface(law).expected_steps(headline::RECORD_STEPS);
     let mut simulation = builder.build()?;
     Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
 }
@@ -71,8 +71,8 @@ fn time_series() -> Result<TimedCall> {
 }
 
 fn build() -> Result<TimedCall> {
-    let (builder, ground) = headline::headline(headline::COUNT)?;
-    let builder = builder.ground(ground).interface(Bonded).expected_steps(headline::STEPS);
+    let (builder, ground) = headline::headline(headline::ELEMENT_COUNT)?;
+    let builder = builder.ground(ground).interface(Bonded).expected_steps(headline::RECORD_STEPS);
     Ok(Box::new(move || builder.build().map(|simulation| drop(black_box(simulation)))))
 }
 

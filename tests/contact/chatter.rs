@@ -5,13 +5,13 @@
 
 use basemat::interface::UnilateralCondition;
 
-use basemat_problems::chatter::{Outcome, Scene, Scheme};
+use basemat_problems::chatter::{ChatterResult, ChatterScene, ChatterScheme};
 
 /// Runs a block through the first strong seconds of El Centro × 2.
 ///
 /// `young`: Young's modulus of a flexible block, Pa.
-fn run(friction: f64, scheme: Scheme, time_step: f64, young: Option<f64>) -> Outcome {
-    let scene = Scene {
+fn run(friction: f64, scheme: ChatterScheme, time_step: f64, young: Option<f64>) -> ChatterResult {
+    let scene = ChatterScene {
         friction,
         scheme,
         activation: UnilateralCondition::Position,
@@ -28,8 +28,8 @@ fn run(friction: f64, scheme: Scheme, time_step: f64, young: Option<f64>) -> Out
 }
 
 /// Runs with steps of 4, 2 and 1 ms.
-fn refined_runs(friction: f64, young: Option<f64>) -> [Outcome; 3] {
-    [4e-3, 2e-3, 1e-3].map(|time_step| run(friction, Scheme::Midpoint, time_step, young))
+fn refined_runs(friction: f64, young: Option<f64>) -> [ChatterResult; 3] {
+    [4e-3, 2e-3, 1e-3].map(|time_step| run(friction, ChatterScheme::Midpoint, time_step, young))
 }
 
 /// Changes of a value between the runs with the two longer and with the two shorter steps.
@@ -38,7 +38,7 @@ struct Changes {
     fine: f64,
 }
 
-fn changes(runs: &[Outcome; 3], value: impl Fn(&Outcome) -> f64) -> Changes {
+fn changes(runs: &[ChatterResult; 3], value: impl Fn(&ChatterResult) -> f64) -> Changes {
     Changes {
         coarse: (value(&runs[0]) - value(&runs[1])).abs(),
         fine: (value(&runs[1]) - value(&runs[2])).abs(),
@@ -47,7 +47,7 @@ fn changes(runs: &[Outcome; 3], value: impl Fn(&Outcome) -> f64) -> Changes {
 
 #[test]
 fn sliding_block_is_smooth_and_slip_converges() {
-    type NamedSlip = (&'static str, fn(&Outcome) -> f64);
+    type NamedSlip = (&'static str, fn(&ChatterResult) -> f64);
     let runs = refined_runs(0.3, None);
     let finest = runs[2];
     for outcome in &runs {
@@ -82,11 +82,11 @@ fn flexible_block_does_not_chatter() {
 /// Landings of a block of fine elements excite these vibrations, which appear in the accelerations.
 #[test]
 fn dissipation_smooths_accelerations_and_keeps_the_shear() {
-    let midpoint = run(0.6, Scheme::Midpoint, 2e-3, Some(1e9));
-    let refined = run(0.6, Scheme::Midpoint, 5e-4, Some(1e9));
+    let midpoint = run(0.6, ChatterScheme::Midpoint, 2e-3, Some(1e9));
+    let refined = run(0.6, ChatterScheme::Midpoint, 5e-4, Some(1e9));
     let error = (midpoint.shear - refined.shear).abs();
     for (gamma, max_ratio) in [(0.8, 0.35), (1.0, 0.15)] {
-        let damped = run(0.6, Scheme::Dissipative(gamma), 2e-3, Some(1e9));
+        let damped = run(0.6, ChatterScheme::Dissipative(gamma), 2e-3, Some(1e9));
         let limit = max_ratio * midpoint.acceleration_alternating;
         assert!(damped.acceleration_alternating < limit, "γ = {gamma}");
         assert!((damped.shear - midpoint.shear).abs() < error, "{error}");

@@ -2,14 +2,14 @@
 //! SCENE: random problems of one to four elements, friction from 0 to 3, in sequences.
 //! REFERENCE: all modes tried. The example `contact_problems` runs many more.
 
-use basemat_problems::contact_problems::{Tally, sequence};
+use basemat_problems::contact_problems::{ContactTally, sequence};
 use basemat_problems::random::Random;
 
 #[test]
 fn steps_find_a_solution_of_brute_force() {
     let mut random = Random(11);
     for [low, high] in [[0.0, 0.0], [0.05, 0.6], [0.6, 1.5], [1.5, 3.0]] {
-        let mut tally = Tally::default();
+        let mut tally = ContactTally::default();
         for k in 0..60 {
             let friction = if high > 0.0 { random.within(low, high) } else { 0.0 };
             tally.add(&sequence(1 + k % 4, friction, k % 2 == 0, &mut random));

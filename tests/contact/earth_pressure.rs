@@ -8,14 +8,14 @@ use std::ops::Range;
 use basemat::interface::{EarthPressure, InterfaceLaw};
 use basemat::soil::SoilStrength;
 
-use basemat_problems::enumerated_contact::{COUNT, EnumeratedContact, Ranges};
+use basemat_problems::enumerated_contact::{ELEMENT_COUNT, EnumeratedContact, Ranges};
 use basemat_problems::random::Random;
 
 fn random_problem(random: &mut Random) -> EnumeratedContact {
     let ranges = Ranges { free_jump: [-3.0, 3.0], pressed: [0.3, 1.0], moved: [-0.5, 0.5] };
     EnumeratedContact::random(random, ranges, |random| {
         let mut bounds = Vec::new();
-        for _ in 0..COUNT {
+        for _ in 0..ELEMENT_COUNT {
             // Soil without active pressure stands without the wall: these elements may open.
             let active = if random.chance(0.2) { 0.0 } else { random.within(0.05, 0.3) };
             bounds.push([active, random.within(1.0, 2.0)]);
@@ -30,7 +30,7 @@ fn the_search_finds_a_solution_of_brute_force() {
     let mut found_modes = BTreeSet::new();
     let mut problems_with_others = 0;
     for problem in (0..300).map(|_| random_problem(&mut random)) {
-        let laws: [EarthPressure; COUNT] = std::array::from_fn(|e| {
+        let laws: [EarthPressure; ELEMENT_COUNT] = std::array::from_fn(|e| {
             let [active, passive] = problem.bounds[e];
             EarthPressure::new(active, passive, problem.friction).unwrap()
         });

@@ -11,7 +11,7 @@ use basemat::motion::FreeFieldFn;
 use basemat::results::Run;
 use basemat::structure::RigidBlock;
 
-use basemat_problems::scenes::{GRAVITY, SI, friction, ground};
+use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, friction, ground};
 
 /// Interval of the samples that are compared, s.
 const SAMPLE_INTERVAL: f64 = 4e-3;
@@ -71,7 +71,7 @@ fn springs() -> SpringGround {
 }
 
 fn on_half_plane(builder: SimulationBuilder) -> SimulationBuilder {
-    builder.ground(ground(SI, ELEMENT_COUNT, Grading::Cosine))
+    builder.ground(ground(SI_UNITS, ELEMENT_COUNT, Grading::Cosine))
 }
 
 /// Runs a scene for `duration` seconds.
@@ -80,7 +80,7 @@ fn sampled_run(
     steps_per_sample: usize,
     duration: f64,
 ) -> (SampledRun, Run) {
-    let mut simulation = builder.gravity(GRAVITY).build().unwrap();
+    let mut simulation = builder.gravity(SCENE_GRAVITY).build().unwrap();
     let mut sampled = SampledRun::default();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
     let samples = (duration / SAMPLE_INTERVAL).round() as usize;

@@ -10,7 +10,7 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{Base, BaseNode, Structure, Triplets};
 use basemat::{Error, Simulation, unobserved};
 
-use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening};
+use basemat_problems::laws_with_memory::{BreakingBond, SlipWeakening};
 
 const TIME_STEP: f64 = 1e-3;
 const RUN_STEPS: usize = 4000;
@@ -253,7 +253,7 @@ fn compliant_problem(law: impl InterfaceLaw + 'static) -> ContactProblem {
 /// REFERENCE: numbers by hand.
 #[test]
 fn the_bond_of_a_host_breaks_once() {
-    let law = Adhesion { friction: 0.5, strength: 1e4, breaks_by_sliding: true };
+    let law = BreakingBond { friction: 0.5, strength: 1e4, breaks_by_sliding: true };
     let mut problem = compliant_problem(law);
     let mut start = problem.start(&[element_at_rest()]).unwrap();
     assert_eq!(start.iter().next().unwrap().state_variables, [1e4, 0.0]);

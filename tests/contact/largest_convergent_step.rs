@@ -10,7 +10,7 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
 
-use basemat_problems::wrapped::Wayward;
+use basemat_problems::wrapped::LawWithNextMode;
 
 /// A block on Coulomb's law, which accepts no mode in steps longer than `limit` (s).
 fn block_with_step_limit(time_step: f64, limit: f64) -> Result<Simulation> {
@@ -22,7 +22,7 @@ fn block_with_step_limit(time_step: f64, limit: f64) -> Result<Simulation> {
     Simulation::builder(time_step)
         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
         .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
-        .interface(InPlane(Wayward { law: Coulomb::new(0.5)?, next }))
+        .interface(InPlane(LawWithNextMode { law: Coulomb::new(0.5)?, next }))
         .motion(el_centro_1940())
         .build()
 }

@@ -9,12 +9,12 @@ use basemat::coupled::StepError;
 use basemat::interface::LawError;
 use basemat::interface::{Coulomb, InterfaceLaw, UnilateralCondition, VariableFriction};
 
-use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, states};
+use basemat_problems::scenes::{SI_UNITS, TIME_STEP, block, friction, scene, states};
 
 const RUN_STEPS: usize = 300;
 
 fn run(law: impl InterfaceLaw + 'static) -> Vec<State> {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(law);
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law);
     states(&mut builder.build().unwrap(), RUN_STEPS)
 }
 
@@ -106,7 +106,7 @@ fn an_invalid_coefficient_is_an_error() {
                 if start.state.slip.abs() > 1e-4 { invalid } else { 0.2 }
             },
         );
-        let builder = scene(SI, 0.6).structure(block(SI)).interface(law);
+        let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law);
         let mut simulation = builder.build().unwrap();
         let error = loop {
             let state = simulation.state().clone();

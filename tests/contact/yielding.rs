@@ -15,12 +15,14 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::{DofCombination, RigidBlock};
 use basemat::{Simulation, Soil};
 
-use basemat_problems::enumerated_contact::{COUNT, EnumeratedContact, Ranges};
+use basemat_problems::enumerated_contact::{ELEMENT_COUNT, EnumeratedContact, Ranges};
 use basemat_problems::random::Random;
 
 fn random_problem(random: &mut Random) -> EnumeratedContact {
     let ranges = Ranges { free_jump: [-3.0, 2.0], pressed: [0.0, 1.0], moved: [0.0, 0.5] };
-    EnumeratedContact::random(random, ranges, |random| vec![[0.0, random.within(0.8, 2.0)]; COUNT])
+    EnumeratedContact::random(random, ranges, |random| {
+        vec![[0.0, random.within(0.8, 2.0)]; ELEMENT_COUNT]
+    })
 }
 
 #[test]
@@ -40,8 +42,8 @@ fn the_search_finds_a_solution_of_brute_force() {
     for problem in (0..300).map(|_| random_problem(&mut random)) {
         let bearing_pressure = problem.bounds[0][1];
         let law = Yielding::new(bearing_pressure, problem.friction).unwrap();
-        let laws = [law; COUNT].map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
-        let (modes, has_others) = problem.assert_found(laws, [&YIELDING_MODES; COUNT]);
+        let laws = [law; ELEMENT_COUNT].map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
+        let (modes, has_others) = problem.assert_found(laws, [&YIELDING_MODES; ELEMENT_COUNT]);
         found_modes.extend(modes);
         problems_with_others += usize::from(has_others);
     }

@@ -10,7 +10,7 @@ use basemat::structure::{Base, BaseNode, CraigBampton, FemModel, RigidBlock, Str
 use basemat::{Error, Result, Simulation, unobserved};
 
 use basemat_problems::dense::condition_by_inverse;
-use basemat_problems::scenes::{self, SI, TIME_STEP, friction, ground, scene};
+use basemat_problems::scenes::{self, SI_UNITS, TIME_STEP, friction, ground, scene};
 
 /// A block of this mass, inertia and height of its centre of gravity, on a base of 4 m.
 fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {
@@ -21,7 +21,7 @@ fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {
 #[test]
 fn effective_stiffness_of_a_block_is_known_in_closed_form() {
     for (mass, inertia, height) in [(1e4, 1e5, 1.0), (1e5, 1e4, 30.0), (3.0, 1e-3, 2.0)] {
-        let builder = scene(SI, 0.0).coordinates(Coordinates::Physical).interface(Bonded);
+        let builder = scene(SI_UNITS, 0.0).coordinates(Coordinates::Physical).interface(Bonded);
         let builder = builder.structure(block(mass, inertia, height));
         let computed = builder.build().unwrap().conditioning().effective_stiffness;
         let r = (mass * height * height / (inertia + mass * height * height)).sqrt();
@@ -70,7 +70,7 @@ fn add_block_compliance(matrix: &mut [f64], elements: &[ContactElement]) {
 
 /// Computed conditions; bonded without a coefficient of friction.
 fn conditioning(grading: Grading, count: usize, coefficient: Option<f64>) -> Conditioning {
-    let builder = scene(SI, 0.0).ground(ground(SI, count, grading)).structure(block(
+    let builder = scene(SI_UNITS, 0.0).ground(ground(SI_UNITS, count, grading)).structure(block(
         BLOCK_MASS,
         BLOCK_INERTIA,
         CENTER_HEIGHT,
@@ -86,7 +86,7 @@ fn conditioning(grading: Grading, count: usize, coefficient: Option<f64>) -> Con
 #[test]
 fn ground_and_delassus_match_their_inverses() {
     for (grading, count) in [(Grading::Uniform, 3), (Grading::Cosine, 8)] {
-        let mut soil = ground(SI, count, grading);
+        let mut soil = ground(SI_UNITS, count, grading);
         let mut matrix = step_compliance(&mut soil);
         let size = 2 * count;
         let ground_condition = condition_by_inverse(&matrix, size);
@@ -119,7 +119,10 @@ fn tower(young: f64) -> FemModel {
 }
 
 fn bonded() -> SimulationBuilder {
-    scene(SI, 0.5).coordinates(Coordinates::Physical).interface(Bonded).gravity(0.0)
+    scene(SI_UNITS, 0.5)
+        .coordinates(Coordinates::Physical)
+        .interface(Bonded)
+        .gravity(0.0)
 }
 
 /// A run of 200 steps.
@@ -249,14 +252,14 @@ fn stiffness_within_a_structure_is_named() {
 }
 
 fn standing_tower(young: f64) -> Result<Simulation> {
-    let builder = scene(SI, 0.5).structure(tower(young)).interface(friction(0.4));
+    let builder = scene(SI_UNITS, 0.5).structure(tower(young)).interface(friction(0.4));
     builder.gravity_stage(GravityStage::Frictionless).build()
 }
 
 /// Very stiff towers have the right weight, or an error that names the stiffness.
 #[test]
 fn stiff_structures_stand_or_say_why_not() {
-    let weight = 4.0 * 6.0 * 1500.0 * scenes::GRAVITY;
+    let weight = 4.0 * 6.0 * 1500.0 * scenes::SCENE_GRAVITY;
     for young in [1e13, 1e14, 1e15] {
         let simulation = standing_tower(young).unwrap();
         let force = simulation.state().normal_force;
@@ -277,7 +280,7 @@ fn thrown_tower(material: Material, reduced: bool, coordinates: Coordinates) -> 
     let layers = [Layer::new(6.0, 4, material)];
     let mesh = Mesh::layered_block(-2.0..2.0, 4, &layers).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
-    let builder = scene(SI, 2.0).gravity(0.0).interface(friction(0.5));
+    let builder = scene(SI_UNITS, 2.0).gravity(0.0).interface(friction(0.5));
     let builder = if reduced {
         builder.structure(CraigBampton::new(4).reduce(model).unwrap())
     } else {

@@ -12,8 +12,10 @@ use basemat::structure::{
 };
 
 use basemat_problems::needed_from;
-use basemat_problems::scenes::{Rider, SI, apart, block, friction, scene, shake, states, tower};
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::scenes::{
+    Rider, SI_UNITS, apart, block, friction, scene, shake, states, tower,
+};
+use basemat_problems::wrapped::StructureWithForce;
 
 /// Function that makes a scene, as often as it is called.
 type SceneMaker<'a> = &'a dyn Fn() -> SimulationBuilder;
@@ -32,11 +34,11 @@ fn run_states(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State
 /// A tower with a harmonic force at its top.
 fn pulled(tower: FemModel) -> impl Structure {
     let along = DofCombination::from(tower.dofs() - 2);
-    Pulled { structure: tower, along, force: |time: f64| 2e4 * (20.0 * time).sin() }
+    StructureWithForce { structure: tower, along, force: |time: f64| 2e4 * (20.0 * time).sin() }
 }
 
 fn damped_tower() -> FemModel {
-    tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()))
+    tower(SI_UNITS, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()))
 }
 
 fn building() -> ShearBuilding {
@@ -84,16 +86,22 @@ fn assert_same_run(name: &str, modal: &[State], physical: &[State]) {
 #[test]
 fn modes_and_dofs_agree() {
     let scenes: [(&str, SceneMaker<'_>); 8] = [
-        ("bonded", &|| scene(SI, 0.6).structure(tower(SI, None)).interface(Bonded)),
-        ("sliding", &|| scene(SI, 0.6).structure(tower(SI, None)).interface(friction(0.3))),
-        ("uplift", &|| {
-            scene(SI, 0.6).structure(tower(SI, None)).interface(friction(f64::INFINITY))
+        ("bonded", &|| scene(SI_UNITS, 0.6).structure(tower(SI_UNITS, None)).interface(Bonded)),
+        ("sliding", &|| {
+            scene(SI_UNITS, 0.6).structure(tower(SI_UNITS, None)).interface(friction(0.3))
         }),
-        ("smooth", &|| scene(SI, 0.6).structure(damped_tower()).interface(friction(0.0))),
-        ("pulled", &|| scene(SI, 0.6).structure(pulled(damped_tower())).interface(friction(0.4))),
-        ("block", &|| scene(SI, 0.6).structure(block(SI)).interface(friction(0.3))),
-        ("building", &|| scene(SI, 0.6).structure(building()).interface(friction(0.5))),
-        ("bonded building", &|| scene(SI, 0.6).structure(building()).interface(Bonded)),
+        ("uplift", &|| {
+            scene(SI_UNITS, 0.6)
+                .structure(tower(SI_UNITS, None))
+                .interface(friction(f64::INFINITY))
+        }),
+        ("smooth", &|| scene(SI_UNITS, 0.6).structure(damped_tower()).interface(friction(0.0))),
+        ("pulled", &|| {
+            scene(SI_UNITS, 0.6).structure(pulled(damped_tower())).interface(friction(0.4))
+        }),
+        ("block", &|| scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.3))),
+        ("building", &|| scene(SI_UNITS, 0.6).structure(building()).interface(friction(0.5))),
+        ("bonded building", &|| scene(SI_UNITS, 0.6).structure(building()).interface(Bonded)),
     ];
     let set_schemes: [fn(SimulationBuilder) -> SimulationBuilder; 3] = [
         |builder| builder.scheme(Midpoint),
@@ -121,7 +129,8 @@ fn stiffness_does_not_open_the_energy_balance() {
             let material = Material::new(modulus, 0.2, 1500.0).unwrap();
             let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
             let model = FemModel::on_base(mesh).unwrap();
-            let bonded = scene(SI, strength).motion(shake(SI, strength)).interface(Bonded);
+            let bonded =
+                scene(SI_UNITS, strength).motion(shake(SI_UNITS, strength)).interface(Bonded);
             let builder = bonded.structure(model).coordinates(coordinates);
             let run = builder.build().unwrap().run(RUN_STEPS, |_| {}).unwrap();
             let largest = run.energy_error;
@@ -143,7 +152,7 @@ fn large_tower() -> SimulationBuilder {
     let foundation = Layer::new(0.5, 1, Material::new(5e9, 0.3, 8000.0).unwrap());
     let layers = [foundation, Layer::new(7.5, 11, material)];
     let model = FemModel::on_base(Mesh::layered_block(-2.0..2.0, 10, &layers).unwrap());
-    scene(SI, 0.6).structure(model.unwrap()).interface(friction(0.3))
+    scene(SI_UNITS, 0.6).structure(model.unwrap()).interface(friction(0.3))
 }
 
 /// Large structures have accurate modes, too.
@@ -172,22 +181,23 @@ impl Structure for TowerWithDashpot {
 
 /// Why a structure has no modal coordinates.
 fn error_of_modes(structure: impl Structure + 'static) -> Option<Error> {
-    let builder = scene(SI, 0.1).structure(structure).interface(friction(0.4));
+    let builder = scene(SI_UNITS, 0.1).structure(structure).interface(friction(0.4));
     builder.coordinates(Coordinates::Modes).build().err()
 }
 
 /// A structure whose modes are coupled keeps its degrees of freedom; a request for modes is an error.
 #[test]
 fn modes_are_refused_where_they_do_not_decouple() {
-    let with_dashpot = || TowerWithDashpot(tower(SI, None));
-    for error in [error_of_modes(with_dashpot()), error_of_modes(Rider { block: block(SI) })] {
+    let with_dashpot = || TowerWithDashpot(tower(SI_UNITS, None));
+    for error in [error_of_modes(with_dashpot()), error_of_modes(Rider { block: block(SI_UNITS) })]
+    {
         assert!(
             matches!(error, Some(Error::Scene { quantity: "modal coordinates", .. })),
             "{error:?}"
         );
     }
-    assert!(error_of_modes(tower(SI, None)).is_none());
-    let auto = scene(SI, 0.1).structure(with_dashpot()).interface(friction(0.4));
+    assert!(error_of_modes(tower(SI_UNITS, None)).is_none());
+    let auto = scene(SI_UNITS, 0.1).structure(with_dashpot()).interface(friction(0.4));
     assert!(auto.expected_steps(1_000_000).build().is_ok());
 }
 
@@ -217,7 +227,7 @@ impl Structure for SlidingMasses {
 }
 
 fn states_of_masses(coordinates: Coordinates) -> Vec<State> {
-    let builder = scene(SI, 0.6).gravity(0.0).structure(SlidingMasses).interface(Bonded);
+    let builder = scene(SI_UNITS, 0.6).gravity(0.0).structure(SlidingMasses).interface(Bonded);
     states(&mut builder.coordinates(coordinates).build().unwrap(), RUN_STEPS)
 }
 

@@ -16,7 +16,7 @@ use basemat::structure::{
     Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, WithSprings,
 };
 
-use basemat_problems::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
+use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()
@@ -24,21 +24,23 @@ fn run(builder: SimulationBuilder, steps: usize) -> Run {
 
 /// A tower under two pulses with this law.
 fn on_tower(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
-    scene(SI, 0.6).structure(tower(SI, None)).interface(law)
+    scene(SI_UNITS, 0.6).structure(tower(SI_UNITS, None)).interface(law)
 }
 
 fn on_damped_tower(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     let damping = RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap();
-    scene(SI, 0.6).structure(tower(SI, Some(damping))).interface(law)
+    scene(SI_UNITS, 0.6).structure(tower(SI_UNITS, Some(damping))).interface(law)
 }
 
 fn on_block(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
-    scene(SI, 0.6).structure(block(SI)).interface(law)
+    scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law)
 }
 
 /// A block with a nonlinear elastic rider.
 fn on_rider() -> SimulationBuilder {
-    scene(SI, 0.6).structure(Rider { block: block(SI) }).interface(friction(0.4))
+    scene(SI_UNITS, 0.6)
+        .structure(Rider { block: block(SI_UNITS) })
+        .interface(friction(0.4))
 }
 
 /// A building with a yielding damper in its first storey.
@@ -48,17 +50,17 @@ fn on_yielding_building(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     let drift = building.drift(0).unwrap();
     let damper = Bilinear::new(1e7, 2e4, 0.1).unwrap();
     let structure = WithSprings::new(building).spring(drift, damper).unwrap();
-    scene(SI, 0.6).structure(structure).interface(law)
+    scene(SI_UNITS, 0.6).structure(structure).interface(law)
 }
 
 fn thin_layer() -> ThinLayer {
-    ThinLayer::new(soil(SI), 1.0, 0.3).unwrap()
+    ThinLayer::new(soil(SI_UNITS), 1.0, 0.3).unwrap()
 }
 
 /// Runs by the dissipative midpoint rule, by name.
 fn dissipative_runs() -> Vec<(&'static str, Run)> {
     let scheme = DissipativeMidpoint::default();
-    let push = Load::new(block(SI).horizontal_at(6.0), |t: f64| 8e4 * (30.0 * t).sin());
+    let push = Load::new(block(SI_UNITS).horizontal_at(6.0), |t: f64| 8e4 * (30.0 * t).sin());
     vec![
         ("dissipative", run(on_damped_tower(friction(0.4)).scheme(scheme), 300)),
         ("dissipative, thin layer", run(on_tower(thin_layer()).scheme(scheme), 300)),
@@ -149,7 +151,7 @@ fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() 
         let material = Material::new(modulus, 0.2, 1500.0).unwrap();
         let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
-        let bonded = scene(SI, strength).motion(shake(SI, strength)).interface(Bonded);
+        let bonded = scene(SI_UNITS, strength).motion(shake(SI_UNITS, strength)).interface(Bonded);
         let run = run(bonded.structure(model), 300);
         let largest = run.energy_error;
         let end = run.energy_balance.residual();
@@ -162,7 +164,10 @@ fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() 
 /// At rest energies are zero to rounding, also on a thin layer under the weight.
 #[test]
 fn rest_closes_the_energy_balance() {
-    let builder = scene(SI, 0.0).motion(AtRest).structure(block(SI)).interface(thin_layer());
+    let builder = scene(SI_UNITS, 0.0)
+        .motion(AtRest)
+        .structure(block(SI_UNITS))
+        .interface(thin_layer());
     let run = run(builder, 400);
     assert!(run.energy_balance.kinetic < 1e-25, "{}", run.energy_balance);
     assert!(run.energy_error < 1e-14 && run.warnings.is_empty(), "{}", run.energy_error);
@@ -188,9 +193,10 @@ fn residuals_are_relative_to_the_largest_energy_so_far() {
 /// On a frictionless base, below which the ground moves, the scale is the energy of its motion.
 #[test]
 fn residuals_are_relative_to_the_motion_of_the_ground() {
-    let smooth = scene(SI, 0.0).motion(basemat::motion::el_centro_1940());
-    let mut simulation = smooth.structure(block(SI)).interface(friction(0.0)).build().unwrap();
-    let mass = block(SI).total_mass();
+    let smooth = scene(SI_UNITS, 0.0).motion(basemat::motion::el_centro_1940());
+    let mut simulation =
+        smooth.structure(block(SI_UNITS)).interface(friction(0.0)).build().unwrap();
+    let mass = block(SI_UNITS).total_mass();
     let mut previous_free_field = [0.0; 2];
     let mut largest = 0.0_f64;
     for _ in 0..400 {

@@ -14,14 +14,14 @@ use basemat::sweep::Sweep;
 use basemat::{Error, Simulation, Soil, unobserved};
 
 use basemat_problems::profiles::{constant_q, two_stages};
-use basemat_problems::sampled_block::{History, distance, sample, under_pulse};
-use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
+use basemat_problems::sampled_block::{SampledHistory, distance, sample, under_pulse};
+use basemat_problems::scenes::{SI_UNITS, TIME_STEP, block, friction, scene, soil, states};
 
 /// The soil of the scenes, 3 m of it on rock, with 5 % damping.
 fn profile() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::from_shear_wave_speed(600.0, 0.3, 2200.0).unwrap())
         .with_bedrock_damping(constant_q(0.01))
-        .with_layer(soil(SI), 3.0)
+        .with_layer(soil(SI_UNITS), 3.0)
         .unwrap()
         .with_damping(constant_q(0.05))
 }
@@ -35,7 +35,10 @@ fn layered(elements: usize) -> ElasticGround {
 }
 
 fn shaken(ground: impl Ground + 'static) -> SimulationBuilder {
-    scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).ground(ground)
+    scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(0.3))
+        .ground(ground)
 }
 
 /// States of 200 steps, and the ground's choice of history.
@@ -56,9 +59,9 @@ fn largest_shear(states: &[State]) -> f64 {
 
 #[test]
 fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
-    let profile = SoilProfile::on_half_plane(soil(SI));
+    let profile = SoilProfile::on_half_plane(soil(SI_UNITS));
     let by_profile = run_half_plane(graded_ground(profile.clone(), 8));
-    let by_soil = run_half_plane(graded_ground(soil(SI), 8));
+    let by_soil = run_half_plane(graded_ground(soil(SI_UNITS), 8));
     assert!(by_profile.states == by_soil.states);
     assert!(by_profile.choice == by_soil.choice && by_soil.choice.unwrap().stages.is_none());
     // Convolution quadrature takes the place of the closed form on request, and is close.
@@ -155,11 +158,11 @@ fn shared_kernels_are_distinguished_and_change_no_bit() {
 #[test]
 fn two_foundations_interact_through_the_layers() {
     let other = RigidBlock::new(3.0, 5.0, 1500.0).unwrap();
-    let pair = StructureGroup::new().with(block(SI), -4.0).unwrap().with(other, 3.0).unwrap();
+    let pair = StructureGroup::new().with(block(SI_UNITS), -4.0).unwrap().with(other, 3.0).unwrap();
     let ground =
         ElasticGround::new(profile(), Strip::under(&pair, 4, Grading::Uniform).unwrap()).unwrap();
     assert_eq!(ground.elements().len(), 8);
-    let builder = scene(SI, 0.6).interface(friction(0.3)).ground(ground).structure(pair);
+    let builder = scene(SI_UNITS, 0.6).interface(friction(0.3)).ground(ground).structure(pair);
     let run = builder.build().unwrap().run(300, |_| {}).unwrap();
     assert!(run.whole.uplifted_fraction.largest().value > 0.0 && run.energy_error < 1e-9, "{run}");
 }
@@ -216,7 +219,7 @@ fn layers_are_half_planes_until_waves_return() {
 }
 
 /// Base displacement, rotation and base shear of a square block under a pulse.
-fn pulse_response(profile: impl Into<SoilProfile>) -> History {
+fn pulse_response(profile: impl Into<SoilProfile>) -> SampledHistory {
     let ground = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 6).unwrap()).unwrap();
     let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
     sample(&mut under_pulse(block, ground, 0.1), 300, 1).unwrap().0

@@ -12,7 +12,7 @@ use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{Bilinear, DofCombination, RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Error, Simulation, Soil};
 
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::wrapped::StructureWithForce;
 
 pub(super) fn soil() -> Soil {
     Soil::new(80.0e6, 0.33, 1900.0).unwrap()
@@ -45,7 +45,8 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
 
     let roof = DofCombination::from(building(5).roof());
     let law = Coulomb::new(0.6).unwrap();
-    let pulled = Pulled { structure: building(5), along: roof.clone(), force: roof_force };
+    let pulled =
+        StructureWithForce { structure: building(5), along: roof.clone(), force: roof_force };
     let mut by_structure = on_half_plane(pulled).interface(law).build().unwrap();
     // Two loads, of which one is rounded otherwise.
     let mut by_builder = on_half_plane(building(5))

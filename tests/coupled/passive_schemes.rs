@@ -14,9 +14,9 @@ use basemat::results::Run;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure, Triplets};
 use basemat::{Simulation, Soil};
 
-use basemat_problems::dense::{Matrix, dot, form, multiply};
+use basemat_problems::dense::{DenseMatrix, dot, form, multiply};
 use basemat_problems::random::Random;
-use basemat_problems::scenes::{SI, scene, tower};
+use basemat_problems::scenes::{SI_UNITS, scene, tower};
 
 pub(super) fn dissipative(gamma: f64) -> DissipativeMidpoint {
     DissipativeMidpoint::new(gamma).unwrap()
@@ -41,7 +41,7 @@ fn add_scaled(a: &[f64], b: &[f64], factor: f64) -> Vec<f64> {
 }
 
 /// Solution by Gaussian elimination without pivoting, of a positive definite matrix.
-fn solve(mut matrix: Matrix, mut right: Vec<f64>) -> Vec<f64> {
+fn solve(mut matrix: DenseMatrix, mut right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
     for k in 0..n {
         for i in k + 1..n {
@@ -60,9 +60,9 @@ fn solve(mut matrix: Matrix, mut right: Vec<f64>) -> Vec<f64> {
 }
 
 /// Identity plus G Gᵀ of random entries times a random size.
-fn random_matrix(random: &mut Random, n: usize) -> Matrix {
+fn random_matrix(random: &mut Random, n: usize) -> DenseMatrix {
     let size = random.log_within(1e-2, 1e2);
-    let factor: Matrix =
+    let factor: DenseMatrix =
         (0..n).map(|_| (0..n).map(|_| random.within(-1.0, 1.0)).collect()).collect();
     let mut matrix = vec![vec![0.0; n]; n];
     for i in 0..n {
@@ -80,9 +80,9 @@ fn random_vector(random: &mut Random, n: usize) -> Vec<f64> {
 
 /// Matrices of a linear structure.
 struct Matrices {
-    mass: Matrix,
-    damping: Matrix,
-    stiffness: Matrix,
+    mass: DenseMatrix,
+    damping: DenseMatrix,
+    stiffness: DenseMatrix,
 }
 
 /// Displacement, velocity and acceleration.
@@ -182,7 +182,10 @@ fn energy_of_a_forced_step_is_as_the_theory_says() {
 
 /// All states of a tower under two pulses.
 fn shaken(scheme: impl TimeScheme + 'static, steps: usize) -> Vec<State> {
-    let builder = scene(SI, 0.5).structure(tower(SI, None)).interface(Bonded).scheme(scheme);
+    let builder = scene(SI_UNITS, 0.5)
+        .structure(tower(SI_UNITS, None))
+        .interface(Bonded)
+        .scheme(scheme);
     let mut simulation = builder.build().unwrap();
     basemat_problems::scenes::states(&mut simulation, steps)
 }
@@ -200,8 +203,8 @@ fn mass_form(mass: &Triplets, a: &[f64]) -> f64 {
 /// The algorithmic energy is what the accelerations of the states store and dissipate.
 #[test]
 fn algorithmic_energy_follows_from_the_accelerations() {
-    let mut mass = Triplets::new(tower(SI, None).dofs());
-    tower(SI, None).mass(&mut mass).unwrap();
+    let mut mass = Triplets::new(tower(SI_UNITS, None).dofs());
+    tower(SI_UNITS, None).mass(&mut mass).unwrap();
     for gamma in [0.6, 0.8, 1.0] {
         let states = shaken(dissipative(gamma), 300);
         let kappa = 2.5e-3_f64.powi(2) * (beta(gamma) - 0.5 * gamma);

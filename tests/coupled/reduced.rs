@@ -19,7 +19,7 @@ use basemat::structure::{
 use basemat::{Error, Simulation, Soil};
 
 use basemat_problems::needed_from;
-use basemat_problems::scenes::{Rider, SI, apart, block, friction, scene, shake, states};
+use basemat_problems::scenes::{Rider, SI_UNITS, apart, block, friction, scene, shake, states};
 
 const RUN_STEPS: usize = 300;
 
@@ -77,7 +77,7 @@ fn with_roof_probes(builder: SimulationBuilder) -> SimulationBuilder {
 }
 
 fn bonded_tower() -> SimulationBuilder {
-    with_roof_probes(scene(SI, 0.6).structure(tower()).interface(Bonded))
+    with_roof_probes(scene(SI_UNITS, 0.6).structure(tower()).interface(Bonded))
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn bonded_towers_keep_the_tolerance() {
 
 /// A strongly shaken tower on friction.
 fn tower_on_friction(coefficient: f64) -> SimulationBuilder {
-    with_roof_probes(scene(SI, 1.0).structure(tower()).interface(friction(coefficient)))
+    with_roof_probes(scene(SI_UNITS, 1.0).structure(tower()).interface(friction(coefficient)))
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn all_schemes_are_reduced() {
     ];
     for set_scheme in set_schemes {
         let [reference, computed] = [Coordinates::Physical, reduced(1e-5)].map(|coordinates| {
-            let builder = scene(SI, 0.8).structure(tower()).interface(friction(0.4));
+            let builder = scene(SI_UNITS, 0.8).structure(tower()).interface(friction(0.4));
             let builder = with_roof_probes(builder).without_energy_balance();
             run_states(set_scheme(builder), coordinates)
         });
@@ -146,7 +146,7 @@ fn loaded_tower() -> SimulationBuilder {
     let dofs = tower().dofs();
     let harmonic = Load::new(DofCombination::from(dofs - 301), |t: f64| 2e4 * (20.0 * t).sin());
     let drift = DofCombination::from(dofs - 2) - DofCombination::from(dofs - 802);
-    scene(SI, 0.1)
+    scene(SI_UNITS, 0.1)
         .structure(tower())
         .interface(Bonded)
         .load(harmonic)
@@ -172,7 +172,7 @@ fn tower_under_load(dof: usize, load: fn(f64) -> f64) -> SimulationBuilder {
     let light_damping = RayleighDamping::from_ratios([2.0, 20.0], [0.02; 2]).unwrap();
     let tower = undamped_tower(-2.0..2.0, 20, 25).with_rayleigh(light_damping);
     let section = tower.section(3.84, 0.0).unwrap();
-    scene(SI, 0.0)
+    scene(SI_UNITS, 0.0)
         .structure(tower)
         .interface(Bonded)
         .load(Load::new(DofCombination::from(dof), load))
@@ -217,7 +217,7 @@ fn two_towers_on_soil() -> SimulationBuilder {
     let soil = Soil::new(6e7, 0.3, 1900.0).unwrap();
     let ground = ElasticGround::under(soil, &two_towers(), 6).unwrap();
     let builder = Simulation::builder(2.5e-3).ground(ground).structure(two_towers());
-    builder.motion(shake(SI, 0.3)).interface(Bonded)
+    builder.motion(shake(SI_UNITS, 0.3)).interface(Bonded)
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn groups_are_reduced_together() {
 }
 
 fn sliding_tower(tolerance: f64) -> Simulation {
-    let builder = scene(SI, 0.8).structure(tower()).interface(friction(0.3));
+    let builder = scene(SI_UNITS, 0.8).structure(tower()).interface(friction(0.3));
     builder.coordinates(reduced(tolerance)).build().unwrap()
 }
 
@@ -252,20 +252,20 @@ fn small_building() -> ShearBuilding {
 /// A small structure keeps all its modes, undamped or not.
 #[test]
 fn small_structures_lose_nothing() {
-    let building = || scene(SI, 0.6).structure(small_building()).interface(friction(0.5));
+    let building = || scene(SI_UNITS, 0.6).structure(small_building()).interface(friction(0.5));
     assert_below(&errors(building, 1e-6), 1e-8);
     let with_p_delta = || {
         let building = small_building().with_p_delta(9.81).unwrap();
-        scene(SI, 0.6).structure(building).interface(friction(0.5))
+        scene(SI_UNITS, 0.6).structure(building).interface(friction(0.5))
     };
     assert_below(&errors(with_p_delta, 1e-6), 1e-8);
-    let rigid_block = || scene(SI, 0.6).structure(block(SI)).interface(friction(0.3));
+    let rigid_block = || scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.3));
     assert_below(&errors(rigid_block, 1e-6), 1e-8);
 }
 
 fn bonded_tower_with_p_delta() -> SimulationBuilder {
     let tower = tower().with_p_delta(9.81).unwrap();
-    with_roof_probes(scene(SI, 0.6).structure(tower).interface(Bonded))
+    with_roof_probes(scene(SI_UNITS, 0.6).structure(tower).interface(Bonded))
 }
 
 /// Rayleigh damping without P–Δ couples the modes of a structure with P–Δ.
@@ -302,11 +302,11 @@ fn error_of_reduction(builder: SimulationBuilder, tolerance: f64) -> Error {
 
 #[test]
 fn structures_that_cannot_be_reduced_are_named() {
-    let rider = scene(SI, 0.1).structure(Rider { block: block(SI) });
+    let rider = scene(SI_UNITS, 0.1).structure(Rider { block: block(SI_UNITS) });
     let needed = "they need a linear structure";
     let nonlinear = Error::Scene { quantity: "reduced coordinates", needed };
     assert_eq!(error_of_reduction(rider, 1e-6), nonlinear);
-    let with_dashpot = scene(SI, 0.1).structure(DampedTowerWithDashpot(tower()));
+    let with_dashpot = scene(SI_UNITS, 0.1).structure(DampedTowerWithDashpot(tower()));
     let error = error_of_reduction(with_dashpot, 1e-6);
     let Error::Item { item, source } = &error else { panic!("{error}") };
     let Error::Input { quantity, value: coupling, .. } = **source else {
@@ -318,10 +318,10 @@ fn structures_that_cannot_be_reduced_are_named() {
 
 #[test]
 fn tolerances_that_cannot_be_reached_are_refused() {
-    let undamped = scene(SI, 0.1).structure(undamped_tower(-2.0..2.0, 20, 25));
+    let undamped = scene(SI_UNITS, 0.1).structure(undamped_tower(-2.0..2.0, 20, 25));
     let error = error_of_reduction(undamped.probe(Probe::acceleration("roof", roof())), 1e-3);
     assert!(matches!(error, Error::Accuracy { reached, .. } if reached > 1e-3), "{error}");
-    let error = error_of_reduction(scene(SI, 0.1).structure(tower()), 1e-15);
+    let error = error_of_reduction(scene(SI_UNITS, 0.1).structure(tower()), 1e-15);
     let Error::Accuracy { tolerance, reached, remedy, .. } = &error else {
         panic!("{error}")
     };
@@ -329,7 +329,7 @@ fn tolerances_that_cannot_be_reached_are_refused() {
     assert!((tolerance / 1e-15 - 1.0).abs() < 1e-9 && reached > tolerance, "{error}");
     assert!(vectors > 20, "{error}");
     for tolerance in [0.0, -1.0, 1.0, f64::NAN, f64::INFINITY] {
-        let builder = scene(SI, 0.1).structure(tower()).interface(Bonded);
+        let builder = scene(SI_UNITS, 0.1).structure(tower()).interface(Bonded);
         let error = builder.coordinates(reduced(tolerance)).build().map(|_| ()).unwrap_err();
         assert!(matches!(error, Error::Input { .. }), "{error}");
     }

@@ -9,12 +9,16 @@ use basemat::results::Run;
 use basemat::results::{Comparison, Recorder};
 use basemat::{Error, Simulation};
 
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 const RUN_STEPS: usize = 300;
 
 fn rocking_block() -> Simulation {
-    scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap()
+    scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(0.35))
+        .build()
+        .unwrap()
 }
 
 /// Full summary of a run to the last bit, without its wall time.

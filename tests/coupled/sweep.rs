@@ -11,14 +11,14 @@ use basemat::sweep::CaseError;
 use basemat::sweep::Sweep;
 use basemat::{Error, Soil, unobserved};
 
-use basemat_problems::scenes::{SI, block, scene, soil, states};
+use basemat_problems::scenes::{SI_UNITS, block, scene, soil, states};
 
 /// Coefficients of friction by case, of which the negative one is refused.
 const FRICTION_COEFFICIENTS: [f64; 5] = [0.2, 0.6, -1.0, 0.4, f64::INFINITY];
 
 fn run_case(index: usize) -> Result<Vec<State>, Error> {
     let law = Coulomb::new(FRICTION_COEFFICIENTS[index])?;
-    let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build()?;
+    let mut simulation = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).build()?;
     Ok(states(&mut simulation, 150))
 }
 
@@ -85,10 +85,10 @@ fn an_empty_sweep_ends() {
 /// Runs a block for so many steps with shared kernels.
 fn run_with_kernels(grading: Grading, kernels: &SharedKernels, steps: usize) -> Vec<State> {
     let strip = Strip::new(-2.0..2.0, 9, grading).unwrap();
-    let ground = ElasticGround::new(soil(SI), strip).unwrap();
+    let ground = ElasticGround::new(soil(SI_UNITS), strip).unwrap();
     let ground = ground.with_shared_kernels(kernels);
     let law = Coulomb::new(0.4).unwrap();
-    let scene = scene(SI, 0.6).structure(block(SI)).interface(law).ground(ground);
+    let scene = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).ground(ground);
     states(&mut scene.expected_steps(steps).build().unwrap(), steps)
 }
 

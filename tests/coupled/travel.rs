@@ -17,7 +17,7 @@ use basemat::structure::{
 };
 
 use basemat_problems::own_force;
-use basemat_problems::scenes::{GRAVITY, SI, friction, shake, soil};
+use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, friction, shake, soil};
 
 fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
     vec![
@@ -62,7 +62,7 @@ fn structures() -> Vec<(&'static str, Box<dyn Structure>)> {
 
 fn ground() -> ElasticGround {
     let strip = Strip::new(-2.0..2.0, 6, Grading::Cosine).unwrap();
-    ElasticGround::new(soil(SI), strip).unwrap()
+    ElasticGround::new(soil(SI_UNITS), strip).unwrap()
 }
 
 /// Slow harmonic travel of the ground from rest.
@@ -100,7 +100,7 @@ fn energy_balance_closes_while_a_sticking_structure_travels() {
                 .interface(friction(f64::INFINITY))
                 .scheme(scheme)
                 .motion(FreeFieldFn::new(move |_, time| travel.displacement(time)))
-                .gravity(GRAVITY)
+                .gravity(SCENE_GRAVITY)
                 .build()
                 .unwrap();
             let mut deformation = 0.0_f64;
@@ -128,7 +128,7 @@ fn energy_balance_closes_while_a_sliding_structure_is_left_behind() {
             .ground(ground())
             .interface(friction(0.05))
             .motion(FreeFieldFn::new(move |_, time| travel.displacement(time)))
-            .gravity(GRAVITY)
+            .gravity(SCENE_GRAVITY)
             .build()
             .unwrap();
         let run = simulation.run(2000, |_| {}).unwrap();
@@ -151,13 +151,14 @@ fn assert_members_travel_apart(name: &str, left: Box<dyn Structure>, right: Box<
         travel.displacement(time).map(|value| direction * value)
     });
     let ground =
-        ElasticGround::new(soil(SI), Strip::under(&group, 6, Grading::Uniform).unwrap()).unwrap();
+        ElasticGround::new(soil(SI_UNITS), Strip::under(&group, 6, Grading::Uniform).unwrap())
+            .unwrap();
     let mut simulation = Simulation::builder(5.0)
         .structure(group)
         .ground(ground)
         .interface(friction(0.5))
         .motion(motion)
-        .gravity(GRAVITY)
+        .gravity(SCENE_GRAVITY)
         .build()
         .unwrap();
     let mut residual = 0.0_f64;
@@ -242,7 +243,7 @@ impl NonlinearForce for PoundingBlocks {
 fn a_force_between_parts_depends_on_their_distance() {
     let structure = PoundingBlocks::new();
     let ground =
-        ElasticGround::new(soil(SI), Strip::under(&structure, 6, Grading::Uniform).unwrap())
+        ElasticGround::new(soil(SI_UNITS), Strip::under(&structure, 6, Grading::Uniform).unwrap())
             .unwrap();
     let approach = FreeFieldFn::new(|x: f64, t: f64| {
         let phase = 1.0 - (TAU * t.min(1.0)).cos();
@@ -253,7 +254,7 @@ fn a_force_between_parts_depends_on_their_distance() {
         .ground(ground)
         .interface(Bonded)
         .motion(approach)
-        .gravity(GRAVITY)
+        .gravity(SCENE_GRAVITY)
         .build()
         .unwrap();
     let mut smallest_distance = f64::INFINITY;
@@ -283,7 +284,7 @@ fn building_response(motion: FreeFieldFn) -> Vec<[f64; 3]> {
         .ground(ground())
         .interface(Bonded)
         .motion(motion)
-        .gravity(GRAVITY)
+        .gravity(SCENE_GRAVITY)
         .build()
         .unwrap();
     let mut response = Vec::new();
@@ -296,7 +297,7 @@ fn building_response(motion: FreeFieldFn) -> Vec<[f64; 3]> {
 /// Sum of two pulses and slow travel with these factors.
 fn combined_motion(pulse_factor: f64, travel_factor: f64) -> FreeFieldFn {
     let travel = GroundTravel { distance: 1e3, period: 400.0 };
-    let pulses = shake(SI, 0.6);
+    let pulses = shake(SI_UNITS, 0.6);
     FreeFieldFn::new(move |x, time| {
         let slow = travel.displacement(time);
         let fast = pulses.displacement(x, time);

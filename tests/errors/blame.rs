@@ -13,7 +13,7 @@ use basemat::{Result, Simulation};
 
 use super::{NOT_FINITE, error_with, soil};
 use basemat_problems::random::Random;
-use basemat_problems::wrapped::Wayward;
+use basemat_problems::wrapped::LawWithNextMode;
 
 const BLOCK_WIDTH: f64 = 4.0;
 /// Weight of the block, N/m.
@@ -252,7 +252,7 @@ fn a_base_without_mass_is_named() {
 
 #[test]
 fn a_mode_that_the_law_does_not_have_is_named() {
-    let law = InPlane(Wayward {
+    let law = InPlane(LawWithNextMode {
         law: Coulomb::new(0.5).unwrap(),
         next: |mode: Mode, _: &PreviousContact, _: Mode| match mode {
             Mode::Stick => Mode::Yield,

@@ -10,7 +10,7 @@ use basemat::interface::{InterfaceLaw, LawError, Limits, Mode, PreviousContact};
 use basemat::structure::{RigidBlock, RigidBody};
 use basemat::{Error, Result};
 
-use basemat_problems::scenes::{SI, scene};
+use basemat_problems::scenes::{SI_UNITS, scene};
 
 /// Words of a quantity, the values that it cannot have, and the limits with such a value.
 type WrongLimit = (&'static str, &'static [f64], fn(f64) -> Limits);
@@ -82,7 +82,7 @@ fn in_the_plane(law: LawWithWrongLimits) -> SimulationBuilder {
     let ground = SpringGround::new(-2.0..2.0, 4, 5e7, 4e7).unwrap();
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let ground = ground.with_dashpots(4e5, 3e5).unwrap();
-    with_laws(scene(SI, 2.0).structure(block).ground(ground), law)
+    with_laws(scene(SI_UNITS, 2.0).structure(block).ground(ground), law)
 }
 
 fn in_space(law: LawWithWrongLimits) -> SimulationBuilder {
@@ -90,7 +90,7 @@ fn in_space(law: LawWithWrongLimits) -> SimulationBuilder {
     let ground = SpringGround::in_plan(plan, [5e7, 4e7, 4e7]).unwrap();
     let body = RigidBody::cuboid([4.0, 4.0, 3.0], 2000.0).unwrap();
     let ground = ground.with_dashpots(4e5, 3e5).unwrap();
-    with_laws(scene(SI, 2.0).structure(body).ground(ground), law)
+    with_laws(scene(SI_UNITS, 2.0).structure(body).ground(ground), law)
 }
 
 fn assert_named(error: &LawError, name: &str, value: f64) {

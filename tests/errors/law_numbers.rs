@@ -15,7 +15,7 @@ use basemat::interface::{
 use basemat::{Error, Result, Simulation};
 
 use super::NOT_FINITE;
-use basemat_problems::scenes::{SI, block, scene};
+use basemat_problems::scenes::{SI_UNITS, block, scene};
 
 /// The number of a law that is wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,7 +112,11 @@ fn simulation(law: DefectiveLaw) -> Result<Simulation> {
         let number = law.number.filter(|_| e == DEFECTIVE_ELEMENT);
         laws.push(Box::new(InPlane(DefectiveLaw { number, ..law })));
     }
-    scene(SI, 0.6).structure(block(SI)).ground(ground).interfaces(laws).build()
+    scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .ground(ground)
+        .interfaces(laws)
+        .build()
 }
 
 /// All numbers of conditions, and the compliance.
@@ -203,7 +207,7 @@ fn numbers_that_are_wrong_from_the_start_are_named_by_build() {
     // While the weight is applied.
     let law = InPlane(defective_from_start(WrongNumber::Condition(0)));
     let ground = SpringGround::new(-2.0..2.0, 1, 5e7, 4e7).unwrap();
-    let builder = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(law);
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).ground(ground).interface(law);
     let Err(Error::Law(error)) = builder.gravity_stage(GravityStage::Frictional).build() else {
         panic!("accepted");
     };
@@ -235,8 +239,9 @@ impl PlaneLaw for LawWithStateVariables {
 #[test]
 fn more_state_variables_than_memory_holds_are_refused() {
     for count in [268_435_457, usize::MAX / 3, usize::MAX] {
-        let builder =
-            scene(SI, 0.6).structure(block(SI)).interface(InPlane(LawWithStateVariables(count)));
+        let builder = scene(SI_UNITS, 0.6)
+            .structure(block(SI_UNITS))
+            .interface(InPlane(LawWithStateVariables(count)));
         let built = builder.build().map(drop);
         let law = Box::new(InPlane(LawWithStateVariables(count)));
         let problem = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![law]).map(drop);

@@ -11,7 +11,7 @@ use basemat::{Error, Simulation};
 
 use super::builder::complete_scene;
 use super::defective_structure::DefectiveStructure;
-use basemat_problems::wrapped::Wayward;
+use basemat_problems::wrapped::LawWithNextMode;
 
 /// The first step of a simulation that fails.
 struct FailedStep {
@@ -88,7 +88,7 @@ fn a_force_that_fails_leaves_the_last_accepted_step() {
 
 /// A law that accepts no mode of an element.
 fn law_without_valid_mode() -> impl InterfaceLaw {
-    InPlane(Wayward {
+    InPlane(LawWithNextMode {
         law: Coulomb::uplift_only(),
         next: |mode: Mode, _: &PreviousContact, _: Mode| match mode {
             Mode::Stick => Mode::Open,

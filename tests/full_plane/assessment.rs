@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::unit_soil;
-use basemat_problems::{close, dense::largest};
+use basemat_problems::{assert_close, dense::largest};
 
 /// Four unit elements with three free elements on either side.
 fn ground() -> FullPlaneGround {
@@ -91,7 +91,7 @@ fn growth_is_refused_and_is_that_of_the_march() {
     second.prepare(0.25, None, &mut unobserved).unwrap();
     let early = largest_displacement(&mut allowed, 400);
     let late = largest_displacement(&mut second, 800);
-    close("growth", ((late / early).ln() / 400.0).exp_m1(), assessed[0], 0.0, 0.02);
+    assert_close("growth", ((late / early).ln() / 400.0).exp_m1(), assessed[0], 0.0, 0.02);
 }
 
 /// GOAL: a bounded time step marches, and convolution quadrature is bounded at the time step for

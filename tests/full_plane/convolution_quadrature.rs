@@ -8,7 +8,7 @@ use basemat::{Error, Result};
 
 use super::{flat, point_between, unit_soil};
 use basemat_problems::dense::largest;
-use basemat_problems::{close, table};
+use basemat_problems::{assert_close, table};
 
 /// A trench: flat, down, flat, up, flat, of unequal elements.
 fn trench() -> Vec<Segment> {
@@ -202,7 +202,7 @@ fn late_coefficients_agree_with_the_time_domain() {
             // Tractions, where the factor ln s starts with s².
             let coarse = late_errors(&kernel, step, 400)[1];
             let fine = late_errors(&kernel, step, 800)[1];
-            close("order", (coarse / fine).log2(), order, 0.1, 0.0);
+            assert_close("order", (coarse / fine).log2(), order, 0.1, 0.0);
             let latest = late_errors(&kernel, step, 54_000);
             assert!(latest[0] < 1e-8, "{:e}", latest[0]);
             assert!(latest[1] < if order > 1.5 { 1e-8 } else { 1e-3 });
@@ -278,7 +278,7 @@ fn convolution_converges_at_the_order_of_the_method() {
             let computed = quadrature_of_quartic_load(&segments, method, steps, end);
             (computed / expected - 1.0).abs()
         });
-        close("order", (errors[0] / errors[1]).log2(), order, 0.2, 0.0);
+        assert_close("order", (errors[0] / errors[1]).log2(), order, 0.2, 0.0);
         assert!(errors[1] < if order > 1.5 { 5e-3 } else { 0.1 }, "{:e}", errors[1]);
     }
 }

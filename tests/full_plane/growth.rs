@@ -11,7 +11,7 @@ use basemat::{Result, Soil};
 
 use super::{flat, point_between, soil};
 use basemat_problems::boundary_passivity::boundary_passivity;
-use basemat_problems::{close, dense::largest, random};
+use basemat_problems::{assert_close, dense::largest, random};
 
 /// Convolution quadrature of this method, or the time kernel.
 type KernelMethod = Option<CqMethod>;
@@ -105,7 +105,7 @@ fn check_growth(name: &str, computed: &Stability, expected: Option<f64>) {
     println!("{name}: {computed:?}");
     match expected {
         None => assert!(computed.is_bounded(), "{name}: {computed:?}"),
-        Some(growth) => close(name, computed.growth_per_step, growth, 0.0, 0.015),
+        Some(growth) => assert_close(name, computed.growth_per_step, growth, 0.0, 0.015),
     }
 }
 
@@ -124,7 +124,7 @@ fn check_row(
         let kernel = kernel(method, &flat(20), soil(1.0 / 3.0), case.step()).unwrap();
         let smallest_eigenvalue = boundary_passivity(kernel.as_ref())[0];
         let name = format!("{method:?} passivity {beta}");
-        close(&name, smallest_eigenvalue, passivity[k], 0.0, 0.03);
+        assert_close(&name, smallest_eigenvalue, passivity[k], 0.0, 0.03);
     }
 }
 
@@ -200,7 +200,7 @@ fn long_surfaces_grow_where_short_ones_do_not() {
     let short = GrowthCase { method: TIME_KERNEL, poisson: 0.25, elements: 10, free: 5, beta: 1.0 };
     let long = GrowthCase { free: 20, ..short };
     assert!(short.march(false, 800) < 1e-4);
-    close("50 elements", long.march(false, 800), 0.02, 0.005, 0.0);
+    assert_close("50 elements", long.march(false, 800), 0.02, 0.005, 0.0);
 }
 
 /// A trench with square corners, 1 wide and deep, in elements of a half.
@@ -260,7 +260,7 @@ fn marches_grow_as_predicted() {
         if predicted.is_bounded() {
             assert!(marched_growth < 1e-4);
         } else {
-            close("growth", marched_growth, predicted.growth_per_step, 0.0, 0.03);
+            assert_close("growth", marched_growth, predicted.growth_per_step, 0.0, 0.03);
         }
     }
 }

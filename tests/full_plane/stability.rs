@@ -12,7 +12,7 @@ use basemat::{Error, Result};
 use super::{flat, mean, unit_soil};
 use basemat_problems::boundary_passivity::boundary_passivity;
 use basemat_problems::dense::{dot, inverse, largest};
-use basemat_problems::{close, random};
+use basemat_problems::{assert_close, random};
 
 /// Points of the reference's Gauss–Legendre rule.
 const GAUSS_POINTS: u32 = 24;
@@ -191,7 +191,7 @@ fn time_kernel_agrees_with_quadrature() {
         let computed = entries_of_four(&kernel, lag);
         let expected = entries_of_four(&reference, lag);
         for k in 0..2 * 64 {
-            close(&format!("lag {lag} entry {k}"), computed[k], expected[k], 1e-9, 0.0);
+            assert_close(&format!("lag {lag} entry {k}"), computed[k], expected[k], 1e-9, 0.0);
         }
     }
 }
@@ -203,13 +203,13 @@ fn growth_is_that_of_the_march() {
         let kernel = time_kernel(beta);
         let assessed = Stability::assess(&kernel, &conditions, 1e-3).unwrap();
         let marched = marched_growth(&kernel, conditions == BONDED_SURFACE, steps);
-        close(&format!("growth at {beta}"), assessed.growth_per_step, marched, 0.0, 0.03);
+        assert_close(&format!("growth at {beta}"), assessed.growth_per_step, marched, 0.0, 0.03);
     }
     let kernel = bdf2_kernel(0.25);
     let assessed = Stability::assess(&kernel, &FREE_SURFACE, 1e-3).unwrap();
     let marched = marched_growth(&kernel, false, 1200);
     // Two pairs of modes grow nearly alike: after 1200 steps the slower pair still contributes.
-    close("growth of BDF2 at 0.25", assessed.growth_per_step, marched, 0.0, 0.1);
+    assert_close("growth of BDF2 at 0.25", assessed.growth_per_step, marched, 0.0, 0.1);
     assert!(assessed.growth_per_step > 0.98 * marched);
     // A kernel assessed as bounded stays bounded.
     let kernel = bdf2_kernel(0.5);
@@ -266,11 +266,11 @@ fn figures_of_a_kernel_with_known_zeros() {
     let fixed = [BoundaryCondition::PrescribedDisplacement];
     let kernel = OneElementKernel::new([1.1, 1.05], 1.0);
     let assessed = Stability::assess(&kernel, &free, 1e-3).unwrap();
-    close("growth", assessed.growth_per_step, 0.1, 1e-9, 0.0);
+    assert_close("growth", assessed.growth_per_step, 0.1, 1e-9, 0.0);
     assert_eq!(assessed.growing_modes, 2);
     let kernel = OneElementKernel::new([0.5, -1.002], 1.0);
     let assessed = Stability::assess(&kernel, &free, 1e-3).unwrap();
-    close("growth", assessed.growth_per_step, 0.002, 1e-9, 0.0);
+    assert_close("growth", assessed.growth_per_step, 0.002, 1e-9, 0.0);
     assert_eq!(assessed.growing_modes, 1);
     // Growth below the smallest growth of interest.
     let kernel = OneElementKernel::new([0.5, 1.0005], 1.0);
@@ -282,8 +282,8 @@ fn figures_of_a_kernel_with_known_zeros() {
     let eigenvalue = boundary_passivity(&spring)[0];
     assert!(eigenvalue.abs() < 1e-3, "{eigenvalue}");
     let [eigenvalue, angle] = boundary_passivity(&OneElementKernel::new([0.0, 0.0], -1.0));
-    close("passivity", eigenvalue, -1.0, 1e-3, 0.0);
-    close("angle", angle, std::f64::consts::PI, 1e-2, 0.0);
+    assert_close("passivity", eigenvalue, -1.0, 1e-3, 0.0);
+    assert_close("angle", angle, std::f64::consts::PI, 1e-2, 0.0);
 }
 
 /// A kernel whose coefficients alternate in sign at all lags.

@@ -7,7 +7,7 @@ use basemat::bem::embedded::{Trench, TrenchGround};
 use basemat::history::HistoryMethod;
 use basemat::{Error, Result, Soil, unobserved};
 
-use basemat_problems::passivity::least_work;
+use basemat_problems::passivity::min_work_ratio;
 use basemat_problems::profiles::{gmb, p3};
 use basemat_problems::welded_block::{Cause, errors, march};
 
@@ -34,7 +34,7 @@ fn a_ground_with_a_trench_steps_as_by_fourier_synthesis_and_gives_no_work() {
     let wrong_errors = errors(&wrong_sign, "SV_h1f_dt02");
     assert!(wrong_errors.iter().all(|error| *error > 0.1), "{wrong_errors:?}");
     ground.prepare(TIME_STEP, Some(100), &mut unobserved).unwrap();
-    let smallest_work = least_work(&mut ground, 100, 45);
+    let smallest_work = min_work_ratio(&mut ground, 100, 45);
     println!("{smallest_work}");
     assert!(smallest_work > 0.5, "{smallest_work}");
     // Save, step further, and restore into the ground prepared again.

@@ -13,7 +13,7 @@ use basemat::{Error, MemoryError, Result, Soil, unobserved};
 
 use basemat_problems::dense::dot;
 use basemat_problems::heavy;
-use basemat_problems::passivity::Scene;
+use basemat_problems::passivity::PassivityScene;
 use basemat_problems::random::Random;
 
 /// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
@@ -197,7 +197,7 @@ fn random_tractions_never_extract_energy() {
     for beta in [0.25, 0.5, 2.0, 50.0] {
         for poisson in [-0.5, 0.0, 1.0 / 3.0, 0.4999] {
             for (graded, tolerance) in [(false, 1e-3), (true, 1e-10)] {
-                let scene = Scene {
+                let scene = PassivityScene {
                     poisson,
                     beta,
                     graded,

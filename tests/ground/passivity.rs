@@ -6,19 +6,19 @@
 use basemat::history::HistoryMethod;
 
 use basemat_problems::heavy;
-use basemat_problems::passivity::Scene;
+use basemat_problems::passivity::PassivityScene;
 
 /// β = c₁Δt/l of the scenes.
 const TIME_STEP_RATIOS: [f64; 8] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0, 50.0];
 const POISSON_RATIOS: [f64; 6] = [-0.5, 0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999];
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<PassivityScene> {
     let mut scenes = vec![];
     for (row, beta) in TIME_STEP_RATIOS.into_iter().enumerate() {
         for (column, poisson) in POISSON_RATIOS.into_iter().enumerate() {
             for graded in [false, true] {
                 if heavy() || graded == ((row + column) % 2 == 1) {
-                    scenes.push(Scene {
+                    scenes.push(PassivityScene {
                         poisson,
                         beta,
                         graded,

@@ -134,7 +134,8 @@ impl Blueprint {
             model = model.with_rayleigh(damping);
         }
         if self.p_delta {
-            model = model.with_p_delta(basemat_problems::scenes::GRAVITY * frame.acceleration())?;
+            model = model
+                .with_p_delta(basemat_problems::scenes::SCENE_GRAVITY * frame.acceleration())?;
         }
         Ok(model)
     }

@@ -1,13 +1,13 @@
 //! GOAL: the paper's ground translated, mirrored and in other units is the same ground; its kernel, given by a user, is
 //! its kernel.
 //! SCENE: two strips under random tractions; runs would grow (`tests/full_plane`).
-//! REFERENCE: step compliance and displacements by past tractions in SI units.
+//! REFERENCE: step compliance and displacements by past tractions in SI_UNITS units.
 
 use basemat::bem::full_plane::{Boundary, BoundaryKernel, FullPlaneGround, TimeKernel};
 use basemat::bem::{Ground, Strip};
 use basemat::{Result, Soil, unobserved};
 use basemat_problems::random::Random;
-use basemat_problems::scenes::{Frame, SI};
+use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
 use super::compare::relative_difference;
 use super::numbers::SOIL_DENSITY;
@@ -23,7 +23,7 @@ const VECTOR_LENGTH: usize = 2 * CONTACT_ELEMENTS;
 /// Rounding, which a scheme that grows amplifies.
 const DIFFERENCE_LIMIT: f64 = 1e-9;
 
-/// Two strips of a surface, in SI units.
+/// Two strips of a surface, in SI_UNITS units.
 struct TwoStrips {
     modulus: f64,
     poisson: f64,
@@ -58,7 +58,7 @@ impl TwoStrips {
     }
 
     /// The ground in these units, translated by `shift` metres.
-    fn ground(&self, frame: &Frame, shift: f64) -> Result<FullPlaneGround> {
+    fn ground(&self, frame: &UnitFrame, shift: f64) -> Result<FullPlaneGround> {
         let density = SOIL_DENSITY * frame.density();
         let soil = Soil::new(self.modulus * frame.pressure(), self.poisson, density)?;
         let mut strips = Vec::new();
@@ -72,8 +72,8 @@ impl TwoStrips {
         Ok(FullPlaneGround::new(soil, Boundary::flat(&strips, self.free)?).allow_growth())
     }
 
-    /// Step compliance and displacements by past tractions of all steps, in SI units and the order of the scene.
-    fn response(&self, mut ground: FullPlaneGround, frame: &Frame) -> Result<Vec<f64>> {
+    /// Step compliance and displacements by past tractions of all steps, in SI_UNITS units and the order of the scene.
+    fn response(&self, mut ground: FullPlaneGround, frame: &UnitFrame) -> Result<Vec<f64>> {
         ground.prepare(self.time_step * frame.time, Some(CONVOLUTION_STEPS), &mut unobserved)?;
         // Index and sign in the view of each component of a contact vector.
         let components: Vec<(usize, f64)> = (0..VECTOR_LENGTH)
@@ -120,22 +120,24 @@ fn the_papers_ground_is_the_same_from_everywhere() {
     for number in 0..scenes(6, 100) {
         let scene = TwoStrips::draw(&mut random);
         let units = random_units(&mut random);
-        let mirrored = Frame { mirrored: true, ..SI };
+        let mirrored = UnitFrame { mirrored: true, ..SI_UNITS };
         let shift = random.within(-50.0, 50.0);
         tally.scene(&["full plane", "strip"]);
-        let expected = scene.response(scene.ground(&SI, 0.0).unwrap(), &SI).unwrap();
-        let views = [("translated", SI, shift), ("mirrored", mirrored, 0.0), ("units", units, 0.0)];
+        let expected = scene.response(scene.ground(&SI_UNITS, 0.0).unwrap(), &SI_UNITS).unwrap();
+        let views =
+            [("translated", SI_UNITS, shift), ("mirrored", mirrored, 0.0), ("units", units, 0.0)];
         for (name, frame, shift) in views {
             let ground = scene.ground(&frame, shift).unwrap();
             let computed = scene.response(ground, &frame).unwrap();
             let difference = relative_difference(&expected, &computed);
             tally.within(&format!("{number}: {name}"), difference, DIFFERENCE_LIMIT);
         }
-        let ground = scene.ground(&SI, 0.0).unwrap().with_kernel(|segments, soil, time_step| {
-            let kernel = TimeKernel::new(soil, segments, time_step)?;
-            Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
-        });
-        let computed = scene.response(ground, &SI).unwrap();
+        let ground =
+            scene.ground(&SI_UNITS, 0.0).unwrap().with_kernel(|segments, soil, time_step| {
+                let kernel = TimeKernel::new(soil, segments, time_step)?;
+                Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
+            });
+        let computed = scene.response(ground, &SI_UNITS).unwrap();
         let difference = relative_difference(&expected, &computed);
         tally.within(&format!("{number}: kernel of a user"), difference, 1e-14);
     }

@@ -2,7 +2,7 @@
 
 use basemat::Soil;
 use basemat_problems::random::Random;
-use basemat_problems::scenes::GRAVITY;
+use basemat_problems::scenes::SCENE_GRAVITY;
 
 use super::view::View;
 
@@ -48,7 +48,7 @@ impl Numbers {
         let poisson = random.within(0.1, 0.45);
         let speed = (modulus / SOIL_DENSITY).sqrt();
         let eccentricity = [random.within(0.02, 0.08), random.within(0.02, 0.08)];
-        let strength = GRAVITY * random.log_within(0.1, 0.8);
+        let strength = SCENE_GRAVITY * random.log_within(0.1, 0.8);
         Self {
             sides,
             height: length * random.within(0.5, 1.5),
@@ -81,7 +81,7 @@ impl Numbers {
 
     /// Mean pressure of the weight, Pa.
     pub(crate) fn pressure(&self) -> f64 {
-        self.density * self.height * GRAVITY
+        self.density * self.height * SCENE_GRAVITY
     }
 
     pub(crate) fn duration(&self) -> f64 {

@@ -7,7 +7,7 @@ use basemat::fem::{BeamSection, Direction, Material};
 use basemat::io::{GmshPart, GmshSpaceMesh};
 use basemat::structure::{CraigBampton, FemModel, Structure};
 use basemat_problems::dense::{eigenpairs, largest, product, stiffness};
-use basemat_problems::directions::IN_SPACE;
+use basemat_problems::directions::NODE_DIRECTIONS;
 use basemat_problems::random::Random;
 
 use super::blueprint::{Blueprint, Piece};
@@ -116,7 +116,7 @@ fn models_in_space_turn_freely() {
             }
         };
         let middle = [random.within(-5.0, 5.0), random.within(-5.0, 5.0), 0.0];
-        for direction in IN_SPACE {
+        for direction in NODE_DIRECTIONS {
             if is_free(direction, plan.p_delta) {
                 let force = relative_force(&model, &model.rigid_motion(direction, middle));
                 tally.within(&format!("{number}: {direction:?} {name}"), force, FORCE_ROUNDING);
@@ -229,7 +229,7 @@ fn meshes_from_gmsh_turn_freely() {
         let base = file.cells(2, "base").unwrap();
         let model = FemModel::on_faces(file.mesh(&parts).unwrap(), &base).unwrap();
         let model = if p_delta { model.with_p_delta(9.81).unwrap() } else { model };
-        for direction in IN_SPACE {
+        for direction in NODE_DIRECTIONS {
             if is_free(direction, p_delta) {
                 let force =
                     relative_force(&model, &model.rigid_motion(direction, [1.0, -2.0, 0.5]));

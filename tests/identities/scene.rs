@@ -6,7 +6,7 @@ use basemat::coupled::{
 };
 use basemat::{Error, Result, Simulation};
 use basemat_problems::dense::largest;
-use basemat_problems::scenes::GRAVITY;
+use basemat_problems::scenes::SCENE_GRAVITY;
 
 use super::grounds;
 use super::numbers::{Numbers, RUN_STEPS};
@@ -82,7 +82,7 @@ pub(crate) fn builder_with(
     let frame = view.frame;
     let time_step = variant.time_step_factor() * numbers.time_step * frame.time;
     let mut builder = Simulation::builder(time_step)
-        .gravity(GRAVITY * frame.acceleration())
+        .gravity(SCENE_GRAVITY * frame.acceleration())
         .motion(grounds::motion(choice, numbers, view)?)
         .expected_steps(variant.steps());
     builder = if variant == SceneVariant::ByUser {

@@ -8,7 +8,7 @@ use basemat::bem::SpringGround;
 use basemat::coupled::{GravityStage, Load, SimulationBuilder};
 use basemat::{Result, Simulation};
 use basemat_problems::dense::largest;
-use basemat_problems::scenes::GRAVITY;
+use basemat_problems::scenes::SCENE_GRAVITY;
 
 use super::compare::largest_difference;
 use super::grounds::{self, MAT_CELLS, STRIP_ELEMENTS};
@@ -47,7 +47,7 @@ fn builder(
     let ProbedStructure { structure, top } = made;
     let in_plan = choice.space == Space::Plan;
     // Half of the force that slides or overturns the structure.
-    let weight = GRAVITY * numbers.mass(in_plan);
+    let weight = SCENE_GRAVITY * numbers.mass(in_plan);
     let overturning = 0.5 * numbers.sides[usize::from(in_plan)] / numbers.height;
     let force = 0.25 * weight * overturning.min(numbers.friction);
     let stage = if choice.seed.is_multiple_of(2) {
@@ -59,7 +59,7 @@ fn builder(
         .structure(structure)
         .ground(ground)
         .interface(grounds::law(choice.law, numbers, &PLAIN_VIEW)?)
-        .gravity(GRAVITY)
+        .gravity(SCENE_GRAVITY)
         .gravity_stage(stage);
     for (row, ratio) in top.into_iter().zip([1.0, 0.6]) {
         if !row.is_empty() {

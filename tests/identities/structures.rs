@@ -6,7 +6,7 @@ use basemat::structure::{
     RigidBlock, RigidBody, ShearBuilding, Storey, StoreyBuilding, Structure, StructureGroup,
     Triplets, WithSprings, WithWalls,
 };
-use basemat_problems::scenes::GRAVITY;
+use basemat_problems::scenes::SCENE_GRAVITY;
 
 use super::blueprint::Blueprint;
 use super::gmsh;
@@ -87,7 +87,7 @@ const ROOF_DOF: usize = 5;
 
 fn in_the_plane(body: BodyPart, numbers: &Numbers, view: &View) -> Result<ProbedStructure> {
     let frame = &view.frame;
-    let gravity = GRAVITY * frame.acceleration();
+    let gravity = SCENE_GRAVITY * frame.acceleration();
     Ok(match body {
         BodyPart::Block => {
             let block = block(numbers, view)?;
@@ -309,7 +309,7 @@ fn floors(has_p_delta: bool, numbers: &Numbers, view: &View) -> Result<ProbedStr
     let storey = PlanStorey { mass_center, stiffness_center, damping, ..storey };
     let mut building = StoreyBuilding::new(mat, &[storey; 2])?;
     if has_p_delta {
-        building = building.with_p_delta(GRAVITY * frame.acceleration())?;
+        building = building.with_p_delta(SCENE_GRAVITY * frame.acceleration())?;
     }
     let mut top = building.floor(1, [0.0; 2])?;
     // The floors do not move vertically beside the base.

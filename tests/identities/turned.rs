@@ -10,7 +10,7 @@ use basemat::motion::Triaxial;
 use basemat::structure::RigidBody;
 use basemat::{Result, Simulation};
 use basemat_problems::random::Random;
-use basemat_problems::scenes::GRAVITY;
+use basemat_problems::scenes::SCENE_GRAVITY;
 
 use super::compare::relative_difference;
 use super::grounds::record;
@@ -79,7 +79,7 @@ impl TurnedCuboid {
             up: Some(record(numbers, numbers.peaks[2], &PLAIN_VIEW)?),
         };
         let builder = Simulation::builder(numbers.time_step)
-            .gravity(GRAVITY)
+            .gravity(SCENE_GRAVITY)
             .ground(self.ground(&body)?)
             .structure(body)
             .motion(motion)

@@ -1,13 +1,13 @@
 //! A scene seen from another place: translated, turned, mirrored, renumbered, in other units.
 
 use basemat_problems::random::Random;
-use basemat_problems::scenes::{Frame, SI};
+use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
-/// How a scene in SI units is written down.
+/// How a scene in SI_UNITS units is written down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
     /// Units, and whether x is mirrored.
-    pub(crate) frame: Frame,
+    pub(crate) frame: UnitFrame,
     /// Quarter turns about the vertical, counter-clockwise; in plan only.
     pub(crate) turns: usize,
     /// Translation along x and y after the turn, m; in the plane along x.
@@ -16,13 +16,13 @@ pub(crate) struct View {
     pub(crate) renumbered: bool,
     /// Finite elements behind the trait that a user implements.
     pub(crate) by_user: bool,
-    /// The mesh written as a Gmsh file and read again; in SI units and as the scene stands only.
+    /// The mesh written as a Gmsh file and read again; in SI_UNITS units and as the scene stands only.
     pub(crate) read_from_gmsh: bool,
 }
 
-/// The scene in SI units, as it stands.
+/// The scene in SI_UNITS units, as it stands.
 pub(crate) const PLAIN_VIEW: View = View {
-    frame: SI,
+    frame: SI_UNITS,
     turns: 0,
     shift: [0.0; 2],
     renumbered: false,
@@ -30,12 +30,12 @@ pub(crate) const PLAIN_VIEW: View = View {
     read_from_gmsh: false,
 };
 
-/// Units of length, time and mass that differ from SI by up to a thousand.
-pub(crate) fn random_units(random: &mut Random) -> Frame {
+/// Units of length, time and mass that differ from SI_UNITS by up to a thousand.
+pub(crate) fn random_units(random: &mut Random) -> UnitFrame {
     let length = 10.0_f64.powf(random.within(-3.0, 3.0));
     let time = 10.0_f64.powf(random.within(-3.0, 3.0));
     let mass = 10.0_f64.powf(random.within(-3.0, 3.0));
-    Frame { length, time, mass, mirrored: false }
+    UnitFrame { length, time, mass, mirrored: false }
 }
 
 impl View {

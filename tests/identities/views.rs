@@ -1,9 +1,9 @@
 //! GOAL: a scene translated, turned, mirrored, renumbered and in other units is the same scene.
 //! SCENE: scenes of all parts in the plane, in plan and around a trench.
-//! REFERENCE: the scene in SI units.
+//! REFERENCE: the scene in SI_UNITS units.
 
 use basemat_problems::random::Random;
-use basemat_problems::scenes::{Frame, SI};
+use basemat_problems::scenes::{SI_UNITS, UnitFrame};
 
 use super::compare::{NamedVariant, compare_variant, usual_response};
 use super::parts::{Choice, CoordinatePart, Space, covering};
@@ -23,7 +23,7 @@ fn views(choice: &Choice) -> Vec<(&'static str, View)> {
     let units = random_units(&mut random);
     let mut views = vec![
         ("translated", View { shift, ..PLAIN_VIEW }),
-        ("mirrored", View { frame: Frame { mirrored: true, ..SI }, ..PLAIN_VIEW }),
+        ("mirrored", View { frame: UnitFrame { mirrored: true, ..SI_UNITS }, ..PLAIN_VIEW }),
         ("renumbered", View { renumbered: true, ..PLAIN_VIEW }),
         ("in other units", View { frame: units, ..PLAIN_VIEW }),
     ];

@@ -14,7 +14,7 @@ use basemat::results::{DeformedShape, Recorder, ShapePoint, TimeSeries};
 use basemat::structure::{FemModel, RigidBlock, ShearBuilding, Storey};
 use basemat_problems::faults::is_unwritable;
 
-use basemat_problems::scenes::{self, SI, block, friction, scene, tower};
+use basemat_problems::scenes::{self, SI_UNITS, block, friction, scene, tower};
 
 /// An empty folder for each test.
 fn folder(name: &str) -> PathBuf {
@@ -54,9 +54,10 @@ struct RecordedTower {
 }
 
 fn recorded_tower() -> RecordedTower {
-    let tower = tower(SI, None);
+    let tower = tower(SI_UNITS, None);
     let shape = DeformedShape::of_model(&tower);
-    let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
+    let mut simulation =
+        scene(SI_UNITS, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
     let recorder = Recorder::new().contact(40).motion(40);
     let (time_series, _, states) = scenes::recorded(&mut simulation, recorder, 200);
     RecordedTower { states, time_series, shape }
@@ -185,7 +186,11 @@ fn bad_requests_are_errors() {
     let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
     let error = paraview::write_series(&folder, "a", &other, &time_series).unwrap_err();
     assert!(matches!(error, Error::Index { index: 98, bound: 98, .. }));
-    let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
+    let simulation = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(0.3))
+        .build()
+        .unwrap();
     let without = Recorder::new().start(&simulation).unwrap();
     let error = paraview::write_series(&folder, "a", &shape, &without).unwrap_err();
     assert!(matches!(error, Error::Scene { .. }));
@@ -202,5 +207,5 @@ fn bad_requests_are_errors() {
     assert!(DeformedShape::new(vec![nan], vec![]).is_err());
     let infinite = ShapePoint { vertical: (0, f64::INFINITY).into(), ..point };
     assert!(DeformedShape::new(vec![infinite], vec![]).is_err());
-    assert!(DeformedShape::of_block(&block(SI), 0.0).is_err());
+    assert!(DeformedShape::of_block(&block(SI_UNITS), 0.0).is_err());
 }

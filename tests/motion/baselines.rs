@@ -6,7 +6,7 @@ use basemat::Error;
 use basemat::motion::{Baseline, Record, el_centro_1940};
 use proptest::prelude::*;
 
-use basemat_problems::close;
+use basemat_problems::assert_close;
 
 /// Time between samples, s.
 const TIME_STEP: f64 = 0.01;
@@ -53,7 +53,7 @@ fn velocity_polynomials_end_without_velocity() {
     assert!(without_mean.at(end).velocity.abs() < 1e-13);
     let first_degree = treated(Baseline::VelocityPolynomial { degree: 1 });
     for (a, b) in without_mean.accelerations().iter().zip(first_degree.accelerations()) {
-        close("degree 1 is the mean", *a, *b, 1e-15, 0.0);
+        assert_close("degree 1 is the mean", *a, *b, 1e-15, 0.0);
     }
 }
 

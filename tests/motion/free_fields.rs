@@ -8,7 +8,7 @@ use basemat::motion::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, VerticalIncidence, el_centro_1940,
 };
 
-use basemat_problems::close;
+use basemat_problems::assert_close;
 
 /// GOAL: displacements and velocities of free fields are those of their records and functions.
 #[test]
@@ -110,7 +110,7 @@ fn ricker_velocity_is_the_derivative() {
         let time = f64::from(k) * 0.01 + 1e-3;
         let slope = (pulse.displacement(0.0, time + h)[0] - pulse.displacement(0.0, time - h)[0])
             / (2.0 * h);
-        close("velocity", pulse.velocity(5.0, time)[0], slope, 1e-8, 0.0);
+        assert_close("velocity", pulse.velocity(5.0, time)[0], slope, 1e-8, 0.0);
         assert_eq!(vertical.displacement(0.0, time), [0.0, pulse.displacement(0.0, time)[0]]);
     }
     assert_eq!(pulse.displacement(0.0, 0.0), [0.0; 2]);

@@ -5,7 +5,7 @@
 use basemat::FileFault;
 use basemat::motion::{AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat};
 use basemat_problems::faults::{
-    CLEAR, is_missing, is_no_acceleration, is_no_number, is_off_columns, is_unclear, value,
+    CLEAR_QUANTITY, is_missing, is_no_acceleration, is_no_number, is_off_columns, is_unclear, value,
 };
 
 use super::{SI_UNIT, STANDARD_GRAVITY, assert_record, error_at, read, refusal};
@@ -97,7 +97,7 @@ fn time_steps_of_peer_files_are_whole_quantities() {
 #[test]
 fn unclear_quantities_of_peer_files_are_shown() {
     let error = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
-    assert_eq!(error, error_at(3, value("time step", "'1,5 SEC'", CLEAR)));
+    assert_eq!(error, error_at(3, value("time step", "'1,5 SEC'", CLEAR_QUANTITY)));
     let text = "time step is '1,5 SEC', but must be clear: all of it a known number, unit or word";
     assert_eq!(error.fault.to_string(), text);
     for (header, text) in [
@@ -107,7 +107,7 @@ fn unclear_quantities_of_peer_files_are_shown() {
         ("NPTS= 0X4, DT= .01", "0X4"),
     ] {
         let error = refusal(&peer(header), &PeerFormat);
-        let fault = value("number of points", &format!("'{text}'"), CLEAR);
+        let fault = value("number of points", &format!("'{text}'"), CLEAR_QUANTITY);
         assert_eq!(error, error_at(3, fault), "{header}");
     }
 }

@@ -8,7 +8,7 @@ use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use proptest::prelude::*;
 
 use basemat_problems::dense::largest;
-use basemat_problems::{close, table};
+use basemat_problems::{assert_close, table};
 
 /// GOAL: samples, time steps and factors out of range are refused.
 #[test]
@@ -67,9 +67,9 @@ fn el_centro_1940_peaks() {
     let record = el_centro_1940();
     assert_eq!(record.len() as f64, count);
     assert_eq!(record.time_step(), step);
-    close("duration", record.duration(), duration, 1e-12, 0.0);
-    close("PGA", record.peaks().acceleration / STANDARD_GRAVITY, peak, 1e-12, 0.0);
-    close(
+    assert_close("duration", record.duration(), duration, 1e-12, 0.0);
+    assert_close("PGA", record.peaks().acceleration / STANDARD_GRAVITY, peak, 1e-12, 0.0);
+    assert_close(
         "at its time",
         record.at(peak_time).acceleration.abs() / STANDARD_GRAVITY,
         peak,
@@ -77,15 +77,15 @@ fn el_centro_1940_peaks() {
         0.0,
     );
     let peak_of_samples = largest(record.velocities());
-    close("PGV at the samples", peak_of_samples, velocity, 5e-7, 0.0);
-    close("v at the end", record.at(record.duration()).velocity, v_end, 5e-7, 0.0);
-    close("u at the end", record.at(record.duration()).displacement, d_end, 5e-7, 0.0);
-    close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
+    assert_close("PGV at the samples", peak_of_samples, velocity, 5e-7, 0.0);
+    assert_close("v at the end", record.at(record.duration()).velocity, v_end, 5e-7, 0.0);
+    assert_close("u at the end", record.at(record.duration()).displacement, d_end, 5e-7, 0.0);
+    assert_close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
     // Between the samples the peaks are at least as large, and those of a fine resampling.
     let fine = record.resampled(0.02 / 64.0).unwrap();
     assert!(record.peaks().velocity >= peak_of_samples);
-    close("PGV", largest(fine.velocities()), record.peaks().velocity, 1e-6, 0.0);
-    close("PGD", largest(fine.displacements()), record.peaks().displacement, 1e-8, 0.0);
+    assert_close("PGV", largest(fine.velocities()), record.peaks().velocity, 1e-6, 0.0);
+    assert_close("PGD", largest(fine.displacements()), record.peaks().displacement, 1e-8, 0.0);
     assert!(largest(fine.velocities()) <= record.peaks().velocity + 1e-14);
 }
 
@@ -123,9 +123,9 @@ fn resampling_keeps_the_function() {
     let fine = record.resampled(0.0025).unwrap();
     for k in 0..4000 {
         let time = f64::from(k) * 0.0077;
-        close("a", fine.at(time).acceleration, record.at(time).acceleration, 1e-11, 0.0);
-        close("v", fine.at(time).velocity, record.at(time).velocity, 1e-12, 0.0);
-        close("u", fine.at(time).displacement, record.at(time).displacement, 1e-12, 0.0);
+        assert_close("a", fine.at(time).acceleration, record.at(time).acceleration, 1e-11, 0.0);
+        assert_close("v", fine.at(time).velocity, record.at(time).velocity, 1e-12, 0.0);
+        assert_close("u", fine.at(time).displacement, record.at(time).displacement, 1e-12, 0.0);
     }
     assert_eq!(fine.resampled(0.02).unwrap().len(), record.len());
     // A time step that does not divide the duration ends after the record, at zero.

@@ -12,7 +12,7 @@ use basemat::{Observer, Result, Simulation};
 
 use super::scene::{CompletedRun, TIME_STEP, complete_run, shaken};
 use basemat_problems::block_on_springs::block;
-use basemat_problems::wrapped::BareGround;
+use basemat_problems::wrapped::MinimalGround;
 
 /// Normal and tangential stiffness of the springs, Pa/m.
 const SPRING_STIFFNESS: [f64; 2] = [4.0e7, 2.0e7];
@@ -139,7 +139,7 @@ fn springs_of_a_user_move_as_the_spring_ground() {
     let expected_displacement = expected.simulation.state().displacement();
     assert_eq!(computed.simulation.state().displacement(), expected_displacement);
     let expected = sliding_block(damped).simulation;
-    let computed = sliding_block(BareGround(damped_springs(1e-2))).simulation;
+    let computed = sliding_block(MinimalGround(damped_springs(1e-2))).simulation;
     assert_eq!(computed.state().displacement(), expected.state().displacement());
 }
 
@@ -214,10 +214,10 @@ fn a_run_warns_of_the_form_of_first_order_only() {
     let implicit = damped_springs(0.0).with_theta(1.0).unwrap();
     assert!(!warns(implicit.clone()));
     assert!(!warns(Box::new(implicit.clone()) as Box<dyn Ground>));
-    assert!(warns(BareGround(implicit)));
+    assert!(warns(MinimalGround(implicit)));
     // In a step of twice the relaxation time springs lose their displacement, as springs of the wrong form do.
     for steps in [0.0, 1e-3, 0.1, 0.3, 0.45, 0.5, 0.55, 1.0, 10.0, 64.0, 1e3] {
-        assert!(!warns(BareGround(damped_springs(steps * TIME_STEP))), "{steps}");
+        assert!(!warns(MinimalGround(damped_springs(steps * TIME_STEP))), "{steps}");
     }
 }
 

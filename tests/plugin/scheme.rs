@@ -11,7 +11,7 @@ use basemat::interface::Bonded;
 use super::scene::{assert_same_motion, complete_run, shaken};
 use super::structure::HardeningOscillator;
 use basemat_problems::block_on_springs::bed;
-use basemat_problems::wrapped::Bare;
+use basemat_problems::wrapped::MinimalStructure;
 
 /// Newmark's average acceleration, with equilibrium at the end of the step.
 pub(crate) struct AverageAcceleration;
@@ -36,7 +36,7 @@ impl TimeScheme for AverageAcceleration {
 /// Motion of a bonded linear structure by this scheme.
 fn run_with(scheme: impl TimeScheme + 'static) -> Simulation {
     let linear = HardeningOscillator { cubic_stiffness: 0.0, commits: Arc::default() };
-    let builder = shaken().structure(Bare(linear)).ground(bed(4)).interface(Bonded);
+    let builder = shaken().structure(MinimalStructure(linear)).ground(bed(4)).interface(Bonded);
     complete_run(builder.scheme(scheme)).simulation
 }
 

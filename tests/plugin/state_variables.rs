@@ -12,7 +12,7 @@ use basemat::structure::RigidBlock;
 
 use super::scene::{complete_run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
-use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
+use basemat_problems::laws_with_memory::{BreakingBond, SlipWeakening, SofteningPads};
 
 const GRAVITY_ACCELERATION: f64 = 9.81;
 /// Circular frequency of the shaking, rad/s.
@@ -121,7 +121,7 @@ struct BrokenBondSteps {
 
 /// Checks a bond that breaks once beside Coulomb's law in every step.
 fn compare_breaking_bond(friction: f64, strength: f64) -> BrokenBondSteps {
-    let bond = Adhesion { friction, strength, breaks_by_sliding: false };
+    let bond = BreakingBond { friction, strength, breaks_by_sliding: false };
     let coulomb = Coulomb::new(friction).unwrap().with_tensile_strength(strength).unwrap();
     let builder = shaken().structure(block()).ground(bed(6)).interface(bond);
     let mut bonded = builder.build().unwrap();
@@ -163,7 +163,7 @@ fn a_bond_that_breaks_once_is_the_tensile_strength_of_coulomb() {
 #[test]
 fn laws_with_and_without_state_variables_work_side_by_side() {
     let coulomb = Coulomb::new(0.3).unwrap();
-    let bond = Adhesion { friction: 0.3, strength: 1e3, breaks_by_sliding: true };
+    let bond = BreakingBond { friction: 0.3, strength: 1e3, breaks_by_sliding: true };
     let laws: Vec<Box<dyn InterfaceLaw>> =
         vec![Box::new(SLIP_WEAKENING), Box::new(coulomb), Box::new(bond), Box::new(coulomb)];
     let builder = shaken().structure(block()).ground(bed(4)).interfaces(laws);

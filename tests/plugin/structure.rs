@@ -12,7 +12,7 @@ use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 use super::scene::{CompletedRun, assert_same_motion, complete_run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
 use basemat_problems::own_force;
-use basemat_problems::wrapped::Bare;
+use basemat_problems::wrapped::MinimalStructure;
 
 /// A mass on a hardening spring on a rigid base: force k d + k₃ d³.
 pub(crate) struct HardeningOscillator {
@@ -93,7 +93,7 @@ fn structures_of_a_user_are_linear_or_nonlinear() {
     let commits = Arc::new(AtomicUsize::new(0));
     let oscillator =
         |cubic_stiffness| HardeningOscillator { cubic_stiffness, commits: Arc::clone(&commits) };
-    let linear = run_on_springs(Bare(oscillator(0.0))).simulation;
+    let linear = run_on_springs(MinimalStructure(oscillator(0.0))).simulation;
     assert_eq!(commits.load(Ordering::Relaxed), 0, "a wrapper without `commit`");
     let soft = run_on_springs(oscillator(0.0)).simulation;
     let count = commits.load(Ordering::Relaxed);
@@ -112,5 +112,9 @@ fn motion_on_springs(structure: impl Structure + 'static) -> Simulation {
 
 #[test]
 fn a_wrapped_block_is_the_block() {
-    assert_same_motion(&motion_on_springs(Bare(block())), &motion_on_springs(block()), 0.0);
+    assert_same_motion(
+        &motion_on_springs(MinimalStructure(block())),
+        &motion_on_springs(block()),
+        0.0,
+    );
 }

@@ -11,13 +11,13 @@ use basemat::{Simulation, Soil};
 use std::f64::consts::PI;
 
 use basemat_problems::rocking::quarter_period;
-use basemat_problems::series::{Error, whole, within};
+use basemat_problems::series::{RelativeError, assert_within, nearest_integer};
 use basemat_problems::table;
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::wrapped::StructureWithForce;
 
 /// Rigid block with a moment (counter-clockwise, about the middle of the base) that varies in time.
-fn pushed_block<F>(block: RigidBlock, moment: F) -> Pulled<RigidBlock, F> {
-    Pulled { structure: block, along: RigidBlock::ROTATION.into(), force: moment }
+fn pushed_block<F>(block: RigidBlock, moment: F) -> StructureWithForce<RigidBlock, F> {
+    StructureWithForce { structure: block, along: RigidBlock::ROTATION.into(), force: moment }
 }
 
 fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) -> ElasticGround {
@@ -99,7 +99,12 @@ fn muskhelishvili_1953_tilted_punch() {
                     error
                 });
                 let scene = format!("punch nu {poisson:.2} e {e} {grading:?}");
-                within(&scene, &["10", "20", "40"], &errors, &punch_error_limits(grading, e));
+                assert_within(
+                    &scene,
+                    &["10", "20", "40"],
+                    &errors,
+                    &punch_error_limits(grading, e),
+                );
                 let order = (errors[1] / errors[2]).log2();
                 let range = if grading == Grading::Uniform { 1.0..1.25 } else { 1.9..2.2 };
                 assert!(range.contains(&order), "{scene}: order {order:.2}");
@@ -135,10 +140,10 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
         .unwrap();
     let at_rest = simulation.state().normal_force;
     assert!((at_rest / weight - 1.0).abs() < 1e-9, "normal force {at_rest}, weight {weight}");
-    let mut error = Error::default();
+    let mut error = RelativeError::default();
     let mut largest = 0.0_f64;
     let run = simulation
-        .run(whole(duration / time_step), |state| {
+        .run(nearest_integer(duration / time_step), |state| {
             error.add(state.mean_slip, exact.slip(state.time));
             largest = largest.max(state.mean_slip.abs());
         })
@@ -171,7 +176,7 @@ fn newmark_1965_sliding_on_stiff_soil() {
             [(100.0, 0.0025), (400.0, 0.0025), (1600.0, 0.01), (1600.0, 0.0025), (1600.0, 0.00125)];
         let errors = runs.map(|(speed, step)| sliding(speed, friction, step, 7.0).history_error);
         let names = ["100 m/s", "400 m/s", "1600 m/s: 10 ms", "2.5 ms", "1.25 ms"];
-        within(&format!("sliding, friction {friction}"), &names, &errors, &limits);
+        assert_within(&format!("sliding, friction {friction}"), &names, &errors, &limits);
 
         let mut rows = table.rows(["mu", "max_abs_slip_m", "slip_residual_m"]).into_iter();
         let records = table.text("record");
@@ -183,7 +188,7 @@ fn newmark_1965_sliding_on_stiff_soil() {
         let errors =
             [(found.largest_slip - expected[1]).abs(), (found.residual_slip - expected[2]).abs()];
         let scene = format!("sliding, friction {friction}, table");
-        within(&scene, &["largest (m)", "residual (m)"], &errors, &tolerance);
+        assert_within(&scene, &["largest (m)", "residual (m)"], &errors, &tolerance);
     }
 }
 
@@ -227,11 +232,11 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
     assert!((at_rest / weight - 1.0).abs() < 1e-9, "normal force {at_rest}, weight {weight}");
     let mut tilts = vec![0.0];
     let run = simulation
-        .run(whole(1.5 / time_step), |s| tilts.push(s.absolute_displacement()[2]))
+        .run(nearest_integer(1.5 / time_step), |s| tilts.push(s.absolute_displacement()[2]))
         .unwrap();
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     assert!(run.energy_balance.soil > 0.0, "energy radiated: {:e}", run.energy_balance.soil);
-    let peak = (whole(push_duration / time_step)..tilts.len() - 1)
+    let peak = (nearest_integer(push_duration / time_step)..tilts.len() - 1)
         .find(|&k| tilts[k + 1] < tilts[k])
         .unwrap();
     let before = tilts[peak - 1];
@@ -273,6 +278,6 @@ fn housner_1963_quarter_period() {
         let errors = [computed / rigid_base - 1.0, (computed / yielding_soil - 1.0).abs()];
         assert!(errors[0] > 0.0, "faster than on a rigid base: {:e}", errors[0]);
         let scene = format!("rocking, {speed} m/s, cosine {elements}");
-        within(&scene, &["Housner", "yielding soil"], &errors, &[housner, yielding]);
+        assert_within(&scene, &["Housner", "yielding soil"], &errors, &[housner, yielding]);
     }
 }

@@ -9,7 +9,7 @@ use basemat::soil::{Elastic, Kjartansson, SoilProfile};
 
 use super::linear::block_errors;
 use basemat_problems::profiles::{gmb, p1, p3};
-use basemat_problems::series::within;
+use basemat_problems::series::assert_within;
 
 fn ground(profile: SoilProfile, elements: usize) -> ElasticGround {
     ElasticGround::new(profile, Strip::graded(-1.0..1.0, elements).unwrap()).unwrap()
@@ -28,7 +28,7 @@ fn td_block_on_layers_under_sv_pulse() {
         for stages in [Stages::Two, Stages::Three] {
             let ground = ground(profile.clone(), 16).with_stages(stages);
             let errors = block_errors(&file, ground, 2.0, 1.0, 0.05);
-            within(&format!("block {name}, {stages:?}"), &names, &errors, &limits);
+            assert_within(&format!("block {name}, {stages:?}"), &names, &errors, &limits);
         }
     }
 }

@@ -9,9 +9,9 @@ use basemat::coupled::State;
 use basemat::structure::{RigidBlock, Structure};
 
 use basemat_problems::impedance::{impedance_errors, ricker};
-use basemat_problems::rigid_strip::{Contact, RigidStrip};
+use basemat_problems::rigid_strip::{DrivenStrip, StripTractions};
 use basemat_problems::sampled_block::{base_motion, moment, rotation, shear, under_pulse};
-use basemat_problems::series::{Error, Series, whole, within};
+use basemat_problems::series::{RelativeError, TabledSeries, assert_within, nearest_integer};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
@@ -28,19 +28,19 @@ fn transient_errors(
 ) -> [f64; 5] {
     let (grading, elements, time_step) = mesh;
     let table = table(file);
-    let vertical = Series::new(&table, "uy_Fy");
-    let horizontal = Series::new(&table, "ux_Fx");
-    let coupling = Series::new(&table, "th_Fx");
-    let rocking = Series::new(&table, "th_M");
-    let mut errors = [Error::default(); 5];
+    let vertical = TabledSeries::new(&table, "uy_Fy");
+    let horizontal = TabledSeries::new(&table, "ux_Fx");
+    let coupling = TabledSeries::new(&table, "th_Fx");
+    let rocking = TabledSeries::new(&table, "th_M");
+    let mut errors = [RelativeError::default(); 5];
     let contacts = if bonded {
-        [Contact::Bonded, Contact::Bonded]
+        [StripTractions::Bonded, StripTractions::Bonded]
     } else {
-        [Contact::Tangential, Contact::Normal]
+        [StripTractions::Tangential, StripTractions::Normal]
     };
     let mut strips =
-        contacts.map(|contact| RigidStrip::new(poisson, grading, elements, time_step, contact));
-    let steps = whole(vertical.duration() / time_step);
+        contacts.map(|contact| DrivenStrip::new(poisson, grading, elements, time_step, contact));
+    let steps = nearest_integer(vertical.duration() / time_step);
     for n in 1..=steps {
         let time = n as f64 * time_step;
         let force =
@@ -62,7 +62,7 @@ fn transient_errors(
         errors[3].add(by_moment[0], coupling.at(time));
         errors[4].add(by_moment[2], rocking.at(time));
     }
-    errors.map(Error::relative)
+    errors.map(RelativeError::relative)
 }
 
 /// A column, the same quantity of a state, and whether it is a mean over the step.
@@ -78,10 +78,10 @@ fn structure_errors<const N: usize>(
     checks: [StateCheck; N],
 ) -> [f64; N] {
     let table = table(file);
-    let columns = checks.map(|check| Series::new(&table, check.0));
+    let columns = checks.map(|check| TabledSeries::new(&table, check.0));
     let mut simulation = under_pulse(structure, ground, time_step);
-    let mut errors = [Error::default(); N];
-    let steps = whole(columns[0].duration() / time_step);
+    let mut errors = [RelativeError::default(); N];
+    let steps = nearest_integer(columns[0].duration() / time_step);
     let run = simulation
         .run(steps, |state| {
             for k in 0..N {
@@ -96,7 +96,7 @@ fn structure_errors<const N: usize>(
         .unwrap();
     assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     assert!(run.energy_balance.soil > 0.0, "energy radiated: {:e}", run.energy_balance.soil);
-    errors.map(Error::relative)
+    errors.map(RelativeError::relative)
 }
 
 /// The half-plane of the tables, of unit shear modulus and density, under a strip of half width 1.
@@ -211,7 +211,7 @@ fn check_impedances(bonded: bool) {
         let mesh_errors = limits.map(|(mesh, limits)| {
             let errors = impedance_errors(&file, poisson, mesh, bonded);
             let scene = format!("{kind} {name} {:?} {}", mesh.0, mesh.1);
-            within(&scene, names, &errors[..count], &limits[..count]);
+            assert_within(&scene, names, &errors[..count], &limits[..count]);
             errors
         });
         for k in 0..3 {
@@ -232,7 +232,7 @@ fn luco_westmann_1972_bonded_strip() {
     let file = "strip_bonded_nu0333_xi00.csv";
     let errors = impedance_errors(file, 1.0 / 3.0, UNIFORM_32, true);
     let limits = [8.5e-3, 9.5e-3, 2.9e-2, 1.8e-2];
-    within("bonded 0333 Uniform 32", &["khh", "kvv", "krr", "khr"], &errors, &limits);
+    assert_within("bonded 0333 Uniform 32", &["khh", "kvv", "krr", "khr"], &errors, &limits);
 }
 
 /// GOAL: as above for the diagonal parts of the operator, without their coupling.
@@ -276,7 +276,7 @@ fn td_strip_force_pulses() {
                     });
                     let errors = order.map(|k| errors[k]);
                     let scene = format!("{kind} {name} {pulse} cosine {}", mesh.1);
-                    within(&scene, &names[..count], &errors[..count], &limits[..count]);
+                    assert_within(&scene, &names[..count], &errors[..count], &limits[..count]);
                 }
             }
         }
@@ -301,7 +301,7 @@ fn td_block_under_sv_pulse() {
         let file = format!("td_block_SV_{name}.csv");
         let errors =
             block_errors(&file, half_plane(poisson, COSINE_16), height, density, COSINE_16.2);
-        within(&format!("block {name} cosine 16"), &names, &errors, &limits);
+        assert_within(&format!("block {name} cosine 16"), &names, &errors, &limits);
     }
     for (mesh, limits) in [
         (UNIFORM_8, [4.8e-2, 5.9e-2, 1e-1, 3e-2, 1.8e-1]),
@@ -311,7 +311,12 @@ fn td_block_under_sv_pulse() {
     ] {
         let ground = half_plane(third, mesh);
         let errors = block_errors("td_block_SV_nu0333_h2_rho1.csv", ground, 2.0, 1.0, mesh.2);
-        within(&format!("block nu0333_h2_rho1 {:?} {}", mesh.0, mesh.1), &names, &errors, &limits);
+        assert_within(
+            &format!("block nu0333_h2_rho1 {:?} {}", mesh.0, mesh.1),
+            &names,
+            &errors,
+            &limits,
+        );
     }
 }
 
@@ -322,7 +327,7 @@ fn td_block_under_sv_pulse() {
 fn td_cantilever_under_sv_pulse() {
     let names = ["u_base", "theta", "u_top", "V_beam", "V", "M"];
     let limits = [3.8e-3, 6.9e-3, 6.1e-3, 3.6e-3, 3.2e-3, 1.3e-2];
-    within("cantilever cosine 16", &names, &cantilever_errors(COSINE_16, 8), &limits);
+    assert_within("cantilever cosine 16", &names, &cantilever_errors(COSINE_16, 8), &limits);
 }
 
 /// GOAL: the shear building, its storeys' dashpots and section forces.
@@ -332,5 +337,5 @@ fn td_cantilever_under_sv_pulse() {
 fn td_shear_building_under_sv_pulse() {
     let names = ["u_base", "theta", "v1", "v3", "V1", "V", "M"];
     let limits = [3.3e-3, 4.5e-3, 3.8e-3, 7.6e-3, 3.4e-3, 2.1e-3, 1.15e-2];
-    within("shear building cosine 16", &names, &building_errors(COSINE_16), &limits);
+    assert_within("shear building cosine 16", &names, &building_errors(COSINE_16), &limits);
 }

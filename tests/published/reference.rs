@@ -11,7 +11,7 @@ use basemat::reference::{
 use basemat::{Error, Soil};
 use proptest::prelude::*;
 
-use basemat_problems::close;
+use basemat_problems::assert_close;
 
 pub(super) const INVALID_NUMBERS: [f64; 5] =
     [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -85,15 +85,15 @@ fn slender_blocks_rock_as_housner_says() {
         let amplitude = ratio * block.slenderness_angle();
         let exact = block.period(amplitude).unwrap();
         let slender = block.period_slender(amplitude).unwrap();
-        close("period", exact, slender, 0.0, 1e-6);
+        assert_close("period", exact, slender, 0.0, 1e-6);
         let exact = block.next_peak(amplitude).unwrap();
         let slender = block.next_peak_slender(amplitude).unwrap();
-        close("peak", exact, slender, 0.0, 1e-5);
+        assert_close("peak", exact, slender, 0.0, 1e-5);
         // p θ₀-pendulum: rate at impact p √(α² − (α − θ₀)²)
         let alpha = block.slenderness_angle();
         let p = block.frequency_parameter();
         let rate = p * (amplitude * (2.0 * alpha - amplitude)).sqrt();
-        close("rate", block.impact_rate(amplitude).unwrap(), rate, 0.0, 1e-6);
+        assert_close("rate", block.impact_rate(amplitude).unwrap(), rate, 0.0, 1e-6);
     }
 }
 
@@ -110,16 +110,22 @@ fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
     for rotation in [0.3, 1.0, 1.2, 3.0, 20.0] {
         let moment = springs.moment(load, rotation * first).unwrap();
         let expected = on_springs.moment_ratio(rotation).unwrap() * load * 4.0 / 6.0;
-        close("springs", moment, expected, 1e-14, 0.0);
+        assert_close("springs", moment, expected, 1e-14, 0.0);
         let length = springs.contact_length(load, rotation * first).unwrap();
-        close("contact", length / 4.0, on_springs.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
+        assert_close(
+            "contact",
+            length / 4.0,
+            on_springs.contact_ratio(rotation).unwrap(),
+            1e-14,
+            0.0,
+        );
 
         let tilt = rotation * load * 4.0 / 4.0 / stiffness;
         let moment = strip.moment(load, tilt).unwrap();
         let expected = on_soil.moment_ratio(rotation).unwrap() * load * 4.0 / 4.0;
-        close("half-plane", moment, expected, 1e-14, 0.0);
+        assert_close("half-plane", moment, expected, 1e-14, 0.0);
         let length = strip.contact(load, -moment / load).unwrap().length();
-        close("contact", length / 4.0, on_soil.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
+        assert_close("contact", length / 4.0, on_soil.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
     }
     for bad in [2.0, 1.9] {
         refused(UpliftLaw::new(bad));
@@ -151,20 +157,20 @@ fn power_spectrum(power: i32, value: f64) -> Vec<SpectralOrdinate> {
 #[test]
 fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
     let estimate = SlidingEstimate::new(0.3, 2.5, 10.0).unwrap();
-    close("c", estimate.spectral_acceleration(), 2.0 * 0.3 * 0.9 * 10.0, 1e-14, 0.0);
+    assert_close("c", estimate.spectral_acceleration(), 2.0 * 0.3 * 0.9 * 10.0, 1e-14, 0.0);
     let slip = estimate.slip(&power_spectrum(2, 0.4)).unwrap().unwrap();
-    close("displacement", slip, 0.4, 1e-14, 0.0);
+    assert_close("displacement", slip, 0.4, 1e-14, 0.0);
     // A jump of the velocity: one sample of acceleration.
     let velocity = 1.3;
     let step = 1e-5;
     let jump = Record::new(step, vec![0.0, velocity / step, 0.0]).unwrap();
     let block_slip = SlidingBlock::new(0.3 * 0.9, 10.0).unwrap().slide(&jump).minimum();
     let slip = estimate.slip(&power_spectrum(1, velocity)).unwrap().unwrap();
-    close("velocity", slip, -block_slip, 0.0, 1e-4);
+    assert_close("velocity", slip, -block_slip, 0.0, 1e-4);
     // The longest period of several counts.
     let mut twice = power_spectrum(2, 0.4);
     twice[1].pseudo_acceleration = 0.1;
-    close("last", estimate.slip(&twice).unwrap().unwrap(), 0.4, 1e-14, 0.0);
+    assert_close("last", estimate.slip(&twice).unwrap().unwrap(), 0.4, 1e-14, 0.0);
     assert_eq!(estimate.slip(&power_spectrum(0, 1.0)).unwrap(), None);
 
     refused(estimate.slip(&power_spectrum(0, 6.0)));
@@ -210,8 +216,14 @@ fn pressure_of_the_tilted_strip_balances_its_load() {
     for friction in [0.0, 0.6, -0.6] {
         let strip = NoTensionStrip::new(soil(), 2.0, friction).unwrap();
         for eccentricity in [-1.8, -1.0, -0.4, 0.0, 0.7, 1.1, 1.9] {
-            close("load", integral(&strip, eccentricity, |_| 1.0), 5.0, 1e-5, 0.0);
-            close("moment", integral(&strip, eccentricity, |x| x), 5.0 * eccentricity, 1e-5, 0.0);
+            assert_close("load", integral(&strip, eccentricity, |_| 1.0), 5.0, 1e-5, 0.0);
+            assert_close(
+                "moment",
+                integral(&strip, eccentricity, |x| x),
+                5.0 * eccentricity,
+                1e-5,
+                0.0,
+            );
         }
         assert_eq!(strip.pressure(5.0, 1.9, -1.0).unwrap(), 0.0);
         assert_eq!(strip.pressure(5.0, 1.9, 2.5).unwrap(), 0.0);
@@ -226,13 +238,13 @@ fn mirrored_strips_tilt_the_other_way() {
     for eccentricity in [-1.8, -0.9, 0.0, 0.3, 1.2, 1.9] {
         let a = right.contact(1.0, eccentricity).unwrap();
         let b = left.contact(1.0, -eccentricity).unwrap();
-        close("tilt", a.tilt, -b.tilt, 1e-15, 1e-14);
-        close("left", a.left, -b.right, 1e-14, 0.0);
+        assert_close("tilt", a.tilt, -b.tilt, 1e-15, 1e-14);
+        assert_close("left", a.left, -b.right, 1e-14, 0.0);
     }
     // small tilts: the smooth strip is as stiff as the static limit says
     let smooth = NoTensionStrip::new(soil(), 2.0, 0.0).unwrap();
     let stiffness = RigidStrip::new(soil(), 2.0).unwrap().smooth_rocking_stiffness();
-    close("stiffness", smooth.moment(1.0, 1e-3).unwrap(), 1e-3 * stiffness, 0.0, 1e-13);
+    assert_close("stiffness", smooth.moment(1.0, 1e-3).unwrap(), 1e-3 * stiffness, 0.0, 1e-13);
 }
 
 /// Slip by small explicit steps.
@@ -259,7 +271,7 @@ fn sliding_agrees_with_small_steps() {
     for friction in [0.02, 0.13] {
         let history = SlidingBlock::new(friction, 9.81).unwrap().slide(&record);
         let found = slip_by_steps(&record, friction * 9.81, 400);
-        close("residual", history.residual(), found, 2e-5, 0.0);
+        assert_close("residual", history.residual(), found, 2e-5, 0.0);
     }
 }
 

@@ -8,15 +8,15 @@ use basemat::reference::{
     NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEvent, WinklerStrip,
 };
 
-use basemat_problems::{close, table};
+use basemat_problems::{assert_close, table};
 
 /// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
 #[test]
 fn housner_1963_periods_and_peaks() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
-    close("alpha", block.slenderness_angle(), 0.244_978_663_126_864, 1e-15, 0.0);
-    close("p", block.frequency_parameter(), 1.889_156_352_028_5, 0.0, 1e-13);
-    close("restitution", block.restitution(), 0.911_764_705_882_353, 1e-15, 0.0);
+    assert_close("alpha", block.slenderness_angle(), 0.244_978_663_126_864, 1e-15, 0.0);
+    assert_close("p", block.frequency_parameter(), 1.889_156_352_028_5, 0.0, 1e-13);
+    assert_close("restitution", block.restitution(), 0.911_764_705_882_353, 1e-15, 0.0);
     let alpha = block.slenderness_angle();
     let rows = table("housner_period.csv").rows([
         "theta0_over_alpha",
@@ -28,11 +28,17 @@ fn housner_1963_periods_and_peaks() {
     assert_eq!(rows.len(), 19);
     for [ratio, exact, slender, next, next_slender] in rows {
         let amplitude = ratio * alpha;
-        close("period", block.period(amplitude).unwrap(), exact, 0.0, 1e-12);
-        close("slender period", block.period_slender(amplitude).unwrap(), slender, 0.0, 1e-12);
-        close("peak", block.next_peak(amplitude).unwrap() / alpha, next, 0.0, 1e-12);
+        assert_close("period", block.period(amplitude).unwrap(), exact, 0.0, 1e-12);
+        assert_close(
+            "slender period",
+            block.period_slender(amplitude).unwrap(),
+            slender,
+            0.0,
+            1e-12,
+        );
+        assert_close("peak", block.next_peak(amplitude).unwrap() / alpha, next, 0.0, 1e-12);
         let peak = block.next_peak_slender(amplitude).unwrap() / alpha;
-        close("slender peak", peak, next_slender, 0.0, 1e-12);
+        assert_close("slender peak", peak, next_slender, 0.0, 1e-12);
     }
 }
 
@@ -46,7 +52,7 @@ fn housner_1963_free_rocking() {
     let times = block.impact_times(start, words.len()).unwrap();
     assert_eq!(times.len(), 44);
     for (time, word) in times.iter().zip(&words) {
-        close("impact time", *time, word.parse().unwrap(), 1e-10, 0.0);
+        assert_close("impact time", *time, word.parse().unwrap(), 1e-10, 0.0);
     }
     // the largest tabulated tilt between two impacts is at most half a sample from the peak, where
     // the tilt is below it by p² sin(α) (Δt/2)²/2 at most
@@ -64,7 +70,7 @@ fn housner_1963_free_rocking() {
     let ([time, _], rate) = before.map(|(row, rate)| (*row, rate)).unwrap();
     let acceleration = block.frequency_parameter().powi(2) * block.slenderness_angle().sin();
     let expected = rate.abs() + acceleration * (times[0] - time);
-    close("impact rate", block.impact_rate(start).unwrap(), expected, 1e-6, 0.0);
+    assert_close("impact rate", block.impact_rate(start).unwrap(), expected, 1e-6, 0.0);
 }
 
 /// Newmark 1965: sine shaking, events and slip against the exact solution for the sine itself.
@@ -88,8 +94,8 @@ fn newmark_1965_sine() {
         // the polygon departs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
         // and slips then by that over the duration
         for [time, velocity, slip] in table.rows(["t", "v_rel", "d_rel"]) {
-            close(file, history.slip_velocity(time), velocity, 2e-6, 0.0);
-            close(file, history.slip(time), slip, 2e-6, 0.0);
+            assert_close(file, history.slip_velocity(time), velocity, 2e-6, 0.0);
+            assert_close(file, history.slip(time), slip, 2e-6, 0.0);
         }
         let words = table.words_after("exact events:");
         assert!(words.len() >= 20 && history.events().len() >= words.len());
@@ -101,7 +107,7 @@ fn newmark_1965_sine() {
                 | (SlidingEvent::Stop { time } | SlidingEvent::Reversal { time }, "stop") => time,
                 other => panic!("{file}: {other:?} at {time}"),
             };
-            close(file, found, time.parse().unwrap(), 1e-6, 0.0);
+            assert_close(file, found, time.parse().unwrap(), 1e-6, 0.0);
         }
     }
 }
@@ -119,11 +125,11 @@ fn newmark_1965_el_centro() {
         let block = SlidingBlock::new(*friction, STANDARD_GRAVITY).unwrap();
         let history = block.slide(&el_centro_1940());
         // the sub-steps of the table leave 2e-6 m
-        close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
-        close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
-        close("residual", history.residual(), *residual, 2.5e-6, 0.0);
+        assert_close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
+        assert_close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
+        assert_close("residual", history.residual(), *residual, 2.5e-6, 0.0);
         let found = history.maximum().max(-history.minimum());
-        close("largest", found, *largest, 2.5e-6, 0.0);
+        assert_close("largest", found, *largest, 2.5e-6, 0.0);
         count += 1;
     }
     assert_eq!(count, 8);
@@ -139,15 +145,15 @@ fn half_plane_no_tension_strip() {
     for [poisson, friction, eccentricity, exponent, length, left, right, theta] in rows {
         let soil = Soil::new(1.0, poisson, 1.0).unwrap();
         let strip = NoTensionStrip::new(soil, 1.0, friction).unwrap();
-        close("exponent", strip.exponent(), exponent, 1e-12, 0.0);
+        assert_close("exponent", strip.exponent(), exponent, 1e-12, 0.0);
         let contact = strip.contact(1.0, eccentricity).unwrap();
-        close("length", contact.length(), length, 1e-10, 0.0);
-        close("left", contact.left, left, 1e-10, 0.0);
-        close("right", contact.right, right, 1e-10, 0.0);
+        assert_close("length", contact.length(), length, 1e-10, 0.0);
+        assert_close("left", contact.left, left, 1e-10, 0.0);
+        assert_close("right", contact.right, right, 1e-10, 0.0);
         // the table's theta lowers the right side
-        close("tilt", contact.tilt, -theta, 1e-10, 1e-10);
+        assert_close("tilt", contact.tilt, -theta, 1e-10, 1e-10);
         let moment = strip.moment(1.0, contact.tilt).unwrap();
-        close("moment", moment, -eccentricity, 1e-12, 0.0);
+        assert_close("moment", moment, -eccentricity, 1e-12, 0.0);
     }
 }
 
@@ -169,9 +175,9 @@ fn winkler_no_tension_strip() {
         for side in [1.0, -1.0] {
             let tilt = side * ratio * uplift;
             let found = strip.moment(load, tilt).unwrap() / (load * half_width);
-            close("moment", found, side * moment, 0.0, 1e-11);
+            assert_close("moment", found, side * moment, 0.0, 1e-11);
             let found = strip.contact_length(load, tilt).unwrap() / (2.0 * half_width);
-            close("contact", found, contact, 0.0, 1e-11);
+            assert_close("contact", found, contact, 0.0, 1e-11);
         }
     }
 }
@@ -190,18 +196,18 @@ fn rigid_strip_limits() {
             // the departure goes with a₀² ln a₀: below 4e-4 at a₀ = 0.01, and the larger one at
             // 0.05 says that it tends to zero
             let compliance = table.column("re_crr");
-            close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
+            assert_close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
             let near = compliance[0] * rocking - 1.0;
             let far = compliance[1] * rocking - 1.0;
             assert!(near.abs() < far.abs() / 12.0, "{near:e} {far:e}");
             let quadrature = strip.quadrature_compliance();
-            close("Im c_hh", table.column("im_chh")[0], quadrature, 0.0, 2e-3);
-            close("Im c_vv", table.column("im_cvv")[0], quadrature, 0.0, 5e-3);
+            assert_close("Im c_hh", table.column("im_chh")[0], quadrature, 0.0, 2e-3);
+            assert_close("Im c_vv", table.column("im_cvv")[0], quadrature, 0.0, 5e-3);
             // slope over ln(1/a₀) between the first two frequencies
             for column in ["re_chh", "re_cvv"] {
                 let values = table.column(column);
                 let slope = (values[0] - values[1]) / 5.0_f64.ln();
-                close("log slope", slope, strip.logarithmic_compliance(), 0.0, 0.01);
+                assert_close("log slope", slope, strip.logarithmic_compliance(), 0.0, 0.01);
             }
             let last = table.len() - 1;
             let frequency = table.column("a0")[last];
@@ -210,11 +216,11 @@ fn rigid_strip_limits() {
                 ("im_kvv", strip.vertical_dashpot()),
                 ("im_krr", strip.rocking_dashpot()),
             ] {
-                close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
+                assert_close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
             }
         }
         // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which turns its sign
         let coupling = bonded.column("re_chr")[0] / bonded.column("re_crr")[0];
-        close("coupling", coupling, strip.bonded_coupling_length(), 0.0, 1e-3);
+        assert_close("coupling", coupling, strip.bonded_coupling_length(), 0.0, 1e-3);
     }
 }

@@ -8,7 +8,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::structure::{RigidBlock, Structure};
 
 use basemat_problems::sampled_block::under_pulse;
-use basemat_problems::series::{Error, Series, whole};
+use basemat_problems::series::{RelativeError, TabledSeries, nearest_integer};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
@@ -20,13 +20,13 @@ fn estimates<S: Structure + 'static>(
 ) -> (Refinement, Vec<f64>) {
     const COARSE_TIME_STEP: f64 = 0.2;
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
-    let reference = Series::new(&table(&format!("td_{file}.csv")), "V");
-    let steps = whole((reference.duration() / COARSE_TIME_STEP).floor());
+    let reference = TabledSeries::new(&table(&format!("td_{file}.csv")), "V");
+    let steps = nearest_integer((reference.duration() / COARSE_TIME_STEP).floor());
     let found = refine(4, COARSE_TIME_STEP, |elements, time_step| {
         let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, elements)?)?;
         let mut simulation = under_pulse(structure(), ground, time_step);
         // Means over the coarsest step, of forces that are constant over each of these.
-        let steps_per_mean = whole(COARSE_TIME_STEP / time_step);
+        let steps_per_mean = nearest_integer(COARSE_TIME_STEP / time_step);
         let mut means = vec![0.0; steps];
         simulation.run(steps * steps_per_mean, |state| {
             means[(state.step - 1) / steps_per_mean] += state.base_shear / steps_per_mean as f64;
@@ -49,7 +49,7 @@ fn estimates<S: Structure + 'static>(
         .collect();
     let mut ratios = Vec::new();
     for setting in &found.settings {
-        let mut error = Error::default();
+        let mut error = RelativeError::default();
         setting.results.iter().zip(&expected).for_each(|(found, x)| error.add(*found, *x));
         ratios.push(setting.error / error.relative());
     }

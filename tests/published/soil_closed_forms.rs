@@ -10,7 +10,7 @@ use basemat::reference::{
 };
 
 use super::reference::{INVALID_NUMBERS, refused, soil};
-use basemat_problems::close;
+use basemat_problems::assert_close;
 
 #[test]
 fn bad_inputs_of_line_loads_and_point_loads_are_refused() {
@@ -48,11 +48,11 @@ fn line_loads_satisfy_equilibrium() {
             -stress * angle.cos() * radius * step
         })
         .sum();
-    close("load", carried, load, 1e-12, 0.0);
+    assert_close("load", carried, load, 1e-12, 0.0);
     // slope of the surface (1−ν)P/(πμr), stress under the load −2P/(πr)
     let settlement = flamant_relative_settlement(soil(), load, 1.0, 1.0 + 1e-6).unwrap();
     let slope = -(1.0 - 0.3) / (2.0 * 3.0) * flamant_radial_stress(load, 1.0, 0.0).unwrap();
-    close("slope", settlement / 1e-6, slope, 0.0, 1e-6);
+    assert_close("slope", settlement / 1e-6, slope, 0.0, 1e-6);
     assert_eq!(flamant_horizontal_displacement(soil(), 1.0, 0.0).unwrap(), 0.0);
 }
 
@@ -83,7 +83,7 @@ fn loaded_rectangles_settle_as_point_loads_do() {
             })
             .sum();
         let expected = 5.0 * unit * rays * std::f64::consts::TAU / f64::from(count);
-        close("inside", rectangle_settlement([x, y]), expected, 0.0, 1e-9);
+        assert_close("inside", rectangle_settlement([x, y]), expected, 0.0, 1e-9);
     }
     for point in [[2.0, 0.0], [1.5, -3.0], [0.2, 2.5]] {
         let count = 400;
@@ -91,7 +91,7 @@ fn loaded_rectangles_settle_as_point_loads_do() {
             .flat_map(|i| (0..count).map(move |j| inverse_distance(point, i, j, count)))
             .sum();
         let expected = 5.0 * unit * sum * 6.0 / f64::from(count * count);
-        close("outside", rectangle_settlement(point), expected, 0.0, 1e-5);
+        assert_close("outside", rectangle_settlement(point), expected, 0.0, 1e-5);
     }
     for bad in INVALID_NUMBERS {
         refused(loaded_rectangle_settlement(soil(), 1.0, [1.0, bad], [0.0; 2]));
@@ -150,7 +150,13 @@ fn hertz_plates_settle_as_their_waves_do() {
             })
             .sum();
         let expected = force * sum / (4.0 * f64::from(count));
-        close("plate", hertz_plate_settlement(force, rigidity, bed).unwrap(), expected, 0.0, 1e-7);
+        assert_close(
+            "plate",
+            hertz_plate_settlement(force, rigidity, bed).unwrap(),
+            expected,
+            0.0,
+            1e-7,
+        );
     }
     for bad in INVALID_NUMBERS {
         refused(hertz_plate_settlement(1.0, bad, 1.0));
@@ -175,10 +181,10 @@ fn rectangles_of_pais_and_kausel_send_plane_waves_at_high_frequency() {
         let pressure = soil.pressure_wave_speed().min(2.5 * shear);
         let dashpots = [width * length * shear, width * length * shear, width * length * pressure];
         for (impedance, dashpot) in found.iter().zip(dashpots) {
-            close("dashpot", impedance.im, waves * dashpot, 0.0, 1e-12);
+            assert_close("dashpot", impedance.im, waves * dashpot, 0.0, 1e-12);
         }
         let second = length * width.powi(3) / 12.0;
-        close("rocking", found[3].im, waves * second * pressure, 0.0, 1e-6);
+        assert_close("rocking", found[3].im, waves * second * pressure, 0.0, 1e-6);
         assert!(found[3].re < 0.5 * at_rest[3].re);
         assert!(at_rest.iter().all(|impedance| impedance.im == 0.0));
         // Stiffer along the shorter side, and less than n squares beside each other.

@@ -9,7 +9,7 @@ use basemat::results::{Quantity, Recorder, spectrum_csv};
 use basemat::structure::RigidBlock;
 
 use super::{Recorded, STEP_COUNT, recorded};
-use basemat_problems::scenes::{SI, block, scene};
+use basemat_problems::scenes::{SI_UNITS, block, scene};
 
 struct CsvTable {
     heading: Vec<String>,
@@ -68,8 +68,8 @@ fn histories_have_a_column_for_every_series() {
 
 #[test]
 fn what_is_not_known_is_an_empty_cell() {
-    let mut simulation = scene(SI, 0.6)
-        .structure(block(SI))
+    let mut simulation = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
         .interface(Coulomb::uplift_only())
         .motion(AtRest)
         .without_energy_balance()
@@ -91,8 +91,8 @@ fn columns_of_probes_differ() {
         Probe::displacement("input energy", RigidBlock::HORIZONTAL).in_unit("J/m"),
         Probe::displacement("!", RigidBlock::HORIZONTAL).in_unit(""),
     ];
-    let simulation = scene(SI, 0.6)
-        .structure(block(SI))
+    let simulation = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
         .interface(Coulomb::uplift_only())
         .probes(probes)
         .build()

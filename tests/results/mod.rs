@@ -29,17 +29,17 @@ use basemat::coupled::{Probe, State};
 use basemat::results::Run;
 use basemat::results::{Recorder, TimeSeries};
 
-use basemat_problems::scenes::{self, SI, block, friction, scene};
+use basemat_problems::scenes::{self, SI_UNITS, block, friction, scene};
 
 const FRICTION_COEFFICIENT: f64 = 0.35;
 const STEP_COUNT: usize = 400;
 
 fn simulation() -> Simulation {
-    scene(SI, 0.6)
-        .structure(block(SI))
+    scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
         .interface(friction(FRICTION_COEFFICIENT))
-        .probe(Probe::displacement("top", block(SI).horizontal_at(6.0)))
-        .probe(Probe::acceleration("top acceleration", block(SI).horizontal_at(6.0)))
+        .probe(Probe::displacement("top", block(SI_UNITS).horizontal_at(6.0)))
+        .probe(Probe::acceleration("top acceleration", block(SI_UNITS).horizontal_at(6.0)))
         .build()
         .unwrap()
 }

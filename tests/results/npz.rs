@@ -15,7 +15,7 @@ use basemat::structure::RigidBlock;
 use basemat_problems::faults::is_unwritable;
 
 use super::{FRICTION_COEFFICIENT, Recorded, STEP_COUNT, recorded};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 /// The text of a header after `from` and before `to`.
 fn between(header: &str, from: &str, to: char) -> String {
@@ -193,7 +193,9 @@ fn unitless_probe(name: &str) -> Probe {
 
 #[test]
 fn names_of_arrays_differ_and_frames_may_be_left_out() {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    let builder = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(FRICTION_COEFFICIENT));
     let names = ["time s", "contact mode", "Größe", "kinetic energy J per m", "größe"];
     let simulation = builder.probes(names.map(unitless_probe)).build().unwrap();
     let arrays = arrays(&Recorder::new().start(&simulation).unwrap());
@@ -205,7 +207,9 @@ fn names_of_arrays_differ_and_frames_may_be_left_out() {
     }
     // No name of a file is as long as this.
     let long = unitless_probe(&"a".repeat(70_000));
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    let builder = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(FRICTION_COEFFICIENT));
     let time_series = Recorder::new().start(&builder.probe(long).build().unwrap()).unwrap();
     assert!(time_series.write_npz(&mut Vec::new()).is_err());
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz_refused/long.npz");

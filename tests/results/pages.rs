@@ -1,6 +1,6 @@
 //! GOAL: pages, tables and units as they are printed and written.
 //! SCENE: probes with and without units; cases that do not compare.
-//! REFERENCE: the values themselves; files stay in SI.
+//! REFERENCE: the values themselves; files stay in SI_UNITS.
 
 use basemat::Error;
 use basemat::coupled::Probe;
@@ -9,14 +9,14 @@ use basemat::results::{Comparison, Quantity, Recorder, Run};
 use basemat::structure::RigidBlock;
 
 use super::{FRICTION_COEFFICIENT, Recorded, STEP_COUNT, recorded};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
-/// Values stay SI in files and are converted to the engineers' units where they are printed; an
+/// Values stay SI_UNITS in files and are converted to the engineers' units where they are printed; an
 /// unknown label stays.
 #[test]
 fn probes_come_with_their_unit() {
-    let mut simulation = scene(SI, 0.6)
-        .structure(block(SI))
+    let mut simulation = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
         .interface(friction(FRICTION_COEFFICIENT))
         .probes([
             Probe::displacement("slide", RigidBlock::HORIZONTAL),
@@ -73,7 +73,9 @@ fn probes_come_with_their_unit() {
 }
 
 fn run_with(probe: Probe) -> Run {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    let builder = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(FRICTION_COEFFICIENT));
     builder.probe(probe).build().unwrap().begin_run()
 }
 
@@ -142,8 +144,8 @@ fn pages_and_tables() {
 #[test]
 fn a_page_says_where_most_of_the_base_opens() {
     let mut opened = Vec::new();
-    let bonded = scene(SI, 2.5).structure(block(SI)).interface(Bonded);
-    let rubbing = scene(SI, 2.5).structure(block(SI)).interface(friction(0.8));
+    let bonded = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(Bonded);
+    let rubbing = scene(SI_UNITS, 2.5).structure(block(SI_UNITS)).interface(friction(0.8));
     for builder in [bonded, rubbing] {
         let run = builder.build().unwrap().run(STEP_COUNT, |_| {}).unwrap();
         let is_open = run.whole.uplifted_fraction.highest.value > 0.5;

@@ -18,7 +18,7 @@ use basemat::{Error, Result, Simulation, Soil, unobserved};
 use basemat_problems::faults::is_unwritable;
 
 use crate::results::layout::assert_readable;
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 /// A run, and what its pictures need.
 pub(super) struct PlottedRun {
@@ -28,8 +28,8 @@ pub(super) struct PlottedRun {
 }
 
 pub(super) fn rocking_block(recorder: Recorder) -> PlottedRun {
-    let shape = DeformedShape::of_block(&block(SI), 6.0).unwrap();
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.35));
+    let shape = DeformedShape::of_block(&block(SI_UNITS), 6.0).unwrap();
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.35));
     let mut simulation = builder.build().unwrap();
     let mut time_series = recorder.start(&simulation).unwrap();
     let run = simulation.run(200, |state| time_series.record(state)).unwrap();
@@ -82,7 +82,7 @@ fn every_picture_has_title_labels_units_and_legend() {
     let svg = plot::time_series("Title", &runs, Quantity::SlidingSafety).unwrap();
     shows(&svg, &["1 / factor of safety against sliding", "1: sliding"]);
     // Without a friction coefficient there is no demand to be drawn, however large.
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(Bonded);
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(Bonded);
     let mut simulation = builder.build().unwrap();
     let mut bonded = Recorder::new().start(&simulation).unwrap();
     simulation.run(50, |state| bonded.record(state)).unwrap();
@@ -200,7 +200,7 @@ fn odd_values_are_pictures_or_errors() {
 
 /// A block that has just begun, with a probe.
 fn recorded_probe(probe: Probe) -> TimeSeries {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.35));
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(friction(0.35));
     let simulation = builder.probe(probe).build().unwrap();
     Recorder::new().start(&simulation).unwrap()
 }
@@ -246,7 +246,8 @@ fn bad_requests_are_errors() {
 #[test]
 fn nothing_slides_with_infinite_friction() {
     let law = Coulomb::uplift_only();
-    let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
+    let mut simulation =
+        scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).build().unwrap();
     let mut time_series = Recorder::new().contact(1).start(&simulation).unwrap();
     simulation.run(400, |state| time_series.record(state)).unwrap();
     let svg = plot::mode_map("T", &time_series).unwrap();

@@ -9,7 +9,7 @@ use basemat::structure::{DofCombination, StructureGroup};
 
 use super::layout::assert_readable;
 use super::plot::{PlottedRun, rocking_block, shows, spectral_ordinate, words};
-use basemat_problems::scenes::{self, SI, block, friction, scene};
+use basemat_problems::scenes::{self, SI_UNITS, block, friction, scene};
 
 /// A text that no sheet is wide enough for.
 fn wide_text(words: &str) -> String {
@@ -84,13 +84,13 @@ fn raised_row(row: &DofCombination, by: usize) -> DofCombination {
 
 /// Blocks of 4 m at these distances from the first.
 fn distant_blocks(distances: &[f64]) -> PlottedRun {
-    let mut group = StructureGroup::new().with(block(SI), 0.0).unwrap();
+    let mut group = StructureGroup::new().with(block(SI_UNITS), 0.0).unwrap();
     let mut strips = vec![Strip::uniform(-2.0..2.0, 4).unwrap()];
-    let single = DeformedShape::of_block(&block(SI), 6.0).unwrap();
+    let single = DeformedShape::of_block(&block(SI_UNITS), 6.0).unwrap();
     let mut points = single.points().to_vec();
     let mut cells = single.cells().to_vec();
     for (k, distance) in distances.iter().enumerate() {
-        group = group.with(block(SI), *distance).unwrap();
+        group = group.with(block(SI_UNITS), *distance).unwrap();
         strips.push(Strip::uniform(distance - 2.0..distance + 2.0, 4).unwrap());
         let first = points.len();
         let moved = single.points().iter().map(|point| ShapePoint {
@@ -102,8 +102,8 @@ fn distant_blocks(distances: &[f64]) -> PlottedRun {
         points.extend(moved);
         cells.extend(single.cells().iter().map(|cell| cell.iter().map(|k| k + first).collect()));
     }
-    let ground = ElasticGround::new(scenes::soil(SI), &strips).unwrap();
-    let scene = scene(SI, 0.6).structure(group).ground(ground).interface(friction(0.35));
+    let ground = ElasticGround::new(scenes::soil(SI_UNITS), &strips).unwrap();
+    let scene = scene(SI_UNITS, 0.6).structure(group).ground(ground).interface(friction(0.35));
     let mut simulation = scene.build().unwrap();
     let recorder = Recorder::new().contact(4).motion(4);
     let mut time_series = recorder.start(&simulation).unwrap();

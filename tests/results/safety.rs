@@ -13,8 +13,8 @@ use basemat::{Error, Simulation, Soil};
 
 use super::simulation;
 use basemat_problems::law_from;
-use basemat_problems::scenes::{SI, block, scene, soil};
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::scenes::{SI_UNITS, block, scene, soil};
+use basemat_problems::wrapped::StructureWithForce;
 
 /// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
 #[test]
@@ -25,7 +25,7 @@ fn statics_of_a_pushed_block() {
     for (push_ratio, height, bonded) in [(0.2, 1.5, false), (0.25, 5.0, false), (0.5, 6.0, true)] {
         let push = push_ratio * weight;
         let along = block.horizontal_at(height);
-        let pushed = Pulled { structure: block.clone(), along, force: move |_| push };
+        let pushed = StructureWithForce { structure: block.clone(), along, force: move |_| push };
         let builder = Simulation::builder(1e-3)
             .structure(pushed)
             .ground(SpringGround::new(-2.0..2.0, 40, 4e7, 2e7).unwrap())
@@ -101,7 +101,7 @@ type Laws = Vec<Box<dyn InterfaceLaw>>;
 
 /// A run of 20 steps; the builder is told these coefficients.
 fn march(laws: Laws, safety_friction: Vec<f64>) -> Result<(Run, TimeSeries), Error> {
-    let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
+    let builder = scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interfaces(laws);
     let mut simulation = builder.safety_friction(safety_friction).build()?;
     let mut time_series = Recorder::new().start(&simulation)?;
     let run = simulation.run(20, |state| time_series.record(state))?;
@@ -141,7 +141,7 @@ fn friction_is_that_of_the_laws() {
     let smaller = sliding_factors(coulomb_laws(&vec![0.3; count]), Vec::new());
     assert!(factors.iter().zip(smaller).all(|(a, b)| *a > b));
     // One law for all; a layer; infinite friction.
-    let layer = ThinLayer::new(soil(SI), 0.5, 0.3).unwrap();
+    let layer = ThinLayer::new(soil(SI_UNITS), 0.5, 0.3).unwrap();
     for laws in [coulomb_laws(&[0.3]), vec![Box::new(layer) as Box<dyn InterfaceLaw>]] {
         let factors = sliding_factors(laws, Vec::new());
         assert!(factors.iter().all(|factor| *factor >= 1.0 - 1e-9 && factor.is_finite()));

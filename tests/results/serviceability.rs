@@ -8,7 +8,7 @@ use basemat::results::Run;
 use basemat::results::{Comparison, Criterion, ServiceCheck, Serviceability};
 
 use super::{FRICTION_COEFFICIENT, STEP_COUNT};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 /// A run with limits, and its states.
 struct CheckedRun {
@@ -17,7 +17,9 @@ struct CheckedRun {
 }
 
 fn checked_run(limits: Serviceability) -> CheckedRun {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    let builder = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(FRICTION_COEFFICIENT));
     let mut simulation = builder.serviceability(limits).build().unwrap();
     let mut states = vec![simulation.state().clone()];
     let run = simulation.run(STEP_COUNT, |state| states.push(state.clone())).unwrap();
@@ -87,7 +89,9 @@ fn verdicts_are_those_of_the_states() {
 }
 
 fn build(limits: Serviceability) -> Result<(), Error> {
-    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION_COEFFICIENT));
+    let builder = scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(FRICTION_COEFFICIENT));
     builder.serviceability(limits).build().map(|_| ())
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use basemat::coupled::{Checkpoint, Coordinates};
 use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 use basemat::{Result, Simulation};
-use basemat_problems::tower::{Tower, damped, scene};
+use basemat_problems::tower::{TowerMatrices, damped, scene};
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 /// Steps before the timed steps; the base slides and uplifts by then.
@@ -18,7 +18,7 @@ const TIMED_STEPS: usize = 50;
 
 /// The full model, and the sway of its top.
 fn full_model() -> Result<(MatrixModel, DofCombination)> {
-    let Tower { mass, stiffness, base, top } = Tower::new()?;
+    let TowerMatrices { mass, stiffness, base, top } = TowerMatrices::new()?;
     Ok((damped(mass, stiffness, base)?, top))
 }
 

@@ -17,7 +17,7 @@ fn kinds(criterion: &mut Criterion) {
     let steps = 2_000;
     let mut group = criterion.benchmark_group("2000 steps of the headline run");
     group.throughput(Throughput::Elements(2_000)).sample_size(10);
-    for row in &basemat_problems::headline::ROWS {
+    for row in &basemat_problems::headline::TIMED_SCENES {
         group.bench_function(row.name, |bencher| {
             bencher.iter_batched(
                 // With fewer expected steps, the simulation would use degrees of freedom instead of modes.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use basemat::Result;
 use basemat::motion::Record;
 use basemat_problems::random::Random;
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 /// Time step and duration of a record, s; damping ratio of the ground's filter.
 const TIME_STEP: f64 = 0.005;
@@ -24,7 +24,7 @@ pub(crate) fn artificial_motion(frequency: f64, seed: u64) -> Result<Record> {
     let mut random = Random(seed);
     let mut ground = FilterOscillator::new(TAU * frequency);
     let mut high_pass = FilterOscillator::new(TAU * LOWEST_FREQUENCY);
-    let samples: Vec<f64> = (0..=whole(RECORD_DURATION / TIME_STEP))
+    let samples: Vec<f64> = (0..=nearest_integer(RECORD_DURATION / TIME_STEP))
         .map(|k| {
             let time = k as f64 * TIME_STEP;
             let envelope = (time / STRONG_PART_BEGIN).min(1.0).powi(2)

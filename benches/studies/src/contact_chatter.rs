@@ -9,7 +9,7 @@
 //! ```
 
 use basemat::interface::UnilateralCondition;
-use basemat_problems::chatter::{Scene, Scheme};
+use basemat_problems::chatter::{ChatterScene, ChatterScheme};
 
 use crate::AnyError;
 
@@ -42,14 +42,14 @@ pub(crate) struct ContactChatterOptions {
 pub(crate) fn run(options: &ContactChatterOptions) -> Result<(), AnyError> {
     let rate = UnilateralCondition::Velocity { closed_below: 1e-9 };
     let schemes = [
-        ("midpoint, gap", Scheme::Midpoint, UnilateralCondition::Position),
-        ("θ = 0.55, gap", Scheme::Theta(0.55), UnilateralCondition::Position),
-        ("θ = 0.6, gap", Scheme::Theta(0.6), UnilateralCondition::Position),
-        ("dissipative, γ = 0.8", Scheme::Dissipative(0.8), UnilateralCondition::Position),
-        ("dissipative, γ = 1", Scheme::Dissipative(1.0), UnilateralCondition::Position),
-        ("midpoint, rate", Scheme::Midpoint, rate),
-        ("θ = 0.55, rate", Scheme::Theta(0.55), rate),
-        ("θ = 0.6, rate", Scheme::Theta(0.6), rate),
+        ("midpoint, gap", ChatterScheme::Midpoint, UnilateralCondition::Position),
+        ("θ = 0.55, gap", ChatterScheme::Theta(0.55), UnilateralCondition::Position),
+        ("θ = 0.6, gap", ChatterScheme::Theta(0.6), UnilateralCondition::Position),
+        ("dissipative, γ = 0.8", ChatterScheme::Dissipative(0.8), UnilateralCondition::Position),
+        ("dissipative, γ = 1", ChatterScheme::Dissipative(1.0), UnilateralCondition::Position),
+        ("midpoint, rate", ChatterScheme::Midpoint, rate),
+        ("θ = 0.55, rate", ChatterScheme::Theta(0.55), rate),
+        ("θ = 0.6, rate", ChatterScheme::Theta(0.6), rate),
     ];
     println!("lengths in mm, content above 20 Hz and energies relative to weight and input");
     for &friction in &options.friction {
@@ -62,7 +62,7 @@ pub(crate) fn run(options: &ContactChatterOptions) -> Result<(), AnyError> {
         println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (name, scheme, activation) in schemes {
             for halving in 0..3 {
-                let scene = Scene {
+                let scene = ChatterScene {
                     friction,
                     scheme,
                     activation,

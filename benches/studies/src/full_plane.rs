@@ -19,7 +19,9 @@ use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, CURVE_VIOLET, Figure, Fi
 use basemat::Soil;
 use basemat::bem::full_plane::CqMethod;
 use basemat_problems::series::print_errors;
-use basemat_problems::truncation::{Mesh, block_errors, bonded_impedances, distances, tabled};
+use basemat_problems::truncation::{
+    FullPlaneMesh, block_errors, bonded_impedances, distances, tabled,
+};
 
 /// Errors of the full-plane ground over the number of free-surface elements.
 #[derive(Debug, clap::Args)]
@@ -44,7 +46,7 @@ const STRIP_BETA: f64 = 1.15;
 
 /// Errors of one mesh.
 struct TruncationRow {
-    mesh: Mesh,
+    mesh: FullPlaneMesh,
     /// Growth per step with the base uplifted and bonded.
     growth: [f64; 2],
     /// Distance from the table.
@@ -67,8 +69,8 @@ fn rows(
     frees: &[usize],
 ) -> Result<Vec<TruncationRow>, AnyError> {
     let (frequencies, references) = tabled("0333");
-    let mesh = Mesh { elements, free: 0, beta: STRIP_BETA, quadrature };
-    let longest = Mesh { free: frees.last().map_or(0, |free| 4 * free), ..mesh };
+    let mesh = FullPlaneMesh { elements, free: 0, beta: STRIP_BETA, quadrature };
+    let longest = FullPlaneMesh { free: frees.last().map_or(0, |free| 4 * free), ..mesh };
     // A march with the time kernel is unstable on so long a surface.
     let without_truncation =
         quadrature.map(|_| bonded_impedances(POISSON_RATIO, longest, &frequencies));
@@ -76,7 +78,7 @@ fn rows(
     frees
         .iter()
         .map(|&free| {
-            let mesh = Mesh { free, ..mesh };
+            let mesh = FullPlaneMesh { free, ..mesh };
             let computed = bonded_impedances(POISSON_RATIO, mesh, &frequencies);
             let states = mesh.ground(soil).assess(mesh.time_step(soil), SMALLEST_GROWTH)?;
             Ok(TruncationRow {
@@ -152,7 +154,7 @@ pub(crate) fn run(options: &FullPlaneOptions) -> Result<(), AnyError> {
     println!("rigid block under a Ricker pulse against the half-plane, time kernel at beta = 1");
     for (elements, frees) in [(8, &[0, 5, 10, 20][..]), (16, &[0, 5, 10, 20])] {
         for &free in frees.iter().take(if options.short { 2 } else { 4 }) {
-            let mesh = Mesh { elements, free, beta: 1.0, quadrature: None };
+            let mesh = FullPlaneMesh { elements, free, beta: 1.0, quadrature: None };
             let scene = format!("{elements} elements, {free} free on either side");
             print_errors(&scene, &["u_base", "theta", "V"], &block_errors(mesh));
         }

@@ -7,7 +7,7 @@
 
 use basemat::history::HistoryMethod;
 
-use basemat_problems::passivity::Scene;
+use basemat_problems::passivity::PassivityScene;
 
 /// Passivity of the half-plane under random tractions and displacements.
 #[derive(Debug, clap::Args)]
@@ -49,8 +49,16 @@ pub(crate) fn run(options: &PassivityOptions) {
                     HistoryMethod::Auto
                 };
                 let tolerance = options.tolerance.unwrap_or(0.0);
-                let scene =
-                    Scene { poisson, beta, graded, elements, steps, seed: 1, history, tolerance };
+                let scene = PassivityScene {
+                    poisson,
+                    beta,
+                    graded,
+                    elements,
+                    steps,
+                    seed: 1,
+                    history,
+                    tolerance,
+                };
                 let begin = std::time::Instant::now();
                 let work = scene.least_work();
                 let growth = scene.growth_of_tractions();

@@ -9,16 +9,18 @@ use basemat::interface::{
     Bonded, ContactState, FrictionLimit, InterfaceLaw, ThinLayer, UnilateralCondition,
 };
 use basemat::{Error, Simulation};
-use basemat_problems::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
+use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, friction, ground, shake, soil, tower};
 
 fn thin_layer() -> ThinLayer {
-    ThinLayer::new(soil(SI), 1.0, 0.3).unwrap()
+    ThinLayer::new(soil(SI_UNITS), 1.0, 0.3).unwrap()
 }
 
 fn shaken_tower(on_half_plane: bool) -> SimulationBuilder {
-    let builder = Simulation::builder(2.5e-3).structure(tower(SI, None)).motion(shake(SI, 0.6));
+    let builder = Simulation::builder(2.5e-3)
+        .structure(tower(SI_UNITS, None))
+        .motion(shake(SI_UNITS, 0.6));
     if on_half_plane {
-        builder.ground(ground(SI, 6, Grading::Cosine))
+        builder.ground(ground(SI_UNITS, 6, Grading::Cosine))
     } else {
         let springs = SpringGround::new(-2.0..2.0, 6, 5e7, 4e7).unwrap();
         builder.ground(springs.with_dashpots(4e5, 3e5).unwrap())
@@ -77,7 +79,7 @@ fn every_combination_runs() {
                 for search in [ContactSearch::Robust, ContactSearch::FlowChart { iterations: 50 }] {
                     let name = format!("{on_half_plane}, law {law}, scheme {scheme}, {search:?}");
                     let builder = with_scheme(with_law(shaken_tower(on_half_plane), law), scheme);
-                    let builder = builder.gravity(GRAVITY).contact_search(search);
+                    let builder = builder.gravity(SCENE_GRAVITY).contact_search(search);
                     let mut simulation = builder.build().unwrap();
                     match simulation.run(250, |_| {}) {
                         Ok(run) => {
@@ -120,7 +122,7 @@ fn stored_energy(contact: &[ContactState], elements: &[ContactElement]) -> f64 {
 /// The energy balance contains what a thick layer stores beyond its energy at rest.
 #[test]
 fn layers_store_energy() {
-    let builder = with_law(shaken_tower(true), 3).gravity(GRAVITY).scheme(Midpoint);
+    let builder = with_law(shaken_tower(true), 3).gravity(SCENE_GRAVITY).scheme(Midpoint);
     let mut simulation = builder.build().unwrap();
     assert_eq!(simulation.state().energy_balance.interface, 0.0);
     let mut largest = 0.0_f64;
@@ -144,12 +146,12 @@ fn combinations_without_sense_are_refused() {
     assert!(
         matches!(weightless, Err(Error::Scene { quantity, .. }) if quantity.contains("static"))
     );
-    assert!(shaken_tower(true).interface(static_limit).gravity(GRAVITY).build().is_ok());
+    assert!(shaken_tower(true).interface(static_limit).gravity(SCENE_GRAVITY).build().is_ok());
     for value in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-320] {
         assert!(thin_layer().with_thickness_ratio(value).is_err(), "{value}");
     }
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(ThinLayer::new(soil(SI), value, 0.3).is_err());
+        assert!(ThinLayer::new(soil(SI_UNITS), value, 0.3).is_err());
         assert!(ThinLayer::from_stiffness(value, 1.0, 0.3).is_err());
         assert!(ThinLayer::from_stiffness(1.0, value, 0.3).is_err());
     }
@@ -158,16 +160,17 @@ fn combinations_without_sense_are_refused() {
         assert!(thin_layer().with_slip_stiffness_ratio(value).is_err());
     }
     for friction in [-0.1, f64::NAN, f64::NEG_INFINITY] {
-        assert!(ThinLayer::new(soil(SI), 1.0, friction).is_err());
+        assert!(ThinLayer::new(soil(SI_UNITS), 1.0, friction).is_err());
     }
-    assert!(ThinLayer::new(soil(SI), 1.0, f64::INFINITY).is_ok());
+    assert!(ThinLayer::new(soil(SI_UNITS), 1.0, f64::INFINITY).is_ok());
 }
 
 /// Last state of a tower on layers that never slip, with this ratio of stiffness in slip.
 fn state_with_slip_stiffness(ratio: f64) -> State {
-    let layer = ThinLayer::new(soil(SI), 1.0, f64::INFINITY).unwrap();
+    let layer = ThinLayer::new(soil(SI_UNITS), 1.0, f64::INFINITY).unwrap();
     let layer = layer.with_slip_stiffness_ratio(ratio).unwrap();
-    let mut simulation = shaken_tower(true).interface(layer).gravity(GRAVITY).build().unwrap();
+    let mut simulation =
+        shaken_tower(true).interface(layer).gravity(SCENE_GRAVITY).build().unwrap();
     let run = simulation.run(300, |_| {}).unwrap();
     assert!(run.whole.uplifted_fraction.largest().value > 0.1);
     simulation.state().clone()

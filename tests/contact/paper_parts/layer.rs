@@ -11,14 +11,16 @@ use basemat::interface::{
 };
 use basemat::results::Run;
 use basemat::unobserved;
-use basemat_problems::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
+use basemat_problems::scenes::{
+    SCENE_GRAVITY, SI_UNITS, block, friction, ground, scene, soil, tower,
+};
 
 const ELEMENT_LENGTH: f64 = 1.3;
 /// Height of the layer before its thickness ratio, m.
 const LAYER_HEIGHT: f64 = 0.8;
 
 fn layer(ratio: f64) -> ThinLayer {
-    ThinLayer::new(soil(SI), LAYER_HEIGHT, 0.3)
+    ThinLayer::new(soil(SI_UNITS), LAYER_HEIGHT, 0.3)
         .unwrap()
         .with_thickness_ratio(ratio)
         .unwrap()
@@ -26,7 +28,7 @@ fn layer(ratio: f64) -> ThinLayer {
 
 /// Nodal forces of a thin quadrilateral, nodes counter-clockwise from below left.
 fn element_forces(ratio: f64, formulation: QuadFormulation, u: &[f64; 8]) -> [f64; 8] {
-    let soil = soil(SI);
+    let soil = soil(SI_UNITS);
     let young = 2.0 * soil.shear_modulus() * (1.0 + soil.poisson());
     let material = Material::new(young, soil.poisson(), 0.0).unwrap();
     let t = ratio * LAYER_HEIGHT;
@@ -116,7 +118,8 @@ struct RecordedRun {
 }
 
 fn recorded_run(law: impl InterfaceLaw + 'static) -> RecordedRun {
-    let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
+    let mut simulation =
+        scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).interface(law).build().unwrap();
     let mut states = Vec::new();
     let run = simulation.run(400, |state| states.push(state.clone())).unwrap();
     RecordedRun { states, run }
@@ -209,7 +212,7 @@ impl ContactOperator<'_> {
 /// The compliance adds to the diagonal.
 #[test]
 fn layers_do_not_worsen_the_condition_of_the_contact_operator() {
-    let mut ground = ground(SI, 10, Grading::Uniform);
+    let mut ground = ground(SI_UNITS, 10, Grading::Uniform);
     ground.prepare(2.5e-3, None, &mut unobserved).unwrap();
     let mut step_compliance = vec![0.0; OPERATOR_SIZE * OPERATOR_SIZE];
     ground.step_compliance(&mut step_compliance).unwrap();
@@ -218,7 +221,7 @@ fn layers_do_not_worsen_the_condition_of_the_contact_operator() {
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     println!("none: {hard:.4}");
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let law = ThinLayer::new(soil(SI), 1.0, 0.3).unwrap();
+        let law = ThinLayer::new(soil(SI_UNITS), 1.0, 0.3).unwrap();
         let law = law.with_thickness_ratio(ratio).unwrap();
         let layer_compliance = law.compliance(Mode::Stick, &start);
         let soft = ContactOperator { step_compliance, layer_compliance }.condition();
@@ -234,10 +237,10 @@ fn layers_do_not_worsen_the_condition_of_the_contact_operator() {
 #[test]
 fn preload_compresses_the_layer() {
     let law = layer(0.1);
-    let builder = scene(SI, 0.0).structure(tower(SI, None)).interface(law);
+    let builder = scene(SI_UNITS, 0.0).structure(tower(SI_UNITS, None)).interface(law);
     let mut simulation = builder.build().unwrap();
     let state = simulation.state();
-    let weight = 4.0 * 6.0 * 1500.0 * GRAVITY;
+    let weight = 4.0 * 6.0 * 1500.0 * SCENE_GRAVITY;
     assert!((state.normal_force / weight - 1.0).abs() < 1e-9);
     for contact in &state.contact {
         let expected = -contact.pressure / law.stiffness()[0];

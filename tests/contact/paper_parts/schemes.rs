@@ -6,7 +6,7 @@
 use basemat::coupled::{HhtAlpha, Newmark, SchemeCoefficients, TimeScheme};
 use basemat::results::Quantity;
 use basemat::structure::{Structure, Triplets};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 type SquareMatrix = [[f64; 3]; 3];
 
@@ -211,9 +211,9 @@ fn orders_are_two_unless_gamma_damps() {
 fn traction_enters_at_the_end_of_the_step() {
     for alpha in [0.0, -0.2] {
         let mut mass = Triplets::new(3);
-        block(SI).mass(&mut mass).unwrap();
-        let mut simulation = scene(SI, 0.5)
-            .structure(block(SI))
+        block(SI_UNITS).mass(&mut mass).unwrap();
+        let mut simulation = scene(SI_UNITS, 0.5)
+            .structure(block(SI_UNITS))
             .interface(friction(0.3))
             .scheme(HhtAlpha::new(alpha).unwrap())
             .build()

@@ -6,12 +6,12 @@ use basemat::contact::{ContactSearch, SearchMethod};
 use basemat::coupled::SimulationBuilder;
 use basemat::coupled::StepError;
 use basemat::{Error, Result, Simulation};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 const FLOW_CHART: ContactSearch = ContactSearch::FlowChart { iterations: 60 };
 
 fn sliding_block(strength: f64, coefficient: f64) -> SimulationBuilder {
-    scene(SI, strength).structure(block(SI)).interface(friction(coefficient))
+    scene(SI_UNITS, strength).structure(block(SI_UNITS)).interface(friction(coefficient))
 }
 
 /// Where the flow chart converges it finds the modes of the robust search.

@@ -12,13 +12,13 @@ use basemat::{Error, Simulation};
 use serde_json::Value;
 
 use super::sum::sum;
-use basemat_problems::scenes::{SI, scene};
+use basemat_problems::scenes::{SI_UNITS, scene};
 
 /// A block on two springs after nine steps.
 fn block_after_nine_steps() -> Simulation {
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let ground = SpringGround::new(-2.0..2.0, 2, 5e7, 4e7).unwrap();
-    let mut simulation = scene(SI, 0.6)
+    let mut simulation = scene(SI_UNITS, 0.6)
         .probe(Probe::displacement("top", block.horizontal_at(3.0)))
         .structure(block)
         .ground(ground.with_dashpots(4e5, 3e5).unwrap())

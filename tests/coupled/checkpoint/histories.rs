@@ -16,7 +16,7 @@ use basemat::soil::SoilProfile;
 use basemat::{Error, MemoryError, Simulation};
 
 use super::{RUN_STEPS, half_plane, refusal, through_text};
-use basemat_problems::scenes::{SI, block, friction, scene, soil, states};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, states};
 
 /// A chosen history in at most these bytes.
 fn within(memory: usize) -> HistoryOptions {
@@ -26,8 +26,8 @@ fn within(memory: usize) -> HistoryOptions {
 /// A block on equal elements whose ground has a history by these options.
 fn with_history(elements: usize, options: impl Into<HistoryOptions>) -> SimulationBuilder {
     let ground =
-        ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, elements).unwrap()).unwrap();
-    let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+        ElasticGround::new(soil(SI_UNITS), Strip::uniform(-2.0..2.0, elements).unwrap()).unwrap();
+    let base = scene(SI_UNITS, 0.6).interface(friction(0.3)).structure(block(SI_UNITS));
     // Coordinates that do not depend on the number of steps.
     let base = base.coordinates(Coordinates::Physical);
     base.ground(ground.with_history(options).unwrap())
@@ -173,12 +173,12 @@ fn a_used_simulation_resumes_the_same_scene() {
 
 /// A block on this ground in coordinates that do not depend on the number of steps.
 fn block_on(ground: ElasticGround) -> SimulationBuilder {
-    let builder = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    let builder = scene(SI_UNITS, 0.6).interface(friction(0.3)).structure(block(SI_UNITS));
     builder.ground(ground).coordinates(Coordinates::Physical)
 }
 
 fn on_layers(memory: usize) -> SimulationBuilder {
-    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil(SI), 6.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock().with_layer(soil(SI_UNITS), 6.0).unwrap();
     let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
     block_on(ground.with_history(within(memory)).unwrap())
 }
@@ -270,7 +270,7 @@ fn a_step_count_without_tractions_takes_no_memory() {
     for count in [4, 10] {
         let elements = Strip::uniform(-2.0..2.0, count).unwrap().elements();
         let kernel: Arc<dyn ConvolutionWeights> =
-            Arc::new(PatchKernel::new(soil(SI), elements, 0.01).unwrap());
+            Arc::new(PatchKernel::new(soil(SI_UNITS), elements, 0.01).unwrap());
         assert_counts_are_corrupt(&mut DirectHistory::new(Arc::clone(&kernel)));
         assert_counts_are_corrupt(&mut RelaxedFftHistory::new(Arc::clone(&kernel)));
         assert_counts_are_corrupt(&mut ExponentialHistory::new(kernel, 1e-6).unwrap());
@@ -281,7 +281,7 @@ fn a_step_count_without_tractions_takes_no_memory() {
 fn run_with_tolerance(method: HistoryMethod, tolerance: f64) -> Run {
     let tolerance = Some(tolerance);
     let ground = half_plane(HistoryOptions { tolerance, ..HistoryOptions::from(method) });
-    let builder = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    let builder = scene(SI_UNITS, 0.6).interface(friction(0.3)).structure(block(SI_UNITS));
     builder.ground(ground).build().unwrap().run(RUN_STEPS, |_| {}).unwrap()
 }
 

@@ -16,13 +16,13 @@ use basemat::coupled::CheckpointError;
 use basemat::history::HistoryOptions;
 use basemat::{Error, Simulation};
 
-use basemat_problems::scenes::{SI, soil};
+use basemat_problems::scenes::{SI_UNITS, soil};
 
 /// Steps of a run, longer than the window of the exponentials and several leaves of the transforms.
 const RUN_STEPS: usize = 260;
 
 fn half_plane(history: impl Into<HistoryOptions>) -> ElasticGround {
-    ElasticGround::new(soil(SI), Strip::graded(-2.0..2.0, 6).unwrap())
+    ElasticGround::new(soil(SI_UNITS), Strip::graded(-2.0..2.0, 6).unwrap())
         .unwrap()
         .with_history(history)
         .unwrap()

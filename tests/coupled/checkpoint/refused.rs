@@ -14,13 +14,13 @@ use basemat::structure::{
 use basemat::{Error, Result};
 
 use super::{half_plane, refusal, spring_bed};
-use basemat_problems::scenes::{Rider, SI, block, friction, scene};
-use basemat_problems::wrapped::BareGround;
+use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene};
+use basemat_problems::wrapped::MinimalGround;
 use basemat_problems::{needed_from, own_force};
 
 /// A block on springs, all but its law.
 fn on_springs() -> SimulationBuilder {
-    scene(SI, 0.6).structure(block(SI)).ground(spring_bed())
+    scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).ground(spring_bed())
 }
 
 fn sliding_block() -> SimulationBuilder {
@@ -37,7 +37,10 @@ fn other_scenes_are_refused() {
     simulation.run(20, |_| {}).unwrap();
     let heavier = RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
     for (quantity, other) in [
-        ("number of degrees of freedom", sliding_block().structure(Rider { block: block(SI) })),
+        (
+            "number of degrees of freedom",
+            sliding_block().structure(Rider { block: block(SI_UNITS) }),
+        ),
         ("list of contact elements", sliding_block().ground(bed_of(6, 5e7))),
         ("list of probes", sliding_block().probe(Probe::displacement("top", vec![(0, 1.0)]))),
         ("structure", sliding_block().structure(heavier)),
@@ -117,7 +120,7 @@ fn what_decides_a_run_is_compared() {
 
 #[test]
 fn grounds_that_cannot_be_saved_say_so() {
-    let unsaved_ground = sliding_block().ground(BareGround(spring_bed()));
+    let unsaved_ground = sliding_block().ground(MinimalGround(spring_bed()));
     let mut simulation = unsaved_ground.build().unwrap();
     simulation.run(5, |_| {}).unwrap();
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "ground" });
@@ -132,7 +135,7 @@ struct UnsavedRider(Rider);
 
 impl UnsavedRider {
     fn new() -> Self {
-        Self(Rider { block: block(SI) })
+        Self(Rider { block: block(SI_UNITS) })
     }
 }
 
@@ -155,7 +158,7 @@ impl NonlinearForce for UnsavedRider {
 #[test]
 fn nonlinear_structures_that_cannot_be_saved_say_so() {
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "structure" });
-    let rider = sliding_block().structure(Rider { block: block(SI) }).build().unwrap();
+    let rider = sliding_block().structure(Rider { block: block(SI_UNITS) }).build().unwrap();
     let checkpoint = rider.checkpoint().unwrap();
     let structures: [Box<dyn Structure>; 4] = [
         Box::new(UnsavedRider::new()),

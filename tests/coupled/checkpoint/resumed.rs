@@ -15,7 +15,7 @@ use basemat::structure::{NonlinearForce, RigidBlock, RigidBody, Structure, Tripl
 use basemat::{Result, Simulation};
 
 use super::{RUN_STEPS, half_plane, spring_bed, through_text};
-use basemat_problems::scenes::{Rider, SI, block, friction, scene, soil, states, tower};
+use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene, soil, states, tower};
 use basemat_problems::{needed_from, own_force};
 
 /// Rigid block with a weak spring against rotation whose anchor follows the block.
@@ -26,7 +26,7 @@ struct BlockWithMovingAnchor {
 
 impl BlockWithMovingAnchor {
     fn new() -> Self {
-        Self { block: block(SI), anchor: 0.0 }
+        Self { block: block(SI_UNITS), anchor: 0.0 }
     }
 }
 
@@ -69,40 +69,42 @@ type NamedScene = (&'static str, fn() -> SimulationBuilder);
 
 /// Two pulses and friction, all but structure and ground.
 fn with_friction() -> SimulationBuilder {
-    scene(SI, 0.6).interface(friction(0.3))
+    scene(SI_UNITS, 0.6).interface(friction(0.3))
 }
 
 fn named_scenes() -> Vec<NamedScene> {
     vec![
         ("direct", || {
-            with_friction().structure(block(SI)).ground(half_plane(HistoryMethod::Direct))
+            with_friction().structure(block(SI_UNITS)).ground(half_plane(HistoryMethod::Direct))
         }),
         ("transforms", || {
             let ground = half_plane(HistoryMethod::RelaxedFft);
-            with_friction().structure(tower(SI, None)).ground(ground)
+            with_friction().structure(tower(SI_UNITS, None)).ground(ground)
         }),
         ("transforms along the surface", || {
             let strip = Strip::uniform(-2.0..2.0, 9).unwrap();
-            let ground = ElasticGround::new(soil(SI), strip).unwrap();
+            let ground = ElasticGround::new(soil(SI_UNITS), strip).unwrap();
             let ground = ground.with_history(HistoryMethod::RelaxedFft).unwrap();
-            with_friction().structure(block(SI)).ground(ground)
+            with_friction().structure(block(SI_UNITS)).ground(ground)
         }),
         ("exponentials", || {
             let ground = half_plane(HistoryMethod::Exponentials);
-            with_friction().structure(tower(SI, None)).ground(ground)
+            with_friction().structure(tower(SI_UNITS, None)).ground(ground)
         }),
         ("exponentials, bonded", || {
             let ground = half_plane(HistoryMethod::Exponentials);
-            with_friction().interface(Bonded).structure(block(SI)).ground(ground)
+            with_friction().interface(Bonded).structure(block(SI_UNITS)).ground(ground)
         }),
-        ("auto", || with_friction().structure(block(SI)).ground(half_plane(HistoryMethod::Auto))),
-        ("spring bed", || with_friction().structure(block(SI)).ground(spring_bed())),
+        ("auto", || {
+            with_friction().structure(block(SI_UNITS)).ground(half_plane(HistoryMethod::Auto))
+        }),
+        ("spring bed", || with_friction().structure(block(SI_UNITS)).ground(spring_bed())),
         ("nonlinear", || {
-            with_friction().structure(Rider { block: block(SI) }).ground(spring_bed())
+            with_friction().structure(Rider { block: block(SI_UNITS) }).ground(spring_bed())
         }),
         ("cells cut by a disc", || {
             let cylinder = RigidBody::cylinder(2.0, 6.0, 2000.0).unwrap();
-            let ground = ElasticGround::under(soil(SI), &cylinder, 4).unwrap();
+            let ground = ElasticGround::under(soil(SI_UNITS), &cylinder, 4).unwrap();
             with_friction().structure(cylinder).ground(ground)
         }),
         ("structure with memory", || {
@@ -183,7 +185,11 @@ fn a_structure_is_returned_in_its_last_state() {
 }
 
 fn sliding_block() -> Simulation {
-    scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap()
+    scene(SI_UNITS, 0.6)
+        .structure(block(SI_UNITS))
+        .interface(friction(0.35))
+        .build()
+        .unwrap()
 }
 
 /// A simulation resumed at its start is as new, also in the effort of its last step.

@@ -12,15 +12,16 @@ use serde_json::Value;
 
 use super::sum::sealed;
 use super::{RUN_STEPS, half_plane, refusal, spring_bed, through_text};
-use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::laws_with_memory::{BreakingBond, SlipWeakening, SofteningPads};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 const SLIP_WEAKENING: SlipWeakening = SlipWeakening { first: 0.35, residual: 0.15, distance: 0.05 };
-const BREAKING_BOND: Adhesion = Adhesion { friction: 0.3, strength: 2e4, breaks_by_sliding: true };
+const BREAKING_BOND: BreakingBond =
+    BreakingBond { friction: 0.3, strength: 2e4, breaks_by_sliding: true };
 const SOFTENING_PADS: SofteningPads = SofteningPads { stiffness: [6e7, 3e7], softening: 2e5 };
 
 fn on_springs() -> SimulationBuilder {
-    scene(SI, 0.6).structure(block(SI)).ground(spring_bed())
+    scene(SI_UNITS, 0.6).structure(block(SI_UNITS)).ground(spring_bed())
 }
 
 /// State variables of all elements.

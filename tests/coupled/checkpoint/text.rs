@@ -13,10 +13,10 @@ use serde_json::Value;
 use super::histories::auto;
 use super::sum::sealed;
 use super::{half_plane, refusal};
-use basemat_problems::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI_UNITS, block, friction, scene};
 
 fn with_history(history: HistoryMethod) -> Simulation {
-    let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    let base = scene(SI_UNITS, 0.6).interface(friction(0.3)).structure(block(SI_UNITS));
     base.ground(half_plane(history)).build().unwrap()
 }
 

@@ -3,7 +3,7 @@
 use basemat::bem::Ground;
 use basemat::structure::{Base, BaseNode, DofCombination, Structure};
 use basemat_problems::dense::{
-    Matrix, collect, dot, eigenvalues, inverse, mass, multiply, solve, stiffness,
+    DenseMatrix, collect, dot, eigenvalues, inverse, mass, multiply, solve, stiffness,
 };
 
 use super::structures::GRAVITY_ACCELERATION;
@@ -23,7 +23,7 @@ fn interpolation(base: &Base, [x, y]: [f64; 2]) -> Vec<(&BaseNode, f64)> {
         return vec![(left, 1.0 - fraction), (right, fraction)];
     }
     let corners = [nodes[0], nodes[1], nodes[2]];
-    let coordinates: Matrix = vec![
+    let coordinates: DenseMatrix = vec![
         vec![1.0; 3],
         corners.iter().map(|node| node.x).collect(),
         corners.iter().map(|node| node.y).collect(),
@@ -62,7 +62,7 @@ fn base_rows(base: &Base, place: [f64; 2], dofs: usize) -> Vec<Vec<f64>> {
 }
 
 /// Static compliance with a soft common settlement and translation, which change no equilibrium and no stability.
-fn compliance_with_common_motion(ground: &dyn Ground, areas: &[f64]) -> Matrix {
+fn compliance_with_common_motion(ground: &dyn Ground, areas: &[f64]) -> DenseMatrix {
     let count = ground.elements().len();
     let size = areas.len();
     let mut flat = vec![0.0; size * size];
@@ -85,15 +85,15 @@ fn largest_absolute(values: &[f64]) -> f64 {
 
 /// Dense matrices of a scene.
 pub(super) struct Reference {
-    elastic: Matrix,
-    geometric: Matrix,
+    elastic: DenseMatrix,
+    geometric: DenseMatrix,
     weight: Vec<f64>,
     /// Mean displacements of the elements: down for all elements, then along x, then along y.
-    pub(super) means: Matrix,
+    pub(super) means: DenseMatrix,
     areas: Vec<f64>,
     /// Number of elements.
     count: usize,
-    compliance: Matrix,
+    compliance: DenseMatrix,
 }
 
 /// End of the path of equilibria under growing weight.
@@ -106,8 +106,8 @@ pub(super) enum PathEnd {
 
 /// Stiffness of the ground, and tractions on it as rows over all degrees of freedom.
 struct GroundStiffness {
-    stiffness: Matrix,
-    tractions: Matrix,
+    stiffness: DenseMatrix,
+    tractions: DenseMatrix,
 }
 
 impl Reference {
@@ -253,7 +253,7 @@ impl Reference {
     }
 
     /// Adds springs that carry no force, since nothing pushes along the ground.
-    fn add_soft_springs_along_the_ground(&self, matrix: &mut Matrix) {
+    fn add_soft_springs_along_the_ground(&self, matrix: &mut DenseMatrix) {
         let dofs = self.weight.len();
         for place in self.count..self.means.len() {
             let stiffness = 1e-3 / self.compliance[place][place];
@@ -288,7 +288,7 @@ fn path_lost_before(increment: usize) -> PathEnd {
 }
 
 /// Whether a symmetric matrix is positive definite, by Cholesky's factors.
-fn is_definite(matrix: &Matrix) -> bool {
+fn is_definite(matrix: &DenseMatrix) -> bool {
     let n = matrix.len();
     let mut lower = vec![vec![0.0; n]; n];
     for i in 0..n {

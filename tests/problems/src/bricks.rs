@@ -6,9 +6,6 @@ use basemat::fem::{Direction, Hex8, Material, Spring};
 
 use crate::supported::{HINGED_DIRECTIONS, NodalLoad, SupportedMesh, X, Y, Z};
 
-pub use BrickGrid as Block;
-pub use DISTORTED_BRICK as DISTORTED;
-
 /// Corners of the distorted brick of `tests/data/elements`.
 pub const DISTORTED_BRICK: [[f64; 3]; 8] = [
     [0.12, -0.12, 0.06],

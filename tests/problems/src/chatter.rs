@@ -13,10 +13,6 @@ const CUTOFF_FREQUENCY: f64 = 20.0;
 const BLOCK_DENSITY: f64 = 1500.0;
 const BLOCK_WIDTH: f64 = 4.0;
 
-pub use ChatterResult as Outcome;
-pub use ChatterScene as Scene;
-pub use ChatterScheme as Scheme;
-
 #[derive(Debug, Clone, Copy)]
 /// Time integration of the run.
 pub enum ChatterScheme {

@@ -5,9 +5,6 @@ use basemat::fem::{BeamSection, Direction, Element, SpaceBeam};
 use crate::space_beams::{concrete, section};
 use crate::supported::{CLAMPED_DIRECTIONS, SupportedMesh};
 
-pub use COLUMN_LENGTH as LENGTH;
-pub use self_weight_buckling as own_weight;
-
 /// m.
 pub const COLUMN_LENGTH: f64 = 4.0;
 /// Weight per length, N/m, at a gravity of 1 m/s².

@@ -18,9 +18,6 @@ const DISTINCTION_TOLERANCE: f64 = 1e-6;
 /// Of brute force, relative to the largest traction and to the largest jump.
 const VIOLATION_TOLERANCE: f64 = 1e-10;
 
-pub use ContactTally as Tally;
-pub use SEQUENCE_STEPS as STEPS;
-
 /// Matrix of a problem, and its elements.
 struct ProblemMatrix {
     delassus: Vec<f64>,

@@ -33,10 +33,6 @@ pub const TABLE_1_ROWS: [(&str, Option<f64>); 5] = [
 /// Their peak base shears, printed in lb, taken as lb/ft.
 pub const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 
-pub use METRES_PER_FOOT as FOOT;
-pub use PermanentLayer as Glue;
-pub use TABLE_1_ROWS as ROWS;
-
 /// Choices of the model; the defaults are given in the paper, calibrated, or assumed.
 #[derive(Debug, Clone, Copy)]
 pub struct Containment {

@@ -2,8 +2,6 @@
 
 use basemat::fem::Direction;
 
-pub use NODE_DIRECTIONS as IN_SPACE;
-
 /// All directions of a node in space: along the axes, then about them.
 pub const NODE_DIRECTIONS: [Direction; 6] = [
     Direction::X,

@@ -13,8 +13,6 @@ const LAW_TOLERANCE: f64 = 1e-9;
 /// Difference of equal tractions.
 const SAME_TRACTION_TOLERANCE: f64 = 1e-8;
 
-pub use ELEMENT_COUNT as COUNT;
-
 /// A linear condition on an element: a gap + b slip + c pressure + d shear = value.
 #[derive(Clone, Copy)]
 struct LinearCondition {

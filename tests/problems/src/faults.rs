@@ -2,8 +2,6 @@
 
 use basemat::{Error, FileFault};
 
-pub use CLEAR_QUANTITY as CLEAR;
-
 /// A value that cannot be right.
 pub fn value(quantity: &str, found: &str, needed: &str) -> FileFault {
     FileFault::Value { quantity: quantity.into(), found: found.into(), needed: needed.into() }

@@ -18,8 +18,6 @@ use crate::random::Random;
 
 const STEP_COUNT: usize = 60;
 
-pub use FlexibleSceneTotals as Outcome;
-
 /// Sines in three directions, at rest at t = 0.
 #[derive(Debug, Clone)]
 pub struct Sines {

@@ -16,12 +16,6 @@ pub const ELEMENT_COUNT: usize = 10;
 /// The whole record at half an element over `c_P`.
 pub const RECORD_STEPS: usize = 54_000;
 
-pub use ELEMENT_COUNT as COUNT;
-pub use ELEMENT_LENGTH as ELEMENT;
-pub use RECORD_STEPS as STEPS;
-pub use TIMED_SCENES as ROWS;
-pub use TimedScene as Row;
-
 /// The soil of the headline problem: ν = 1/3, waves of 650 and 1300 ft/s.
 pub fn soil() -> Result<Soil> {
     Soil::from_wave_speeds(198.12, 396.24, 1804.0)

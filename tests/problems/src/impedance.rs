@@ -6,8 +6,6 @@ use super::rigid_strip::{DrivenStrip, StripTractions};
 use super::series::{RelativeError, nearest_integer};
 use super::table;
 
-pub use ForceSampling as Force;
-
 /// Ricker pulse of peak 1.
 pub fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
     let a = ((time - center) / sigma).powi(2);

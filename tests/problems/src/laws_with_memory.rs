@@ -81,8 +81,6 @@ pub struct BreakingBond {
     pub breaks_by_sliding: bool,
 }
 
-pub use BreakingBond as Adhesion;
-
 impl BreakingBond {
     /// Coulomb's law with the present state variables.
     fn current_law(&self, start: &PreviousContact) -> Coulomb {

@@ -43,6 +43,5 @@ pub mod welded_block;
 pub mod wrapped;
 
 pub use basemat_testkit::{
-    ReferenceTable, Table, assert_close, check_sum, close, csv, data_path, heavy, random, series,
-    table,
+    ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random, series, table,
 };

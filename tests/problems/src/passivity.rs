@@ -22,9 +22,6 @@ pub struct PassivityScene {
     pub tolerance: f64,
 }
 
-pub use PassivityScene as Scene;
-pub use min_work_ratio as least_work;
-
 impl PassivityScene {
     fn ground(&self) -> ElasticGround {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();

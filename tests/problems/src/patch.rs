@@ -4,11 +4,6 @@ use basemat::fem::{Hex8, Material};
 
 use crate::supported::SupportedMesh;
 
-pub use CUBE_BRICKS as BRICKS;
-pub use PATCH_NODES as POINTS;
-pub use PATCH_QUADS as QUADS;
-pub use SHELL_STATES as STATES;
-
 /// Nodes of the distorted quadrilaterals, corners of the patch first.
 pub const PATCH_NODES: [[f64; 2]; 8] = [
     [0.0, 0.0],

@@ -14,8 +14,6 @@ pub struct PrescribedGround {
     motion: Arc<Mutex<Vec<f64>>>,
 }
 
-pub use PrescribedGround as Prescribed;
-
 impl PrescribedGround {
     /// A ground at rest, and its motion in the next step, to be set.
     pub fn new(

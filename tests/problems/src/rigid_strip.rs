@@ -5,9 +5,6 @@ use basemat::{Soil, unobserved};
 
 use super::dense::inverse;
 
-pub use DrivenStrip as RigidStrip;
-pub use StripTractions as Contact;
-
 /// Tractions between the strip and the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StripTractions {

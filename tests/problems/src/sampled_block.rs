@@ -11,9 +11,6 @@ use basemat::{Result, Simulation, Soil};
 use super::series::{RelativeError, TabledSeries, nearest_integer};
 use super::table;
 
-pub use SAMPLING_INTERVAL as SAMPLE;
-pub use SampledHistory as History;
-
 /// The scene of the tables `td_*`: bonded and weightless under a Ricker pulse.
 pub fn under_pulse(
     structure: impl Structure + 'static,

@@ -22,10 +22,6 @@ pub struct UnitFrame {
 
 pub const SI_UNITS: UnitFrame = UnitFrame { length: 1.0, time: 1.0, mass: 1.0, mirrored: false };
 
-pub use SCENE_GRAVITY as GRAVITY;
-pub use SI_UNITS as SI;
-pub use UnitFrame as Frame;
-
 impl UnitFrame {
     pub fn sign(&self) -> f64 {
         if self.mirrored { -1.0 } else { 1.0 }

@@ -14,14 +14,6 @@ pub use basemat::fem::Direction::{RotationX as RX, RotationY as RY, RotationZ as
 pub const CLAMPED_DIRECTIONS: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
 pub const HINGED_DIRECTIONS: [Direction; 3] = [X, Y, Z];
 
-pub use CLAMPED_DIRECTIONS as CLAMPED;
-pub use ElementMatrix as Part;
-pub use HINGED_DIRECTIONS as HINGED;
-pub use NodalLoad as Load;
-pub use SupportedMesh as Supported;
-pub use assert_near as near;
-pub use rigid_motion as rigid;
-
 /// Force (N) or moment (N m) at a node.
 pub type NodalLoad = (usize, Direction, f64);
 

@@ -22,8 +22,6 @@ pub struct TowerMatrices {
     pub top: DofCombination,
 }
 
-pub use TowerMatrices as Tower;
-
 impl TowerMatrices {
     /// 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
     pub fn new() -> Result<Self> {

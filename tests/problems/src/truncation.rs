@@ -14,8 +14,6 @@ use crate::sampled_block::{SampledHistory, distance, sample, under_pulse};
 use crate::series::{RelativeError, nearest_integer};
 use crate::table;
 
-pub use FullPlaneMesh as Mesh;
-
 /// Full-plane elements under a strip of half width 1.
 #[derive(Debug, Clone, Copy)]
 pub struct FullPlaneMesh {

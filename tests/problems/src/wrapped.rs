@@ -45,11 +45,6 @@ macro_rules! own_force {
     };
 }
 
-pub use LawWithNextMode as Wayward;
-pub use MinimalGround as BareGround;
-pub use MinimalStructure as Bare;
-pub use StructureWithForce as Pulled;
-
 /// A structure with the required methods only.
 pub struct MinimalStructure<S>(pub S);
 

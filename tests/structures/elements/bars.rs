@@ -3,7 +3,7 @@
 //! REFERENCE: closed forms, the elements of the plane.
 
 use basemat::fem::{Dashpot, Element, LumpedMass, MassKind, Spring, Truss};
-use basemat_problems::supported::{CLAMPED, Part, near};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, ElementMatrix, assert_near};
 
 use super::{add, inner};
 
@@ -38,18 +38,20 @@ fn a_truss_stretches_and_sways_in_space() {
     for points in [END_POINTS, [[0.0; 3], [0.0, 0.0, 2.0]], [[0.0; 3], [3.0, 0.0, 0.0]]] {
         let BarAxis { length, along } = bar_axis(points);
         let stiffness = 200.0e6 / length;
-        assert_pair(&Part::Stiffness.of(&truss, &points), |i, j| stiffness * along[i] * along[j]);
+        assert_pair(&ElementMatrix::Stiffness.of(&truss, &points), |i, j| {
+            stiffness * along[i] * along[j]
+        });
         let shortened = [[0.0; 3], along.map(|component| -1e-3 * component)].concat();
         let compressed = truss.in_static_state(&points, &shortened, 9.81).unwrap();
         let force = compressed.compression().unwrap();
-        near("compression", force, 1e-3 * stiffness, 1e-13);
-        assert_pair(&Part::GeometricStiffness.of(&compressed, &points), |i, j| {
+        assert_near("compression", force, 1e-3 * stiffness, 1e-13);
+        assert_pair(&ElementMatrix::GeometricStiffness.of(&compressed, &points), |i, j| {
             let unit = if i == j { 1.0 } else { 0.0 };
             -force / length * (unit - along[i] * along[j])
         });
         for kind in [MassKind::Consistent, MassKind::Lumped] {
-            let mass = Part::Mass(kind).of(&truss, &points);
-            near("mass", mass.iter().sum::<f64>(), 3.0 * 7.8 * length, 1e-14);
+            let mass = ElementMatrix::Mass(kind).of(&truss, &points);
+            assert_near("mass", mass.iter().sum::<f64>(), 3.0 * 7.8 * length, 1e-14);
         }
     }
 }
@@ -58,15 +60,17 @@ fn a_truss_stretches_and_sways_in_space() {
 fn axial_springs_and_dashpots_act_along_their_line_in_space() {
     let along = bar_axis(END_POINTS).along;
     let spring = Spring::axial_in_space([0, 1], 5.0).unwrap();
-    assert_pair(&Part::Stiffness.of(&spring, &END_POINTS), |i, j| 5.0 * along[i] * along[j]);
+    assert_pair(&ElementMatrix::Stiffness.of(&spring, &END_POINTS), |i, j| {
+        5.0 * along[i] * along[j]
+    });
     let dashpot = Dashpot::axial_in_space([0, 1], 3.0).unwrap();
     let mut damping = vec![0.0; 36];
     dashpot.damping(&END_POINTS, &mut damping);
     assert_pair(&damping, |i, j| 3.0 * along[i] * along[j]);
-    for direction in CLAMPED {
+    for direction in CLAMPED_DIRECTIONS {
         let spring = Spring::new([0, 1], direction, 5.0).unwrap();
         assert_eq!(spring.directions(), [direction]);
-        assert_eq!(Part::Stiffness.of(&spring, &END_POINTS), [5.0, -5.0, -5.0, 5.0]);
+        assert_eq!(ElementMatrix::Stiffness.of(&spring, &END_POINTS), [5.0, -5.0, -5.0, 5.0]);
         let mut damping = vec![0.0; 4];
         Dashpot::new([0, 1], direction, 3.0).unwrap().damping(&END_POINTS, &mut damping);
         assert_eq!(damping, [3.0, -3.0, -3.0, 3.0]);
@@ -87,7 +91,7 @@ fn bars_in_a_plane_are_the_bars_of_the_plane() {
         ],
     ];
     for [plane, space] in pairs {
-        for part in [Part::Stiffness, Part::Mass(MassKind::Consistent)] {
+        for part in [ElementMatrix::Stiffness, ElementMatrix::Mass(MassKind::Consistent)] {
             let plane = part.of(&plane, &flat);
             let space = part.of(&space, &flat);
             for i in 0..4 {
@@ -103,9 +107,9 @@ fn bars_in_a_plane_are_the_bars_of_the_plane() {
 #[test]
 fn a_mass_in_space_has_three_rotary_inertias() {
     let at = [[0.0, 0.0, 3.0]];
-    let part = Part::Mass(MassKind::Lumped);
+    let part = ElementMatrix::Mass(MassKind::Lumped);
     let point = LumpedMass::in_space(0, 100.0, [0.0; 3]).unwrap();
-    assert_eq!(point.directions(), &CLAMPED[..3]);
+    assert_eq!(point.directions(), &CLAMPED_DIRECTIONS[..3]);
     assert_eq!(part.of(&point, &at), [100.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 100.0]);
     let slab = part.of(&LumpedMass::in_space(0, 100.0, [30.0, 40.0, 0.0]).unwrap(), &at);
     let diagonal: Vec<f64> = slab.iter().step_by(7).copied().collect();

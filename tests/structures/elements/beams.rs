@@ -8,7 +8,9 @@ use basemat_problems::space_beams::{
     concrete, deep_beam, hinged_cantilever, section, sheared, straight_cantilever,
     thick_cantilever, twisted_cantilever,
 };
-use basemat_problems::supported::{CLAMPED, Part, RX, RY, RZ, Supported, X, Y, Z, near};
+use basemat_problems::supported::{
+    CLAMPED_DIRECTIONS, ElementMatrix, RX, RY, RZ, SupportedMesh, X, Y, Z, assert_near,
+};
 
 use super::{add, cross, inner};
 
@@ -18,10 +20,10 @@ const END_OFFSETS: [[f64; 3]; 2] = [[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]];
 /// Stiffness, geometric stiffness, consistent and lumped mass.
 fn matrices(element: &dyn Element, points: &[[f64; 3]]) -> [Vec<f64>; 4] {
     [
-        Part::Stiffness,
-        Part::GeometricStiffness,
-        Part::Mass(MassKind::Consistent),
-        Part::Mass(MassKind::Lumped),
+        ElementMatrix::Stiffness,
+        ElementMatrix::GeometricStiffness,
+        ElementMatrix::Mass(MassKind::Consistent),
+        ElementMatrix::Mass(MassKind::Lumped),
     ]
     .map(|part| part.of(element, points))
 }
@@ -52,7 +54,7 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
         let points = [[x0, 0.0, z0], [x1, 0.0, z1]];
         let flat = flat.in_static_state(&flat_points, &displacement, 50.0).unwrap();
         let beam = beam.in_static_state(&points, &in_space, 50.0).unwrap();
-        near("compression", beam.compression().unwrap(), flat.compression().unwrap(), 1e-13);
+        assert_near("compression", beam.compression().unwrap(), flat.compression().unwrap(), 1e-13);
         let space_matrices = matrices(&beam, &points);
         for (flat, space) in matrices(&flat, &flat_points).iter().zip(&space_matrices) {
             let tolerance = 1e-14 * largest(flat);
@@ -72,7 +74,7 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
 /// motion of its ends, with taper and rigid arms, and whatever is released.
 #[test]
 fn an_axial_force_works_on_a_rigid_rotation() {
-    for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED] {
+    for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED_DIRECTIONS] {
         let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
@@ -89,7 +91,7 @@ fn an_axial_force_works_on_a_rigid_rotation() {
         let expected = if released.contains(&X) { 0.0 } else { elastic };
         assert!((force - expected).abs() < 1e-12 * elastic, "{force}");
         let taper = 2500.0 * 0.12 * 300.0 * way[2];
-        let matrix = Part::GeometricStiffness.of(&beam, &END_POINTS);
+        let matrix = ElementMatrix::GeometricStiffness.of(&beam, &END_POINTS);
         for (turn, centre) in
             [([0.3, -0.5, 0.8], [1.0, 2.0, -3.0]), ([1.0, 0.2, 0.1], [0.0, 5.0, 0.0])]
         {
@@ -119,7 +121,7 @@ fn an_axial_force_works_on_a_rigid_rotation() {
 /// no force, and the mass of a translation is the whole mass.
 #[test]
 fn rigid_motions_cause_no_force() {
-    for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED] {
+    for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED_DIRECTIONS] {
         let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
@@ -149,7 +151,7 @@ fn rigid_motions_cause_no_force() {
             if kind < 3 {
                 let momentum: f64 =
                     (0..4).map(|k| mass[12 * (6 * (k / 2) + kind) + 6 * (k % 2) + kind]).sum();
-                near("mass", momentum, 2500.0 * 0.12 * length, 1e-12);
+                assert_near("mass", momentum, 2500.0 * 0.12 * length, 1e-12);
             }
         }
         let rows: Vec<Vec<f64>> = stiffness.chunks(12).map(<[f64]>::to_vec).collect();
@@ -166,7 +168,7 @@ fn a_hinge_carries_no_moment() {
     for (section, ratio) in [(section(), 0.0), (sheared(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
     {
         let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
-        near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);
+        assert_near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);
     }
 }
 
@@ -194,7 +196,7 @@ fn a_deep_beam_vibrates_as_tabulated() {
     for (count, table) in tables {
         let scene = deep_beam(count);
         for (found, value) in scene.frequencies(MassKind::Consistent, 9).iter().zip(table) {
-            near("FV5, Hz", *found, value, 2e-6);
+            assert_near("FV5, Hz", *found, value, 2e-6);
         }
     }
 }
@@ -211,17 +213,17 @@ fn a_thick_cantilever_vibrates_as_timoshenko_says() {
         let scene = thick_cantilever(8, &[Z, RZ]);
         let found = scene.frequencies(kind, 6);
         for (found, value) in found.iter().zip(table) {
-            near("cantilever, Hz", *found, value, 1e-6);
+            assert_near("cantilever, Hz", *found, value, 1e-6);
         }
         if kind == MassKind::Consistent {
             for (found, value) in found.iter().zip(closed) {
-                near("Timoshenko, Hz", *found, value, 3e-3);
+                assert_near("Timoshenko, Hz", *found, value, 3e-3);
             }
         }
     }
 }
 
-fn tip_deflection(scene: &Supported, count: usize, direction: Direction) -> f64 {
+fn tip_deflection(scene: &SupportedMesh, count: usize, direction: Direction) -> f64 {
     scene.work(&[(count, direction, 1.0)])
 }
 
@@ -233,7 +235,12 @@ fn cantilevers_deflect_as_tabulated() {
         let beam = straight_cantilever(4.58e-5, count);
         let torsion = 6.0 / (1.0e7 / 2.6 * 4.58e-5);
         for (direction, value) in [(X, 3e-5), (Y, 0.108_093_6), (Z, 0.432_093_6), (RX, torsion)] {
-            near("straight cantilever", tip_deflection(&beam, count, direction), value, 1e-7);
+            assert_near(
+                "straight cantilever",
+                tip_deflection(&beam, count, direction),
+                value,
+                1e-7,
+            );
         }
     }
     // The torsion constant matters little: the load bends.
@@ -242,7 +249,12 @@ fn cantilevers_deflect_as_tabulated() {
         [(12, [5.424_036e-3, 1.754_909e-3]), (96, [5.429_239e-3, 1.749_705e-3])]
     {
         let beam = twisted_cantilever(0.32, torsion, count);
-        near("twisted cantilever, along its width", tip_deflection(&beam, count, Z), along, 1e-6);
-        near("twisted cantilever, across", tip_deflection(&beam, count, Y), across, 1e-6);
+        assert_near(
+            "twisted cantilever, along its width",
+            tip_deflection(&beam, count, Z),
+            along,
+            1e-6,
+        );
+        assert_near("twisted cantilever, across", tip_deflection(&beam, count, Y), across, 1e-6);
     }
 }

@@ -4,7 +4,7 @@
 
 use basemat::fem::{BeamSection, Direction, Hex8, LumpedMass, Mesh, SpaceBeam, Spring, Truss};
 use basemat_problems::space_beams::{concrete, section};
-use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, X, Y, Z};
 
 fn beam(orientation: [f64; 3]) -> basemat::Result<SpaceBeam> {
     SpaceBeam::new([0, 1], concrete(), section(), orientation)
@@ -64,7 +64,7 @@ fn releases_that_leave_a_mechanism_are_refused() {
     for (first, second) in [
         (&[RY, RZ][..], &[RY, RZ, RX][..]),
         (&[Y, Z], &[RY, RZ]),
-        (&CLAMPED, &[]),
+        (&CLAMPED_DIRECTIONS, &[]),
         (&[Y, RZ], &[Z, RY]),
     ] {
         released_beam(first, second).unwrap();

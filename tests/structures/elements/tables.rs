@@ -3,10 +3,10 @@
 //! REFERENCE: `tests/data/elements`, from an independent program.
 
 use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
-use basemat_problems::bricks::DISTORTED;
+use basemat_problems::bricks::DISTORTED_BRICK;
 use basemat_problems::dense::largest;
 use basemat_problems::space_beams::{concrete, sheared};
-use basemat_problems::supported::{Part, RY, RZ};
+use basemat_problems::supported::{ElementMatrix, RY, RZ};
 use basemat_problems::table;
 
 const CUBE_CORNERS: [[f64; 3]; 8] = [
@@ -35,10 +35,10 @@ fn compare(file: &str, element: &dyn Element, points: &[[f64; 3]]) {
     element.check(points).unwrap();
     let table = table(&format!("elements/matrices_{file}.csv"));
     for (name, part) in [
-        ("stiffness", Part::Stiffness),
-        ("geometric_stiffness", Part::GeometricStiffness),
-        ("mass", Part::Mass(MassKind::Consistent)),
-        ("lumped_mass", Part::Mass(MassKind::Lumped)),
+        ("stiffness", ElementMatrix::Stiffness),
+        ("geometric_stiffness", ElementMatrix::GeometricStiffness),
+        ("mass", ElementMatrix::Mass(MassKind::Consistent)),
+        ("lumped_mass", ElementMatrix::Mass(MassKind::Lumped)),
     ] {
         let reference = table.symmetric(name, element.order());
         let computed = part.of(element, points);
@@ -83,7 +83,7 @@ fn bricks_have_the_matrices_of_the_tables() {
     for (poisson, points, file) in [
         (0.2, CUBE_CORNERS, "hex8_1"),
         (0.2, PARALLELEPIPED_CORNERS, "hex8_2"),
-        (0.3, DISTORTED, "hex8_3"),
+        (0.3, DISTORTED_BRICK, "hex8_3"),
     ] {
         let material = Material::new(30.0e9, poisson, 2500.0).unwrap();
         compare(file, &Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material), &points);

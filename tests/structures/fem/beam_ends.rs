@@ -5,7 +5,7 @@
 use basemat::Error;
 use basemat::fem::{Beam, BeamSection, Direction, Material, Mesh, SpaceBeam, Spring};
 use basemat::structure::{BeamRows, FemModel, SectionRows, Structure};
-use basemat_problems::dense::{multiply, noise, solve_held, stiffness};
+use basemat_problems::dense::{multiply, noise, solve_with_prescribed, stiffness};
 
 const YOUNG_MODULUS: f64 = 30.0e9;
 
@@ -72,7 +72,7 @@ fn a_cantilever_in_the_plane_has_its_loads_moments() {
         {
             load[model.dof(end, direction).unwrap()] = value;
         }
-        let u = solve_held(&stiffness(&model), &load, &fixed_dofs(6));
+        let u = solve_with_prescribed(&stiffness(&model), &load, &fixed_dofs(6));
         let rows = model.beam_rows(beam).unwrap();
         let c = angle.cos();
         let s = angle.sin();
@@ -110,7 +110,7 @@ fn a_clamped_portal_has_kleinlogels_moments() {
     let model = FemModel::new(mesh, &nodes[..2]).unwrap();
     let mut load = vec![0.0; model.dofs()];
     load[model.dof(nodes[2], Direction::X).unwrap()] = force;
-    let u = solve_held(&stiffness(&model), &load, &fixed_dofs(6));
+    let u = solve_with_prescribed(&stiffness(&model), &load, &fixed_dofs(6));
     let k = girder / column * height / span;
     let foot = 0.5 * force * height * (3.0 * k + 1.0) / (6.0 * k + 1.0);
     let corner = 0.5 * force * height * (3.0 * k) / (6.0 * k + 1.0);
@@ -152,7 +152,7 @@ fn a_beam_column_has_the_moment_of_its_deformed_state() {
         let mut force = vec![0.0; n];
         force[model.dof(count, Direction::X).unwrap()] = load;
         let fixed = [0, 1, 2, n - 3, n - 2, n - 1].map(|k| (k, 0.0));
-        let u = solve_held(&stiffness(&model), &force, &fixed);
+        let u = solve_with_prescribed(&stiffness(&model), &force, &fixed);
         let k = (compression.abs() / (YOUNG_MODULUS * inertia)).sqrt();
         let curve = if compression > 0.0 { (k * length).tan() } else { (k * length).tanh() };
         let found = value(&model.beam_rows(0).unwrap().ends[0].moments[1], &u);
@@ -203,7 +203,7 @@ fn a_cantilever_in_space_has_its_loads_moments() {
         for (k, &direction) in model.mesh().directions().iter().enumerate() {
             load[model.dof(end, direction).unwrap()] = [force, moment].concat()[k];
         }
-        let u = solve_held(&stiffness(&model), &load, &fixed_dofs(24));
+        let u = solve_with_prescribed(&stiffness(&model), &load, &fixed_dofs(24));
         let rows = model.beam_rows(beam).unwrap();
         for (index, from) in [[0.0; 3], tip].iter().enumerate() {
             let arm = [0, 1, 2].map(|k| tip[k] - from[k] - offsets[index][k]);

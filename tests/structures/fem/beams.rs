@@ -4,7 +4,9 @@
 
 use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
 use basemat::structure::{FemModel, Structure};
-use basemat_problems::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
+use basemat_problems::dense::{
+    eigenvalues, form, mass, solve_with_prescribed, stiffness, submatrix,
+};
 
 const YOUNG_MODULUS: f64 = 30.0e9;
 const SECTION_AREA: f64 = 0.4;
@@ -54,7 +56,7 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
             // Across the beam, to the left: turns its tip counter-clockwise.
             force[x] = -load * angle.sin();
             force[y] = load * angle.cos();
-            let found = solve_held(&stiffness(&model), &force, &fixed);
+            let found = solve_with_prescribed(&stiffness(&model), &force, &fixed);
             let deflection = -found[x] * angle.sin() + found[y] * angle.cos();
             let exact = load * length.powi(3) / (3.0 * YOUNG_MODULUS * SECOND_MOMENT)
                 + shear.map_or(0.0, |stiffness| load * length / stiffness);
@@ -74,7 +76,8 @@ fn frequency_error(elements: usize, kind: MassKind) -> f64 {
         / (MASS_DENSITY * SECTION_AREA * f64::powi(length, 4));
     let model = cantilever(length, 0.7, elements, None).with_mass(kind);
     let free = free_dofs(&model);
-    let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
+    let found =
+        eigenvalues(&submatrix(&stiffness(&model), &free), &submatrix(&mass(&model), &free))[0];
     found / exact - 1.0
 }
 
@@ -132,7 +135,7 @@ fn bracket_of_two_trusses_sinks_by_its_closed_form() {
     let model = FemModel::on_base(mesh).unwrap();
     let fixed: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();
     let load = [0.0, 0.0, 0.0, 0.0, 700.0, -1000.0];
-    let found = solve_held(&stiffness(&model), &load, &fixed);
+    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     let flexibility = 8.0_f64.sqrt() / (YOUNG_MODULUS * 0.01);
     assert!((found[5] / (-1000.0 * flexibility) - 1.0).abs() < 1e-12);
     assert!((found[4] / (700.0 * flexibility) - 1.0).abs() < 1e-12);

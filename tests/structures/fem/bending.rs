@@ -4,7 +4,7 @@
 
 use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
-use basemat_problems::dense::{dot, form, solve_held, stiffness};
+use basemat_problems::dense::{dot, form, solve_with_prescribed, stiffness};
 
 const YOUNG_MODULUS: f64 = 1.0e7;
 
@@ -32,7 +32,7 @@ fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
         let part = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
         load[model.dof(node, Direction::X).unwrap()] = part / (top.len() - 1) as f64;
     }
-    let found = solve_held(&stiffness(&model), &load, &fixed_base(&model));
+    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed_base(&model));
     let bending = length.powi(3) / (3.0 * YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
     let shear = length / (5.0 / 6.0 * 0.5 * YOUNG_MODULUS / (1.0 + nu));
     dot(&load, &found) / (bending + shear)
@@ -83,7 +83,7 @@ fn pure_bending_of_rectangles_is_exact() {
         // The base may widen: only its left node is fixed sideways.
         let fixed: Vec<(usize, f64)> =
             fixed_base(&model).into_iter().filter(|&(index, _)| index != 2).collect();
-        let found = solve_held(&stiffness(&model), &load, &fixed);
+        let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
         let rotation = length / (YOUNG_MODULUS / (1.0 - nu * nu) / 12.0);
         // The couple of two unit forces 1 m apart does work on the end's rotation.
         assert!((dot(&load, &found) / rotation - 1.0).abs() < 1e-10);

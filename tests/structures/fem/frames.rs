@@ -6,7 +6,7 @@ use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
 use basemat::structure::{BaseNode, DofCombination, FemModel, RigidBlock, Structure};
 use basemat_problems::dense::{
-    dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
+    dot, eigenvalues, form, largest, mass, multiply, solve_with_prescribed, stiffness, submatrix,
 };
 
 const YOUNG_MODULUS: f64 = 30.0e9;
@@ -53,8 +53,10 @@ fn columns_buckle_under_eulers_load() {
                 beam.with_compression(factor * critical).unwrap()
             });
             let free = above(&model);
-            let lowest =
-                eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
+            let lowest = eigenvalues(
+                &submatrix(&stiffness(&model), &free),
+                &submatrix(&mass(&model), &free),
+            )[0];
             assert_eq!(lowest > 0.0, stands, "{shear:?} {factor}: {lowest}");
         }
     }
@@ -71,7 +73,7 @@ fn beam_columns_sway_by_their_closed_form() {
         let tip = model.dof(20, Direction::X).unwrap();
         force[tip] = load;
         let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-        let found = solve_held(&stiffness(&model), &force, &fixed)[tip];
+        let found = solve_with_prescribed(&stiffness(&model), &force, &fixed)[tip];
         let k = (compression.abs() / (YOUNG_MODULUS * SECOND_MOMENT)).sqrt();
         let curve = if compression > 0.0 {
             (k * COLUMN_LENGTH).tan()
@@ -118,7 +120,10 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
                 .map(|(node, direction)| model.dof(node, direction).unwrap());
             let free: Vec<usize> =
                 (0..model.dofs() - 2).filter(|dof| !fixed.contains(dof)).collect();
-            let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free));
+            let found = eigenvalues(
+                &submatrix(&stiffness(&model), &free),
+                &submatrix(&mass(&model), &free),
+            );
             [1.0, 2.0, 3.0].map(|n| {
                 let k = n * std::f64::consts::PI / COLUMN_LENGTH;
                 let turn = if rotary { k * k * SECOND_MOMENT / SECTION_AREA } else { 0.0 };
@@ -223,7 +228,7 @@ fn arms_lengthen_a_cantilever() {
         force[index] += 1000.0 * weight;
     }
     let fixed: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
-    let found = solve_held(&stiffness(&model), &force, &fixed);
+    let found = solve_with_prescribed(&stiffness(&model), &force, &fixed);
     let deflection = row_value(&row, &found);
     let l = COLUMN_LENGTH;
     let a = arm;

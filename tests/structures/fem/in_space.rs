@@ -11,7 +11,7 @@ use basemat::results::DeformedShape;
 use basemat::structure::{Base, BaseNode, DofCombination, FemModel, Structure};
 use basemat_problems::dense::{form, largest, mass, multiply, stiffness};
 use basemat_problems::stiff_element::StiffElement;
-use basemat_problems::supported::CLAMPED as DIRECTIONS;
+use basemat_problems::supported::CLAMPED_DIRECTIONS as DIRECTIONS;
 
 /// The corners of a cube of 2 m, from the upper ones down.
 fn cube() -> Mesh {

@@ -10,7 +10,7 @@ use basemat::structure::StructureError;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil};
 use basemat_problems::dense::{
-    damping, eigenvalues, form, largest, mass, multiply, part, stiffness,
+    damping, eigenvalues, form, largest, mass, multiply, stiffness, submatrix,
 };
 
 const YOUNG_MODULUS: f64 = 30.0e9;
@@ -59,7 +59,7 @@ fn compressions(model: &FemModel) -> Vec<f64> {
 
 /// Lowest circular frequency squared with the degrees of freedom below `free` fixed.
 fn lowest(model: &FemModel, free: &[usize]) -> f64 {
-    eigenvalues(&part(&stiffness(model), free), &part(&mass(model), free))[0]
+    eigenvalues(&submatrix(&stiffness(model), free), &submatrix(&mass(model), free))[0]
 }
 
 /// PROBLEM: Greenhill's column. RESULT: the axial force is the weight above the middle of each beam,
@@ -135,7 +135,7 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
         let factor = model.buckling_factor().unwrap();
         assert!((factor * load_ratio - 1.0).abs() < 1e-5, "{factor} {load_ratio}");
         // Static condensation: the tip's flexibility.
-        let free_stiffness = part(&stiffness(&model), &free);
+        let free_stiffness = submatrix(&stiffness(&model), &free);
         let at = model.dof(8, Direction::X).unwrap() - free[0];
         let mut load = vec![0.0; free_stiffness.len()];
         load[at] = 1.0;

@@ -5,7 +5,7 @@
 use basemat::fem::{Element, LumpedMass, Mesh, Truss};
 use basemat::structure::FemModel;
 use basemat_problems::dense::stiffness;
-use basemat_problems::directions::IN_SPACE;
+use basemat_problems::directions::NODE_DIRECTIONS;
 
 const GRAVITY_ACCELERATION: f64 = 9.81;
 
@@ -126,7 +126,7 @@ fn linked_model() -> LinkedModel {
 #[test]
 fn linked_nodes_move_by_finite_rotations() {
     let LinkedModel { slab, model, leader } = linked_model();
-    let dofs = IN_SPACE.map(|direction| model.dof(leader, direction).unwrap());
+    let dofs = NODE_DIRECTIONS.map(|direction| model.dof(leader, direction).unwrap());
     let found = stiffness(&model);
     // Equilibrium.
     for i in 0..6 {

@@ -5,16 +5,16 @@
 
 use basemat::fem::{Direction, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
-use basemat_problems::dense::{collect, dot, form, largest, multiply, solve_held};
-use basemat_problems::patch::{POINTS, QUADS};
+use basemat_problems::dense::{collect, dot, form, largest, multiply, solve_with_prescribed};
+use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS};
 
 fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {
     let material = Material::new(1.0e6, poisson, 1.0).unwrap();
     let mut mesh = Mesh::new();
-    for [x, y] in POINTS {
+    for [x, y] in PATCH_NODES {
         mesh.add_node(x, y).unwrap();
     }
-    for nodes in QUADS {
+    for nodes in PATCH_QUADS {
         mesh.add(Quad4::new(nodes, material, formulation)).unwrap();
     }
     FemModel::on_base(mesh).unwrap()
@@ -23,7 +23,7 @@ fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {
 /// u = 1e-3 (x + y/2), v = 1e-3 (y + x/2) at every degree of freedom.
 fn exact(model: &FemModel) -> Vec<f64> {
     let mut field = vec![0.0; model.dofs()];
-    for (node, [x, y]) in POINTS.into_iter().enumerate() {
+    for (node, [x, y]) in PATCH_NODES.into_iter().enumerate() {
         field[model.dof(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
         field[model.dof(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
     }
@@ -43,7 +43,7 @@ fn constant_strain_is_reproduced_on_distorted_quads() {
             let stiffness = collect(&model, |k| model.stiffness(k));
             let exact = exact(&model);
             let prescribed: Vec<(usize, f64)> = (0..8).map(|index| (index, exact[index])).collect();
-            let found = solve_held(&stiffness, &[0.0; 16], &prescribed);
+            let found = solve_with_prescribed(&stiffness, &[0.0; 16], &prescribed);
             let error: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
             assert!(largest(&error) < 1e-11 * largest(&exact), "{formulation:?} {poisson}");
         }

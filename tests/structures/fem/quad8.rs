@@ -5,8 +5,10 @@
 use basemat::Error;
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad8, Quad8Integration};
 use basemat::structure::{FemModel, Structure};
-use basemat_problems::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
-use basemat_problems::patch::{POINTS, QUADS};
+use basemat_problems::dense::{
+    dot, form, largest, mass, multiply, solve_with_prescribed, stiffness,
+};
+use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS};
 
 const INTEGRATION_RULES: [Quad8Integration; 2] =
     [Quad8Integration::Reduced, Quad8Integration::Full];
@@ -60,7 +62,7 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
         (INTEGRATION_RULES[1], 0.4999, 0.03),
     ] {
         let material = Material::new(1.0e6, poisson, 1.0).unwrap();
-        let mesh = refined(&POINTS, &QUADS, material, integration, bulge);
+        let mesh = refined(&PATCH_NODES, &PATCH_QUADS, material, integration, bulge);
         let nodes = mesh.nodes().to_vec();
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         let mut field = vec![0.0; model.dofs()];
@@ -76,7 +78,7 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
             .map(|dof| (dof, field[dof]))
             .collect();
         assert!(prescribed.len() < field.len(), "something is free");
-        let found = solve_held(&stiffness(&model), &vec![0.0; field.len()], &prescribed);
+        let found = solve_with_prescribed(&stiffness(&model), &vec![0.0; field.len()], &prescribed);
         let error: Vec<f64> = found.iter().zip(&field).map(|(a, b)| a - b).collect();
         let error = largest(&error);
         assert!(error < 1e-12, "{integration:?} {poisson} {bulge}: {error:e}");
@@ -93,7 +95,7 @@ fn inertia(model: &FemModel, direction: Direction) -> f64 {
 fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
     for integration in INTEGRATION_RULES {
         let material = Material::new(1.0e6, 0.3, 5.0).unwrap();
-        let mesh = refined(&POINTS, &QUADS, material, integration, 0.04);
+        let mesh = refined(&PATCH_NODES, &PATCH_QUADS, material, integration, 0.04);
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         for direction in [Direction::X, Direction::Y, Direction::Rotation] {
             let shift = model.rigid_motion(direction, [0.0; 3]);
@@ -141,7 +143,7 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
     for (&node, part) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
         load[model.dof(node, Direction::X).unwrap()] = part;
     }
-    let found = solve_held(&stiffness(&model), &load, &fixed);
+    let found = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     let bending = length.powi(3) / (3.0 * young / (1.0 - nu * nu) / 12.0);
     let shear = length / (5.0 / 6.0 * 0.5 * young / (1.0 + nu));
     dot(&load, &found) / (bending + shear)

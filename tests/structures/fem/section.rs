@@ -6,7 +6,9 @@ use basemat::fem::{
     Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation,
 };
 use basemat::structure::{FemModel, RayleighDamping, Structure};
-use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
+use basemat_problems::dense::{
+    damping, dot, form, mass, multiply, noise, solve_with_prescribed, stiffness,
+};
 
 /// Of the section, m.
 const CUT_HEIGHT: f64 = 2.0;
@@ -62,7 +64,7 @@ fn static_load_passes_through_every_section() {
     load[model.dof(top, Direction::Y).unwrap()] = -300.0;
     load[model.dof(top, Direction::Rotation).unwrap()] = 50.0;
     let fixed: Vec<(usize, f64)> = (0..6).map(|index| (index, 0.0)).collect();
-    let u = solve_held(&stiffness(&model), &load, &fixed);
+    let u = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     for height in [0.0, 1.0, CUT_HEIGHT] {
         let section = model.section(height, 1.0).unwrap();
         let shear = section.shear.value(&u, &[], &[]);

@@ -7,8 +7,8 @@ use basemat::Error;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::structure::{DofCombination, FemModel, ShearBuilding, Storey, Structure};
 use basemat_problems::dense::{
-    assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
-    stiffness,
+    assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, row_value,
+    stiffness, submatrix,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -39,8 +39,10 @@ fn uniform_building_has_its_closed_form_frequencies() {
     let n = 5_u32;
     let building = ShearBuilding::new(10.0, 1.0e4, 1.0e4, &[Storey::new(3.0, m, k); 5]).unwrap();
     let floors: Vec<usize> = (3..8).collect();
-    let found =
-        eigenvalues(&part(&stiffness(&building), &floors), &part(&mass(&building), &floors));
+    let found = eigenvalues(
+        &submatrix(&stiffness(&building), &floors),
+        &submatrix(&mass(&building), &floors),
+    );
     for (j, square) in (1..=n).zip(found) {
         let angle = f64::from(2 * j - 1) * PI / f64::from(2 * (2 * n + 1));
         let exact = 2.0 * f64::sqrt(k / m) * angle.sin();
@@ -53,8 +55,10 @@ fn uniform_building_has_its_closed_form_frequencies() {
 #[test]
 fn first_frequency_of_an_uneven_building_is_that_of_jacobi() {
     let building = uneven();
-    let found =
-        eigenvalues(&part(&stiffness(&building), &[3, 4, 5]), &part(&mass(&building), &[3, 4, 5]));
+    let found = eigenvalues(
+        &submatrix(&stiffness(&building), &[3, 4, 5]),
+        &submatrix(&mass(&building), &[3, 4, 5]),
+    );
     assert!((building.fixed_base_frequency() * TAU / found[0].sqrt() - 1.0).abs() < 1e-9);
 }
 
@@ -109,7 +113,7 @@ fn damping_ratio_is_that_of_the_first_mode() {
     let k = stiffness(&damped);
     let c = damping(&damped);
     let extra = c[5][5] - damping(&uneven())[5][5];
-    let omega = eigenvalues(&part(&k, &floors), &part(&mass(&damped), &floors))[0].sqrt();
+    let omega = eigenvalues(&submatrix(&k, &floors), &submatrix(&mass(&damped), &floors))[0].sqrt();
     assert!((extra / k[5][5] * omega / 2.0 - 0.04).abs() < 1e-10);
 }
 

@@ -8,8 +8,10 @@ use basemat::structure::{
     FemModel, PlanStorey, RayleighDamping, RigidBody, SectionRows, SpaceSection, StoreyBuilding,
     Structure,
 };
-use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
-use basemat_problems::supported::CLAMPED as DIRECTIONS;
+use basemat_problems::dense::{
+    damping, dot, form, mass, multiply, noise, solve_with_prescribed, stiffness,
+};
+use basemat_problems::supported::CLAMPED_DIRECTIONS as DIRECTIONS;
 
 /// Forces and moments along the six directions; the compression acts downwards.
 fn rows(section: &SpaceSection) -> [(&SectionRows, f64); 6] {
@@ -60,7 +62,7 @@ fn static_load_passes_through_every_section() {
         }
     }
     let fixed: Vec<(usize, f64)> = (0..24).map(|dof| (dof, 0.0)).collect();
-    let u = solve_held(&stiffness(&model), &load, &fixed);
+    let u = solve_with_prescribed(&stiffness(&model), &load, &fixed);
     for height in [0.0, 1.0, 3.0] {
         let section = model.section_in_space(height, [0.3, -0.2]).unwrap();
         let turning = cross([head[0] - 0.3, head[1] + 0.2, head[2] - height], force);

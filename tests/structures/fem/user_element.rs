@@ -4,7 +4,7 @@
 
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::FemModel;
-use basemat_problems::dense::{form, largest, mass, multiply, solve_held, stiffness};
+use basemat_problems::dense::{form, largest, mass, multiply, solve_with_prescribed, stiffness};
 
 struct Triangle {
     nodes: [usize; 3],
@@ -74,7 +74,7 @@ fn a_users_triangle_passes_the_patch_test_beside_quads() {
         points.iter().flat_map(|[x, y]| [1e-3 * x - 2e-3 * y, 4e-3 * x + 3e-3 * y]).collect();
     let prescribed: Vec<(usize, f64)> =
         (0..12).filter(|index| index / 2 != 4).map(|index| (index, exact[index])).collect();
-    let found = solve_held(&stiffness(&model), &[0.0; 12], &prescribed);
+    let found = solve_with_prescribed(&stiffness(&model), &[0.0; 12], &prescribed);
     for (a, b) in found.iter().zip(&exact) {
         assert!((a - b).abs() < 1e-15);
     }

@@ -5,10 +5,6 @@ use super::random::Random;
 /// Rows of a matrix.
 pub type DenseMatrix = Vec<Vec<f64>>;
 
-pub use DenseMatrix as Matrix;
-pub use solve_with_prescribed as solve_held;
-pub use submatrix as part;
-
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

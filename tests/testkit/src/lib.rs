@@ -24,4 +24,4 @@ pub mod table;
 
 pub use csv;
 pub use maxwell::gmb_numbers;
-pub use table::{ReferenceTable, Table, assert_close, close, data_path, table};
+pub use table::{ReferenceTable, assert_close, data_path, table};

@@ -2,11 +2,6 @@
 
 use super::table::ReferenceTable;
 
-pub use RelativeError as Error;
-pub use TabledSeries as Series;
-pub use assert_within as within;
-pub use nearest_integer as whole;
-
 /// The whole number nearest to a number that is not negative.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
 pub fn nearest_integer(number: f64) -> usize {

@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-pub use ReferenceTable as Table;
-pub use assert_close as close;
-
 /// Path of a file in `tests/data`.
 pub fn data_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../data").join(file)

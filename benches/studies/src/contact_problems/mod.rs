@@ -11,7 +11,7 @@ mod published;
 
 use std::path::PathBuf;
 
-use basemat_problems::contact_problems::{STEPS, Tally, sequence};
+use basemat_problems::contact_problems::{ContactTally, SEQUENCE_STEPS, sequence};
 use basemat_problems::random::Random;
 
 use crate::AnyError;
@@ -49,11 +49,11 @@ pub(crate) fn run(options: &ContactProblemsOptions) -> Result<(), AnyError> {
          | several solutions | most | none | failed | conditions off by | from brute force |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-    let mut total = Tally::default();
+    let mut total = ContactTally::default();
     for real in [true, false] {
         for range in FRICTION_RANGES {
-            let mut tally = Tally::default();
-            let sequences = options.problems.div_ceil(2 * FRICTION_RANGES.len() * STEPS);
+            let mut tally = ContactTally::default();
+            let sequences = options.problems.div_ceil(2 * FRICTION_RANGES.len() * SEQUENCE_STEPS);
             for (count, percent) in ELEMENT_COUNTS {
                 for _ in 0..(sequences * percent).div_ceil(100) {
                     let friction = random.within(range[0], range[1].max(f64::MIN_POSITIVE));
@@ -70,7 +70,7 @@ pub(crate) fn run(options: &ContactProblemsOptions) -> Result<(), AnyError> {
     Ok(())
 }
 
-fn print_row(operator: &str, friction: &str, tally: &Tally) {
+fn print_row(operator: &str, friction: &str, tally: &ContactTally) {
     let mean = tally.trials as f64 / (tally.problems - tally.failed).max(1) as f64;
     println!(
         "| {operator} | {friction} | {} | {} | {} | {} | {mean:.2} | {} | {} | {} | {} | {} \

@@ -8,7 +8,7 @@ use basemat::bem::Strip;
 use basemat::bem::plan::Plan;
 use basemat::interface::{Coulomb, InterfaceLaw};
 use basemat::structure::{RigidBlock, RigidBody};
-use basemat_problems::prescribed::Prescribed;
+use basemat_problems::prescribed::PrescribedGround;
 use cpu_time::ProcessTime;
 
 use crate::AnyError;
@@ -49,8 +49,8 @@ impl PublishedProblem {
         let [dimension, contacts, ratio, ref rest @ ..] = numbers[..] else {
             return Err("a problem begins with three numbers".into());
         };
-        let count = basemat_problems::series::whole(contacts);
-        let dimension = basemat_problems::series::whole(dimension);
+        let count = basemat_problems::series::nearest_integer(contacts);
+        let dimension = basemat_problems::series::nearest_integer(dimension);
         let size = dimension * count;
         if rest.len() != count + size + size * size {
             return Err(format!("{} numbers for {count} contacts", rest.len()).into());
@@ -89,12 +89,12 @@ impl PublishedProblem {
             let outline = [[-middle, -0.5], [middle, -0.5], [middle, 0.5], [-middle, 0.5]];
             let inertia = [[heavy, 0.0, 0.0], [0.0, heavy, 0.0], [0.0, 0.0, heavy]];
             let body = RigidBody::from_mass(outline.to_vec(), heavy, inertia, [0.0; 3])?;
-            let (ground, motion) = Prescribed::new(plan.elements(), matrix);
+            let (ground, motion) = PrescribedGround::new(plan.elements(), matrix);
             (builder.structure(body.centered_at([middle, 0.5])?).ground(ground), motion)
         } else {
             let strip = Strip::uniform(0.0..2.0 * middle, count)?;
             let body = RigidBlock::from_mass(2.0 * middle, heavy, heavy, 0.0)?;
-            let (ground, motion) = Prescribed::new(strip.elements(), matrix);
+            let (ground, motion) = PrescribedGround::new(strip.elements(), matrix);
             (builder.structure(body.centered_at(middle)?).ground(ground), motion)
         };
         let mut simulation = builder.build()?;

@@ -7,7 +7,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
 use basemat::results::Run;
 use basemat::results::{Recorder, Serviceability, TimeSeries};
-use basemat_problems::containment::{Containment, PAPER_SHEARS, ROWS};
+use basemat_problems::containment::{Containment, PAPER_SHEARS, TABLE_1_ROWS};
 
 /// A name and a friction coefficient; `None` is bonded, infinity uplift only.
 #[derive(Debug, Clone)]
@@ -37,7 +37,7 @@ impl ContainmentCase {
     /// Bonded, uplift only, then one case per friction coefficient.
     pub(crate) fn list(friction: &[f64]) -> Vec<Self> {
         let without_sliding =
-            ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
+            TABLE_1_ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
         let sliding =
             friction.iter().map(|friction| (format!("friction {friction}"), Some(*friction)));
         without_sliding
@@ -48,7 +48,7 @@ impl ContainmentCase {
 
     /// Peak base shear of the paper's Table 1, lb/ft, where it has this case.
     pub(crate) fn printed_shear(&self) -> Option<f64> {
-        let row = ROWS.iter().position(|(_, friction)| *friction == self.friction)?;
+        let row = TABLE_1_ROWS.iter().position(|(_, friction)| *friction == self.friction)?;
         Some(PAPER_SHEARS[row])
     }
 

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use basemat::plot::{Curve, curves};
 use basemat::results::Quantity;
-use basemat_problems::containment::{PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS, pounds_per_foot};
+use basemat_problems::containment::{
+    PAPER_SHEARS, POUND_FORCE_PER_FOOT, TABLE_1_ROWS, pounds_per_foot,
+};
 
 use super::case::ContainmentOutcome;
 use crate::AnyError;
@@ -220,7 +222,7 @@ pub(crate) fn compare_meshes(
 pub(crate) fn draw(folder: &Path, results: &[ContainmentOutcome]) -> Result<(), AnyError> {
     let shown: Vec<&ContainmentOutcome> = results
         .iter()
-        .filter(|outcome| [ROWS[1].1, ROWS[2].1].contains(&outcome.case.friction))
+        .filter(|outcome| [TABLE_1_ROWS[1].1, TABLE_1_ROWS[2].1].contains(&outcome.case.friction))
         .collect();
     for (file, title, unit, probe, factor) in [
         ("figure_4", "Fig. 4: absolute horizontal displacement at A", "mm", "roof x", 1e3),
@@ -259,9 +261,13 @@ pub(crate) fn draw_sweep(
     let end = frictions.last().copied().unwrap_or(1.0);
     let peaks =
         frictions.iter().zip(runs).map(|(friction, run)| (*friction, 1e-3 * run.peak_shear));
-    let paper = ROWS[2..].iter().zip(&PAPER_SHEARS[2..]).filter_map(|((_, friction), shear)| {
-        Some(((*friction)?, 1e-3 * shear * POUND_FORCE_PER_FOOT))
-    });
+    let paper =
+        TABLE_1_ROWS[2..]
+            .iter()
+            .zip(&PAPER_SHEARS[2..])
+            .filter_map(|((_, friction), shear)| {
+                Some(((*friction)?, 1e-3 * shear * POUND_FORCE_PER_FOOT))
+            });
     let lines = [
         Curve { name: "here".into(), points: peaks.collect() },
         level("here, uplift only", end, uplift_only),

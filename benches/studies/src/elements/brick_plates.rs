@@ -1,7 +1,7 @@
 //! Vibration of a thick plate of bricks: NAFEMS FV52, and hard supports after Rayleigh and Lamb.
 
 use basemat::fem::MassKind;
-use basemat_problems::bricks::{Block, hard_plate, thick_plate};
+use basemat_problems::bricks::{BrickGrid, hard_plate, thick_plate};
 use basemat_problems::supported::{Vibration, Z};
 
 use super::row::BenchmarkRows;
@@ -27,7 +27,7 @@ fn lines(rows: &mut BenchmarkRows, counts @ [nx, ny, nz]: [usize; 3]) {
 }
 
 /// Whether upper and lower face move against each other in their planes.
-fn is_flexural(block: &Block, [nx, ny, nz]: [usize; 3], mode: &Vibration) -> bool {
+fn is_flexural(block: &BrickGrid, [nx, ny, nz]: [usize; 3], mode: &Vibration) -> bool {
     let mut product = 0.0;
     for i in 0..=nx {
         for j in 0..=ny {

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use basemat::fem::{Direction, Material};
 use basemat_problems::bricks::{
-    Block, elliptic_plate, straight_cantilever, thick_cylinder, twisted_cantilever,
+    BrickGrid, elliptic_plate, straight_cantilever, thick_cylinder, twisted_cantilever,
 };
 use basemat_problems::supported::{Y, Z};
 
@@ -26,7 +26,7 @@ fn straight(rows: &mut BenchmarkRows) {
 }
 
 /// Mean displacement of the tip in the direction of a unit force spread over it.
-fn mean_tip_displacement(block: &Block, direction: Direction) -> f64 {
+fn mean_tip_displacement(block: &BrickGrid, direction: Direction) -> f64 {
     let loads = block.tip_force(direction);
     let displacement = block.scene.solve(&loads);
     let weight = 1.0 / loads.len() as f64;
@@ -40,7 +40,7 @@ fn curved(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     let material = Material::new(1.0e7, 0.25, 0.0)?;
     for [nx, ny, nz] in [[6, 1, 1], [12, 2, 1], [24, 2, 2]] {
         // The radius decreases with j, so that the volume of the bricks is positive.
-        let block = Block::cantilever([nx, ny, nz], material, |[i, j, k]| {
+        let block = BrickGrid::cantilever([nx, ny, nz], material, |[i, j, k]| {
             let angle = FRAC_PI_2 * i as f64 / nx as f64;
             let sine = angle.sin();
             let cosine = angle.cos();

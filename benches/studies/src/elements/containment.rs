@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use basemat::fem::{MassKind, Material};
-use basemat_problems::supported::{CLAMPED, Part, Vibration};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, ElementMatrix, Vibration};
 
 use super::row::BenchmarkRows;
 use super::surface::{ShellPattern, ShellSurface};
@@ -56,7 +56,7 @@ impl ClampedContainment {
             }
         }
         for &node in &rings[0] {
-            surface.scene.hold(node, &CLAMPED);
+            surface.scene.hold(node, &CLAMPED_DIRECTIONS);
         }
         Ok(Self { surface, rings })
     }
@@ -135,7 +135,7 @@ fn vibration(
         rows.put(benchmark, "torsion", &mesh, modes[mode].frequency);
     }
     let along_x = vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]; scene.mesh.nodes().len()];
-    let part = Part::Mass(kind);
+    let part = ElementMatrix::Mass(kind);
     let total_mass = scene.form(part, &along_x, &along_x);
     rows.put(benchmark, "mass, kg", &mesh, total_mass);
     let first_pair = kinds.iter().zip(&modes).filter(|(kind, _)| kind.waves == 1).take(2);

@@ -1,7 +1,7 @@
 //! Vibration of square plates of shells: NAFEMS FV12, FV16, simply supported thin and thick.
 
 use basemat::fem::{MassKind, Material};
-use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, X, Y, Z};
 
 use super::row::BenchmarkRows;
 use super::surface::{ShellPattern, ShellSurface};
@@ -50,7 +50,7 @@ pub(super) fn run(rows: &mut BenchmarkRows, short: bool) -> Result<(), AnyError>
             put(rows, &[name], &mesh, &free, 4, 9, 30.0);
             let mut cantilever = plate(count, pattern, 0.05)?;
             for &node in &cantilever.nodes[0] {
-                cantilever.surface.scene.hold(node, &CLAMPED);
+                cantilever.surface.scene.hold(node, &CLAMPED_DIRECTIONS);
             }
             let name = "NAFEMS FV16 cantilevered thin square plate";
             put(rows, &[name], &mesh, &cantilever, 1, 6, 0.0);

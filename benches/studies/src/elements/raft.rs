@@ -7,7 +7,7 @@ use basemat::coupled::Load;
 use basemat::fem::{Direction, Element, MassKind, Material};
 use basemat::prelude::*;
 use basemat::structure::FemModel;
-use basemat_problems::supported::{CLAMPED, RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, RZ, X, Y, Z};
 
 use super::row::BenchmarkRows;
 use super::surface::{ShellPattern, ShellSurface};
@@ -177,7 +177,7 @@ fn on_half_space(rows: &mut BenchmarkRows, count: usize, cells: usize) -> Result
     let mut node_displacements = Vec::new();
     for node in 0..model.mesh().nodes().len() {
         node_displacements.push(
-            CLAMPED
+            CLAMPED_DIRECTIONS
                 .map(|direction| model.dof(node, direction).map_or(0.0, |dof| displacement[dof])),
         );
     }

@@ -1,6 +1,6 @@
 //! Energy balance of random flexible structures that lift off and slide.
 
-use basemat_problems::flexible_scenes::Outcome;
+use basemat_problems::flexible_scenes::FlexibleSceneTotals;
 
 use crate::AnyError;
 
@@ -9,7 +9,7 @@ const SCENE_COUNTS: [usize; 2] = [200, 4];
 
 /// Runs the scenes and returns their table for the documents.
 pub(super) fn run(short: bool) -> Result<String, AnyError> {
-    let mut outcome = Outcome::default();
+    let mut outcome = FlexibleSceneTotals::default();
     for number in 0..SCENE_COUNTS[usize::from(short)] {
         outcome.run(number);
         if number % 20 == 19 {
@@ -19,7 +19,8 @@ pub(super) fn run(short: bool) -> Result<String, AnyError> {
     for reason in &outcome.refused {
         println!("{reason}");
     }
-    let Outcome { scenes, steps, reduced, opened, slid, refused, residual, returned } = &outcome;
+    let FlexibleSceneTotals { scenes, steps, reduced, opened, slid, refused, residual, returned } =
+        &outcome;
     let text = format!(
         "| random scenes | in other coordinates | not run | steps | with an open cell | with a cell that slides | largest \
          energy error | energy returned by the soil |\n|---|---|---|---|---|---|---|---|\n\

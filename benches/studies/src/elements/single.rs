@@ -1,11 +1,13 @@
-//! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
+//! Single elements and patches: uniform states, rigid_motion motions, renumbered nodes, the beam of the plane.
 
 use basemat::fem::{Beam, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
-use basemat_problems::bricks::DISTORTED;
+use basemat_problems::bricks::DISTORTED_BRICK;
 use basemat_problems::dense::{eigenpairs, largest};
-use basemat_problems::patch::{POINTS, QUADS, STATES, bricks, field};
+use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS, SHELL_STATES, bricks, field};
 use basemat_problems::space_beams::{concrete, sheared};
-use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, rigid, values};
+use basemat_problems::supported::{
+    CLAMPED_DIRECTIONS, ElementMatrix, RZ, SupportedMesh, X, Y, Z, rigid_motion, values,
+};
 
 use super::row::BenchmarkRows;
 use super::surface::{ShellPattern, ShellSurface};
@@ -14,26 +16,32 @@ use crate::AnyError;
 /// Largest displacement of inner nodes from a uniform `state`, relative to the largest displacement of all.
 ///
 /// The nodes before `inner` are restrained in this state.
-fn patch_error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
+fn patch_error(mut scene: SupportedMesh, inner: usize, state: &[[f64; 6]]) -> f64 {
     let mut loads = Vec::new();
     let mut forces = vec![[0.0; 6]; state.len()];
     for element in scene.mesh.elements() {
         let displacement = values(element, state);
-        let matrix = Part::Stiffness.of(element, &scene.points(element.nodes()));
+        let matrix = ElementMatrix::Stiffness.of(element, &scene.points(element.nodes()));
         let places = element
             .nodes()
             .iter()
             .flat_map(|&node| element.directions().iter().map(move |&direction| (node, direction)));
         for ((node, direction), row) in places.zip(matrix.chunks(displacement.len())) {
-            let place = CLAMPED.iter().position(|&other| other == direction).unwrap_or(0);
+            let place =
+                CLAMPED_DIRECTIONS.iter().position(|&other| other == direction).unwrap_or(0);
             forces[node][place] -= row.iter().zip(&displacement).map(|(k, u)| k * u).sum::<f64>();
         }
     }
     for (node, forces) in forces.iter().enumerate() {
         if node < inner {
-            scene.hold(node, &CLAMPED);
+            scene.hold(node, &CLAMPED_DIRECTIONS);
         }
-        loads.extend(CLAMPED.into_iter().zip(forces).map(|(direction, &f)| (node, direction, f)));
+        loads.extend(
+            CLAMPED_DIRECTIONS
+                .into_iter()
+                .zip(forces)
+                .map(|(direction, &f)| (node, direction, f)),
+        );
     }
     let displacements = scene.displacements(&loads);
     largest(displacements.as_flattened()) / largest(state.as_flattened())
@@ -42,15 +50,15 @@ fn patch_error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
 fn patches(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     for pattern in [ShellPattern::Quadrilaterals, ShellPattern::Rising] {
         for thickness in [0.001, 0.05] {
-            for name in STATES {
+            for name in SHELL_STATES {
                 let mut patch = ShellSurface::new(Material::new(1.0e6, 0.25, 1.0)?, thickness);
-                for [x, y] in POINTS {
+                for [x, y] in PATCH_NODES {
                     patch.scene.node([x, y, 0.0]);
                 }
-                for corners in QUADS.into_iter().flat_map(|cell| pattern.split(cell)) {
+                for corners in PATCH_QUADS.into_iter().flat_map(|cell| pattern.split(cell)) {
                     patch.shell(&corners, thickness)?;
                 }
-                let state = POINTS.map(|[x, y]| field(name, x, y));
+                let state = PATCH_NODES.map(|[x, y]| field(name, x, y));
                 let error = patch_error(patch.scene, 4, &state);
                 let case = format!("t/size={:.3}", thickness / 0.24);
                 rows.bound(&format!("patch {name} {} {case}", pattern.element()), error, 1e-9);
@@ -85,7 +93,7 @@ fn samples() -> Result<Vec<ElementSample>, AnyError> {
     }
     let triangle = vec![[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
     samples.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
-    let brick = DISTORTED.to_vec();
+    let brick = DISTORTED_BRICK.to_vec();
     samples.push((
         "Hex8 distorted",
         Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)),
@@ -104,10 +112,11 @@ fn samples() -> Result<Vec<ElementSample>, AnyError> {
 fn rigid_motions(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
     for (name, element, points) in samples()? {
         let order = element.order();
-        let matrix = Part::Stiffness.of(&*element, &points);
+        let matrix = ElementMatrix::Stiffness.of(&*element, &points);
         let scale = largest(&matrix);
         for motion in 0..6 {
-            let state: Vec<[f64; 6]> = points.iter().map(|&point| rigid(motion, point)).collect();
+            let state: Vec<[f64; 6]> =
+                points.iter().map(|&point| rigid_motion(motion, point)).collect();
             let displacement = values(&*element, &state);
             let mut largest_force = 0.0_f64;
             for row in matrix.chunks(order) {
@@ -139,10 +148,10 @@ fn renumbered(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
         };
         let order = element.order();
         let size = order / points.len();
-        let matrix = Part::Stiffness.of(&*element, &points);
+        let matrix = ElementMatrix::Stiffness.of(&*element, &points);
         for &places in orders {
             let moved: Vec<[f64; 3]> = places.iter().map(|&place| points[place]).collect();
-            let computed = Part::Stiffness.of(&*element, &moved);
+            let computed = ElementMatrix::Stiffness.of(&*element, &moved);
             let dofs: Vec<usize> =
                 (0..order).map(|dof| size * places[dof / size] + dof % size).collect();
             let mut difference = 0.0_f64;
@@ -180,10 +189,10 @@ fn in_the_plane(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
         let flat = flat.in_static_state(&flat_points, &displacement, 50.0).ok_or(missing)?;
         let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(missing)?;
         for (name, part) in [
-            ("stiffness", Part::Stiffness),
-            ("geometric stiffness", Part::GeometricStiffness),
-            ("mass", Part::Mass(MassKind::Consistent)),
-            ("lumped mass", Part::Mass(MassKind::Lumped)),
+            ("stiffness", ElementMatrix::Stiffness),
+            ("geometric stiffness", ElementMatrix::GeometricStiffness),
+            ("mass", ElementMatrix::Mass(MassKind::Consistent)),
+            ("lumped mass", ElementMatrix::Mass(MassKind::Lumped)),
         ] {
             let plane_matrix = part.of(&*flat, &flat_points);
             let space_matrix = part.of(&*beam, &points);
@@ -213,7 +222,7 @@ fn clamped_squares(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
             for (i, row) in nodes.iter().enumerate() {
                 for (j, &node) in row.iter().enumerate() {
                     let is_edge = [i, j].iter().any(|&k| k == 0 || k == 8);
-                    plate.scene.hold(node, if is_edge { &CLAMPED } else { &[X, Y, RZ] });
+                    plate.scene.hold(node, if is_edge { &CLAMPED_DIRECTIONS } else { &[X, Y, RZ] });
                 }
             }
             let mut loads = Vec::new();

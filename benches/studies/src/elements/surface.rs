@@ -1,7 +1,7 @@
 //! A surface of shells on supports.
 
 use basemat::fem::{Direction, Element, Material, Shell, ShellResultants};
-use basemat_problems::supported::{Load, Supported, values};
+use basemat_problems::supported::{NodalLoad, SupportedMesh, values};
 
 use crate::AnyError;
 
@@ -32,7 +32,7 @@ impl ShellPattern {
 
 /// Shells of one material and thickness.
 pub(super) struct ShellSurface {
-    pub(super) scene: Supported,
+    pub(super) scene: SupportedMesh,
     pub(super) shells: Vec<Shell>,
     material: Material,
     thickness: f64,
@@ -40,7 +40,7 @@ pub(super) struct ShellSurface {
 
 impl ShellSurface {
     pub(super) fn new(material: Material, thickness: f64) -> Self {
-        Self { scene: Supported::new(), shells: Vec::new(), material, thickness }
+        Self { scene: SupportedMesh::new(), shells: Vec::new(), material, thickness }
     }
 
     pub(super) fn shell(&mut self, nodes: &[usize], thickness: f64) -> Result<(), AnyError> {
@@ -109,7 +109,7 @@ impl ShellSurface {
 }
 
 /// A force spread evenly over the spans between nodes in a row.
-pub(super) fn spread(nodes: &[usize], direction: Direction, force: f64) -> Vec<Load> {
+pub(super) fn spread(nodes: &[usize], direction: Direction, force: f64) -> Vec<NodalLoad> {
     let spans = (nodes.len() - 1) as f64;
     let mut loads = Vec::new();
     for (k, &node) in nodes.iter().enumerate() {

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use basemat::fem::{Element, Material};
-use basemat_problems::supported::{CLAMPED, Load, RX, RY, RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED_DIRECTIONS, NodalLoad, RX, RY, RZ, X, Y, Z};
 
 use super::row::BenchmarkRows;
 use super::surface::{ShellPattern, ShellSurface};
@@ -24,7 +24,7 @@ fn roof(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
                 roof.scene.hold(nodes[k][0], &[Y, RX, RZ]);
                 roof.scene.hold(nodes[count][k], &[Y, Z]);
             }
-            let mut loads: Vec<Load> = Vec::new();
+            let mut loads: Vec<NodalLoad> = Vec::new();
             for shell in &roof.shells {
                 let areas = shell.areas(&roof.scene.points(shell.nodes()))?;
                 let nodes_and_areas = shell.nodes().iter().zip(areas);
@@ -148,7 +148,7 @@ fn closed_hemisphere(rows: &mut BenchmarkRows) -> Result<(), AnyError> {
             let pole = mesh.node_at_point([0.0, 0.0, 10.0])?;
             let pulled = mesh.node_at_point([10.0, 0.0, 0.0])?;
             let pushed = mesh.node_at_point([0.0, 10.0, 0.0])?;
-            dome.scene.hold(pole, &CLAMPED);
+            dome.scene.hold(pole, &CLAMPED_DIRECTIONS);
             let value = dome.scene.solve(&[(pulled, X, 2e3), (pushed, Y, -2e3)])(pulled, X);
             let mesh = format!("{} 3 patches {count}x{count}", pattern.element());
             rows.put("NAFEMS LE3 hemisphere, point loads", "ux at A, m", &mesh, value);

@@ -7,7 +7,7 @@ use basemat::interface::{
 };
 
 use super::options::{InterfaceReading, LimitReading, PaperReading, SlipSenseReading};
-use basemat_problems::containment::Glue;
+use basemat_problems::containment::PermanentLayer;
 
 impl PaperReading {
     /// The law of an element under a base with that mean pressure.
@@ -57,7 +57,7 @@ impl PaperReading {
     /// A layer that stays bonded.
     pub(crate) fn glue(&self, soil: &Soil) -> basemat::Result<Box<dyn InterfaceLaw>> {
         let layer = ThinLayer::new(*soil, self.neighbour_height(), f64::INFINITY)?;
-        Ok(Box::new(InPlane(Glue(layer.with_thickness_ratio(self.ratio)?))))
+        Ok(Box::new(InPlane(PermanentLayer(layer.with_thickness_ratio(self.ratio)?))))
     }
 }
 

@@ -3,7 +3,7 @@
 use basemat::fem::QuadFormulation;
 use clap::{Args, ValueEnum};
 
-use basemat_problems::containment::{Containment, FOOT};
+use basemat_problems::containment::{Containment, METRES_PER_FOOT};
 
 /// One reading.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -158,6 +158,7 @@ impl PaperReading {
 
     /// Height of the element beside the thin layer, m.
     pub(crate) fn neighbour_height(&self) -> f64 {
-        self.neighbour.map_or_else(|| self.containment().layer_height(), |feet| feet * FOOT)
+        self.neighbour
+            .map_or_else(|| self.containment().layer_height(), |feet| feet * METRES_PER_FOOT)
     }
 }

@@ -9,7 +9,7 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 
 use super::forcing::PrintedForcing;
 use super::options::{InterfaceReading, PaperReading, SchemeReading};
-use basemat_problems::containment::{FOOT, ROWS, pounds_per_foot};
+use basemat_problems::containment::{METRES_PER_FOOT, TABLE_1_ROWS, pounds_per_foot};
 
 /// Results of a case.
 pub(crate) struct ReadingResults {
@@ -45,8 +45,8 @@ impl PaperReading {
             .motion(record)
             .gravity(self.gravity * STANDARD_GRAVITY)
             .probes(probes);
-        let friction = ROWS[row].1.unwrap_or(f64::NAN) * self.friction_ratio();
-        let mean_pressure = STANDARD_GRAVITY * scene.mass() / (scene.width * FOOT);
+        let friction = TABLE_1_ROWS[row].1.unwrap_or(f64::NAN) * self.friction_ratio();
+        let mean_pressure = STANDARD_GRAVITY * scene.mass() / (scene.width * METRES_PER_FOOT);
         let builder = if row == 0 && self.law == InterfaceReading::Hard {
             builder.interface(Bonded)
         } else {

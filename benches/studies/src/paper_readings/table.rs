@@ -10,7 +10,7 @@ use csv::Writer;
 use super::options::PaperReading;
 use super::run::root_mean_square;
 use crate::AnyError;
-use basemat_problems::containment::{PAPER_SHEARS, ROWS};
+use basemat_problems::containment::{PAPER_SHEARS, TABLE_1_ROWS};
 
 /// A line per reading; in the file, a line per run.
 pub(crate) struct ReadingsTable {
@@ -88,7 +88,7 @@ impl ReadingsTable {
                     cells
                 }
             };
-            let names = [name.to_owned(), ROWS[row].0.to_owned()];
+            let names = [name.to_owned(), TABLE_1_ROWS[row].0.to_owned()];
             self.writer.write_record(names.iter().chain(&cells))?;
         }
         for first in [0, 2] {

@@ -9,7 +9,7 @@ use super::report::growth_of;
 use super::scheme::{ComparedScheme, PaperScene};
 use crate::AnyError;
 use basemat_problems::containment::{
-    Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS, pounds_per_foot,
+    Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, TABLE_1_ROWS, pounds_per_foot,
 };
 
 /// A change of the scheme.
@@ -81,7 +81,7 @@ fn step_count(scene: &PaperScene, duration: f64) -> usize {
 /// Prints the table of steps and dampings, rows with contact.
 pub(crate) fn print(scene: &PaperScene, duration: f64, short: bool) -> Result<(), AnyError> {
     let limit = 1e6 * PAPER_SHEARS[0] * POUND_FORCE_PER_FOOT;
-    let rows = &ROWS[1..];
+    let rows = &TABLE_1_ROWS[1..];
     let mut references = Vec::new();
     for &(_, friction) in rows {
         let steps = step_count(scene, duration);

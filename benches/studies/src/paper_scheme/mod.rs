@@ -32,7 +32,9 @@ use basemat::contact::ContactSearch;
 use basemat::motion::el_centro_1940;
 
 use crate::AnyError;
-use basemat_problems::containment::{Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS};
+use basemat_problems::containment::{
+    Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, TABLE_1_ROWS,
+};
 use case::{SchemeRow, march};
 use scheme::{COMPARED_SCHEMES, PaperScene};
 
@@ -112,7 +114,7 @@ pub(crate) fn run(options: &PaperSchemeOptions) -> Result<(), AnyError> {
     report::print_assessments(&scene, steps)?;
     let limit = 1e6 * PAPER_SHEARS[0] * POUND_FORCE_PER_FOOT;
     let mut rows = Vec::new();
-    for ((name, friction), paper_peak) in ROWS.into_iter().zip(PAPER_SHEARS) {
+    for ((name, friction), paper_peak) in TABLE_1_ROWS.into_iter().zip(PAPER_SHEARS) {
         let mut outcomes = Vec::new();
         for scheme in COMPARED_SCHEMES {
             let outcome = march(|| scheme.build(&scene, friction), steps, limit)

@@ -11,7 +11,7 @@ use basemat::interface::{Bonded, Coulomb, InPlane, InterfaceLaw, ThinLayer};
 use basemat::motion::{Record, STANDARD_GRAVITY};
 
 use basemat_problems::containment::Containment;
-use basemat_problems::containment::Glue;
+use basemat_problems::containment::PermanentLayer;
 
 /// Soil, interface, time integration and contact iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,7 +138,7 @@ fn paper_interface(
     }
     let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::new();
     for _ in 0..scene.containment.elements {
-        laws.push(Box::new(InPlane(Glue(layer))));
+        laws.push(Box::new(InPlane(PermanentLayer(layer))));
     }
     Ok(builder.interfaces(laws))
 }

@@ -12,7 +12,9 @@ use basemat::sweep::Sweep;
 use super::report::timed;
 use crate::AnyError;
 use crate::document::peak_memory;
-use basemat_problems::headline::{COUNT, ELEMENT, headline, soil, time_step, without_end};
+use basemat_problems::headline::{
+    ELEMENT_COUNT, ELEMENT_LENGTH, headline, soil, time_step, without_end,
+};
 
 const SWEEP_CASES: usize = 8;
 
@@ -72,16 +74,16 @@ struct StepTimes {
 }
 
 fn march(scene: RunScene, steps: usize) -> Result<StepTimes> {
-    let (builder, ground) = headline(if scene == RunScene::Wide { 200 } else { COUNT })?;
+    let (builder, ground) = headline(if scene == RunScene::Wide { 200 } else { ELEMENT_COUNT })?;
     let mut simulation = match scene {
         RunScene::Wide => {
-            let block = RigidBlock::new(200.0 * ELEMENT, 20.0, 500.0)?;
+            let block = RigidBlock::new(200.0 * ELEMENT_LENGTH, 20.0, 500.0)?;
             builder.ground(ground).structure(block).interface(Bonded)
         }
         RunScene::Bonded => builder.ground(ground).interface(Bonded),
         RunScene::Graded => {
-            let half_width = 0.5 * ELEMENT * COUNT as f64;
-            let strip = Strip::new(-half_width..half_width, COUNT, Grading::Cosine)?;
+            let half_width = 0.5 * ELEMENT_LENGTH * ELEMENT_COUNT as f64;
+            let strip = Strip::new(-half_width..half_width, ELEMENT_COUNT, Grading::Cosine)?;
             let ground = ElasticGround::new(soil()?, strip)?;
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
@@ -113,7 +115,7 @@ fn sweep(steps: usize) -> Result<()> {
     let mut outcome = Ok(());
     Sweep::new(SWEEP_CASES).run(
         |case| {
-            let (builder, ground) = headline(COUNT)?;
+            let (builder, ground) = headline(ELEMENT_COUNT)?;
             let builder = builder
                 .ground(ground.with_shared_kernels(&kernels))
                 .interface(Coulomb::new(0.1 * (case.index + 1) as f64)?);

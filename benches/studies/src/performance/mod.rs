@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 use crate::AnyError;
 use crate::document::splice;
-use basemat_problems::headline::STEPS;
+use basemat_problems::headline::RECORD_STEPS;
 use report::Report;
 
 /// The crate's performance targets, measured.
@@ -37,7 +37,7 @@ pub(crate) struct PerformanceOptions {
     /// Run one scene in this process and print its times and memory.
     #[arg(long, hide = true)]
     child: Option<child::RunScene>,
-    #[arg(long, hide = true, default_value_t = STEPS)]
+    #[arg(long, hide = true, default_value_t = RECORD_STEPS)]
     steps: usize,
 }
 

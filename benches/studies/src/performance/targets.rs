@@ -6,7 +6,7 @@ use super::histories::{
 };
 use super::report::{Report, timed};
 use crate::AnyError;
-use basemat_problems::headline::{ROWS, STEPS};
+use basemat_problems::headline::{RECORD_STEPS, TIMED_SCENES};
 
 /// The smallest times and memory of `repeats` runs.
 fn best(
@@ -42,14 +42,14 @@ pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
         ("friction 0.4", RunScene::Friction),
         ("friction 0.4, graded elements", RunScene::Graded),
     ] {
-        let cost = best(scene, STEPS, 1, repeats)?;
+        let cost = best(scene, RECORD_STEPS, 1, repeats)?;
         report.target(
             &format!("headline run, {name}: whole, setup included"),
             "< 0.7 s",
             &format!(
                 "{:.2} s ({:.1} µs per step; slowest step {:.2} ms)",
                 cost.seconds,
-                1e6 * cost.seconds / STEPS as f64,
+                1e6 * cost.seconds / RECORD_STEPS as f64,
                 1e3 * cost.slowest
             ),
             cost.seconds < 0.7,
@@ -74,9 +74,9 @@ pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
         ),
         cost.seconds < 10.0 && within(cost.peak, 15.0),
     );
-    let steps = if short { 4_000 } else { STEPS };
+    let steps = if short { 4_000 } else { RECORD_STEPS };
     let cost = measure(RunScene::Wide, steps, 1)?;
-    let scaled = cost.seconds * STEPS as f64 / steps as f64;
+    let scaled = cost.seconds * RECORD_STEPS as f64 / steps as f64;
     let march = history_cost(relaxed, 200, steps, 1)?.march;
     report.target(
         "200 contact elements, rigid block, bonded, 54 000 steps: whole run",
@@ -107,8 +107,8 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     let steps: usize = if short { 3_000 } else { 8_000 };
     let seconds = direct(10, steps)?;
     let rate = 100.0 * (steps as f64).powi(2) / seconds;
-    let scaled = seconds * (STEPS as f64 / steps as f64).powi(2);
-    let exponentials = history_cost(bounded, 10, STEPS, 3)?;
+    let scaled = seconds * (RECORD_STEPS as f64 / steps as f64).powi(2);
+    let exponentials = history_cost(bounded, 10, RECORD_STEPS, 3)?;
     report.target(
         "history alone, 10 elements, 54 000 steps: direct over exponentials at 1e-12",
         "≥ 200",
@@ -139,7 +139,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
 
 fn coefficient_targets(report: &mut Report) -> Result<(), AnyError> {
     for (count, target) in [(10, 0.1), (200, 2.0)] {
-        let seconds = coefficients(count, STEPS)?;
+        let seconds = coefficients(count, RECORD_STEPS)?;
         report.target(
             &format!("coefficients of {count} elements, 54 000 lags"),
             &format!("< {target} s"),
@@ -235,7 +235,7 @@ pub(crate) fn scenes(report: &mut Report, short: bool) -> Result<(), AnyError> {
     let steps = if short { 2_000 } else { 10_000 };
     let repeats = if short { 1 } else { 3 };
     let mut rows = Vec::new();
-    for scene in &ROWS {
+    for scene in &TIMED_SCENES {
         let mut march = f64::INFINITY;
         let mut build = f64::INFINITY;
         for _ in 0..repeats {

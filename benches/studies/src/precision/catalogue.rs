@@ -6,7 +6,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::RigidBlock;
 
-use basemat_problems::containment::{Containment, FOOT};
+use basemat_problems::containment::{Containment, METRES_PER_FOOT};
 use basemat_problems::tabled_structures::three_storeys;
 
 use super::force::ForceSeries;
@@ -115,7 +115,7 @@ pub(crate) fn containment(
     Ok(PrecisionScene {
         name,
         soil: containment.soil()?,
-        width: containment.width * FOOT,
+        width: containment.width * METRES_PER_FOOT,
         duration,
         parts: Box::new(move |builder| {
             let builder = builder

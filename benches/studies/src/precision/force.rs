@@ -1,6 +1,6 @@
 //! Time series of the base shear, and their errors.
 
-use basemat_problems::series::{Series, whole};
+use basemat_problems::series::{TabledSeries, nearest_integer};
 use basemat_problems::table;
 
 /// Short steps in an interval of a table.
@@ -41,9 +41,9 @@ impl ForceSeries {
 
     /// A column of a reference table from t = 0 on: cubics through the values, averaged over short steps.
     pub(crate) fn from_table(file: &str, column: &str) -> Self {
-        let series = Series::new(&table(file), column);
+        let series = TabledSeries::new(&table(file), column);
         let step = series.step() / INTERVAL_PARTS as f64;
-        let count = INTERVAL_PARTS * whole(series.duration() / series.step());
+        let count = INTERVAL_PARTS * nearest_integer(series.duration() / series.step());
         let means = (1..=count).map(|k| series.mean(k as f64 * step, step));
         Self::new(step, means.collect())
     }

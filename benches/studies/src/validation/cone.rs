@@ -11,7 +11,7 @@ use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::artificial_motion::artificial_motion;
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "cone",
@@ -106,7 +106,7 @@ fn march(scene: &ConeScene, duration: f64) -> Result<ConeMarch, AnyError> {
     let mut open = 0.0;
     let mut sliding = 0.0;
     let mut total = 0.0;
-    for n in 1..=whole(duration / step) {
+    for n in 1..=nearest_integer(duration / step) {
         let state = simulation.step()?;
         for (element, before) in state.contact.iter().zip(&before) {
             let residuals = violations(element, before, scene.friction, pressure, settlement);

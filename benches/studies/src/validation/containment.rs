@@ -8,7 +8,9 @@ use crate::AnyError;
 use crate::containment::case::{ContainmentCase, ContainmentOutcome};
 use crate::containment::run_all;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::containment::{Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS};
+use basemat_problems::containment::{
+    Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, TABLE_1_ROWS,
+};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "containment",
@@ -66,7 +68,7 @@ fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
         .line("uplift only", CURVE_BLUE, shear_curve(&computed[1])?);
     let right = FigurePanel::new("interface", "peak base shear, 1000 lb/ft")
         .legend(SeriesLabelPosition::UpperRight)
-        .categories(&ROWS.map(|(name, _)| name))
+        .categories(&TABLE_1_ROWS.map(|(name, _)| name))
         .room(0.1, 0.1)
         .crosses("Patel & Spyrakos, Table 1", CURVE_RED, by_row(&PAPER_SHEARS))
         .circles("basemat", CURVE_BLUE, by_row(&shear));

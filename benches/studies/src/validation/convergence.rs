@@ -8,7 +8,7 @@ use crate::AnyError;
 use crate::figure::{
     CURVE_BLUE, CURVE_GRAY, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel,
 };
-use basemat_problems::sampled_block::{History, PulsedBlock, distance};
+use basemat_problems::sampled_block::{PulsedBlock, SampledHistory, distance};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "convergence",
@@ -22,7 +22,7 @@ fn history(
     scene: PulsedBlock,
     mesh: (Grading, usize),
     time_step: f64,
-) -> Result<History, AnyError> {
+) -> Result<SampledHistory, AnyError> {
     let (history, run) = scene.history(mesh, time_step)?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());

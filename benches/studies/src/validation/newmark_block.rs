@@ -10,7 +10,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_curve, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::{Error, whole};
+use basemat_problems::series::{RelativeError, nearest_integer};
 use basemat_problems::table;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
@@ -34,7 +34,7 @@ fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
     let mut slip = 0.0;
     let mut velocity = 0.0_f64;
     let mut slips = vec![0.0];
-    for n in 0..whole(duration / SAMPLE_INTERVAL) {
+    for n in 0..nearest_integer(duration / SAMPLE_INTERVAL) {
         for k in 0..substeps {
             let time = n as f64 * SAMPLE_INTERVAL + (f64::from(k) + 0.5) * step;
             let free = velocity - interpolated(record, time) * step;
@@ -48,10 +48,10 @@ fn reference(record: &Record, friction: f64, duration: f64) -> Vec<f64> {
 }
 
 /// Acceleration of a record at a time, linear between its samples.
-fn interpolated(record: &Record, time: f64) -> f64 {
+pub(super) fn interpolated(record: &Record, time: f64) -> f64 {
     let samples = record.accelerations();
     let position = time / record.time_step();
-    let k = whole(position.floor()).min(samples.len() - 2);
+    let k = nearest_integer(position.floor()).min(samples.len() - 2);
     let part = position - k as f64;
     samples[k] * (1.0 - part) + samples[k + 1] * part
 }
@@ -65,9 +65,9 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
         .interface(Coulomb::new(friction)?)
         .motion(el_centro_1940())
         .build()?;
-    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let mut slips = vec![0.0];
-    let run = simulation.run(stride * whole(duration / SAMPLE_INTERVAL), |state| {
+    let run = simulation.run(stride * nearest_integer(duration / SAMPLE_INTERVAL), |state| {
         if state.step % stride == 0 {
             slips.push(state.mean_slip);
         }
@@ -79,7 +79,7 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
 }
 
 fn distance(computed: &[f64], reference: &[f64]) -> f64 {
-    let mut error = Error::default();
+    let mut error = RelativeError::default();
     computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }
@@ -94,7 +94,7 @@ fn last(slips: &[f64]) -> f64 {
 
 /// Slip of the first 12 s, mm.
 fn slip_curve(slips: &[f64]) -> Vec<(f64, f64)> {
-    milli_curve(SAMPLE_INTERVAL, &slips[..slips.len().min(whole(12.0 / SAMPLE_INTERVAL))])
+    milli_curve(SAMPLE_INTERVAL, &slips[..slips.len().min(nearest_integer(12.0 / SAMPLE_INTERVAL))])
 }
 
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {

@@ -13,7 +13,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "overturning",
@@ -143,7 +143,7 @@ fn overturned(amplitude: f64, frequency: f64) -> bool {
 /// First time from `from` on at which a sine pulse lifts the block.
 fn uplift(from: f64, amplitude: f64, frequency: f64) -> Option<f64> {
     let step = 1e-4;
-    let steps = whole(((TAU / frequency - from) / step).max(0.0));
+    let steps = nearest_integer(((TAU / frequency - from) / step).max(0.0));
     let mut times = (0..steps).map(|k| from + k as f64 * step);
     times.find(|time| amplitude * (frequency * time).sin().abs() > 1.0)
 }
@@ -184,7 +184,7 @@ fn falls(
     record: Record,
 ) -> Result<bool, AnyError> {
     let end = record.duration();
-    let steps = whole((end + FREE_DURATION / rate()) / time_step);
+    let steps = nearest_integer((end + FREE_DURATION / rate()) / time_step);
     let central = corner_inertia() - BLOCK_MASS * (B * B + H * H);
     let block =
         RigidBlock::from_mass(width, BLOCK_MASS, central, H)?.with_p_delta(STANDARD_GRAVITY)?;
@@ -252,7 +252,7 @@ fn impulse_rate(velocity: f64) -> f64 {
 fn jumps(velocity: f64, after: f64) -> Result<Record, AnyError> {
     let step = 5e-4;
     // The block starts with the rate Ω, turns where tanh t = Ω, and is back after twice this time.
-    let second = whole((2.0 * impulse_rate(velocity).atanh() + after) / rate() / step);
+    let second = nearest_integer((2.0 * impulse_rate(velocity).atanh() + after) / rate() / step);
     let mut samples = vec![0.0; second + 4];
     samples[1] = velocity / step;
     samples[second + 1] -= velocity / step;

@@ -12,7 +12,7 @@ use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::table;
-use basemat_problems::wrapped::Pulled;
+use basemat_problems::wrapped::StructureWithForce;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "punch",
@@ -28,7 +28,11 @@ const LOAD_ECCENTRICITIES: [f64; 4] = [0.3, 0.6, 0.75, 0.9];
 /// Rigid block under a constant clockwise moment.
 fn tilted(moment: f64) -> basemat::Result<impl Structure> {
     let structure = RigidBlock::new(2.0, 1.0, 0.5)?;
-    Ok(Pulled { structure, along: RigidBlock::ROTATION.into(), force: move |_| -moment })
+    Ok(StructureWithForce {
+        structure,
+        along: RigidBlock::ROTATION.into(),
+        force: move |_| -moment,
+    })
 }
 
 /// Clockwise tilt, length of contact, and pressure of every element.

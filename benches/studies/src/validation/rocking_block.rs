@@ -13,7 +13,7 @@ use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_c
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::rocking::{Rocker, crossings, quarter_period};
-use basemat_problems::series::{Error, whole};
+use basemat_problems::series::{RelativeError, nearest_integer};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "rocking_block",
@@ -111,7 +111,7 @@ fn tilts(
         .interface(Coulomb::uplift_only())
         .build()?;
     let mut tilts = vec![0.0];
-    let steps = whole(duration / time_step);
+    let steps = nearest_integer(duration / time_step);
     let run = simulation.run(steps, |state| tilts.push(state.absolute_displacement()[2]))?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
@@ -128,14 +128,14 @@ fn on_corners(time_step: f64, duration: f64, factor: f64) -> Result<Vec<f64>, An
     let bed = SpringGround::new(-2.0 * B..2.0 * B, 2, stiffness, 1e13)?
         .with_dashpots(dashpot, 0.0)?
         .with_theta(1.0)?;
-    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let block = PushedBlock::on_base(4.0 * B, factor)?;
     Ok(tilts(bed, block, time_step, duration)?.into_iter().step_by(stride).collect())
 }
 
 /// Difference of histories relative to the reference, in the L2 norm.
 fn relative(computed: &[f64], reference: &[f64]) -> f64 {
-    let mut error = Error::default();
+    let mut error = RelativeError::default();
     computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }
@@ -154,7 +154,7 @@ fn quarter_ratios(speed: f64, elements: usize) -> Result<QuarterRatios, AnyError
     let ground = ElasticGround::new(soil, strip)?;
     let edge = ground.elements()[0].length();
     let tilts = tilts(ground, PushedBlock::on_base(2.0 * B, 1.0)?, time_step, 1.5)?;
-    let peak = (whole(PUSH_DURATION / time_step)..tilts.len() - 1)
+    let peak = (nearest_integer(PUSH_DURATION / time_step)..tilts.len() - 1)
         .find(|&k| tilts[k + 1] < tilts[k])
         .ok_or("the block does not turn back")?;
     let before = tilts[peak - 1];
@@ -177,7 +177,8 @@ fn quarter_ratios(speed: f64, elements: usize) -> Result<QuarterRatios, AnyError
 
 /// Largest tilt between two times.
 fn peak_tilt(tilts: &[f64], from: f64, to: f64) -> f64 {
-    let part = &tilts[whole(from / SAMPLE_INTERVAL)..=whole(to / SAMPLE_INTERVAL)];
+    let part =
+        &tilts[nearest_integer(from / SAMPLE_INTERVAL)..=nearest_integer(to / SAMPLE_INTERVAL)];
     part.iter().fold(0.0_f64, |largest, tilt| worse(largest, tilt.abs()))
 }
 

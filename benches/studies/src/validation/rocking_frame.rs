@@ -14,7 +14,7 @@ use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_c
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::rocking::{Rocker, crossings};
-use basemat_problems::series::{Error, whole};
+use basemat_problems::series::{RelativeError, nearest_integer};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "rocking_frame",
@@ -118,9 +118,9 @@ fn march(
         .interface(Coulomb::uplift_only())
         .load(Load::new(pushed, move |time| push * pulse(time)))
         .build()?;
-    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let mut history: FrameHistory = [vec![0.0], vec![0.0]];
-    let run = simulation.run(whole(duration / time_step), |state| {
+    let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
             for (values, row) in history.iter_mut().zip(&rows) {
                 values.push(row.value(state.displacement()));
@@ -248,8 +248,8 @@ fn by_events(push: f64, step: f64, duration: f64) -> (FrameHistory, usize) {
     };
     let mut landings = 0;
     let mut history: FrameHistory = [vec![0.0], vec![0.0]];
-    let stride = whole(SAMPLE_INTERVAL / step);
-    for n in 0..whole(duration / step) {
+    let stride = nearest_integer(SAMPLE_INTERVAL / step);
+    for n in 0..nearest_integer(duration / step) {
         column.step(n as f64 * step, step);
         landings += usize::from(column.change_side());
         if (n + 1) % stride == 0 {
@@ -261,7 +261,7 @@ fn by_events(push: f64, step: f64, duration: f64) -> (FrameHistory, usize) {
 }
 
 fn relative(computed: &[f64], reference: &[f64]) -> f64 {
-    let mut error = Error::default();
+    let mut error = RelativeError::default();
     computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }

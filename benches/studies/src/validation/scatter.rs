@@ -13,7 +13,7 @@ use crate::AnyError;
 use crate::artificial_motion::artificial_motion;
 use crate::figure::{CURVE_BLUE, CURVE_GREEN, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::random::Random;
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "scatter",
@@ -45,7 +45,7 @@ fn rocking_block(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
         .interface(Coulomb::new(0.7)?)
         .motion(el_centro_1940().scaled(factor)?)
         .build()?;
-    let run = simulation.run(whole(RUN_DURATION / time_step), |_| {})?;
+    let run = simulation.run(nearest_integer(RUN_DURATION / time_step), |_| {})?;
     Ok([1e3 * run.whole.base_rotation.magnitude(), 0.0])
 }
 
@@ -63,7 +63,7 @@ fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
             ..Triaxial::default()
         })
         .build()?;
-    let run = simulation.run(whole(RUN_DURATION / time_step), |_| {})?;
+    let run = simulation.run(nearest_integer(RUN_DURATION / time_step), |_| {})?;
     let whole = &run.whole;
     let tilt = whole.base_rotation.magnitude();
     Ok([1e3 * tilt, 1e3 * whole.twist.magnitude()])
@@ -72,7 +72,7 @@ fn twisting_column(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
 /// Value below which this part of the sorted values lies.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let position = part * (sorted.len() - 1) as f64;
-    let below = whole(position.floor());
+    let below = nearest_integer(position.floor());
     let above = (below + 1).min(sorted.len() - 1);
     sorted[below] + (position - position.floor()) * (sorted[above] - sorted[below])
 }

@@ -13,7 +13,7 @@ use crate::AnyError;
 use crate::artificial_motion::artificial_motion;
 use crate::figure::{CURVE_BLUE, CURVE_GRAY, CURVE_GREEN, CURVE_ORANGE, Figure, FigurePanel};
 use crate::fragility::motions;
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "sliding_estimate",
@@ -84,7 +84,7 @@ fn on_soil(speed: f64, horizontal: &Record, vertical: Option<Record>) -> Result<
         .motion(VerticalIncidence { horizontal: Some(horizontal.clone()), vertical })
         .build()?;
     let mut largest = 0.0_f64;
-    let steps = whole((horizontal.duration() + 2.0) / TIME_STEP);
+    let steps = nearest_integer((horizontal.duration() + 2.0) / TIME_STEP);
     let run = simulation.run(steps, |state| largest = largest.max(state.mean_slip.abs()))?;
     if run.energy_error > 1e-9 {
         return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
@@ -110,7 +110,7 @@ impl EstimateGroup {
         let mut ratios = self.ratios();
         ratios.sort_by(f64::total_cmp);
         let count = ratios.len();
-        let median = ratios[whole(0.5 * (count - 1) as f64)];
+        let median = ratios[nearest_integer(0.5 * (count - 1) as f64)];
         let name = format!("{}, peak {} μg", self.name, PEAK_LEVELS[self.level]);
         let limits = MEDIAN_LIMITS[self.level];
         let below = ratios.iter().filter(|ratio| **ratio < 1.0).count();

@@ -6,9 +6,9 @@ use plotters::prelude::SeriesLabelPosition;
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::impedance::{Force, impedances};
-use basemat_problems::rigid_strip::RigidStrip;
-use basemat_problems::series::Error;
+use basemat_problems::impedance::{ForceSampling, impedances};
+use basemat_problems::rigid_strip::DrivenStrip;
+use basemat_problems::series::RelativeError;
 use basemat_problems::table;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
@@ -35,8 +35,8 @@ fn curves(name: &str, poisson: f64, bonded: bool) -> StripCurves {
     let rows = table(&format!("strip_{kind}_nu{name}_xi00.csv")).rows(columns).into_iter();
     let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let strip = |contact| RigidStrip::new(poisson, Grading::Cosine, 16, TIME_STEP, contact);
-    let computed = impedances(strip, TIME_STEP, Force::Mean, bonded, &frequencies);
+    let strip = |contact| DrivenStrip::new(poisson, Grading::Cosine, 16, TIME_STEP, contact);
+    let computed = impedances(strip, TIME_STEP, ForceSampling::Mean, bonded, &frequencies);
     let tabled = rows
         .iter()
         .map(|row| std::array::from_fn(|k| [row[2 * k + 1], row[2 * k + 2]]))
@@ -48,7 +48,7 @@ impl StripCurves {
     /// Root mean square of the error, relative to the root mean square of the modulus.
     fn errors(&self) -> [f64; 4] {
         std::array::from_fn(|k| {
-            let mut error = Error::default();
+            let mut error = RelativeError::default();
             for (computed, tabled) in self.computed.iter().zip(&self.tabled) {
                 (0..2).for_each(|part| error.add(computed[k][part], tabled[k][part]));
             }

@@ -11,7 +11,7 @@ use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
 use basemat_problems::sampled_block::{base_motion, moment, rotation, shear};
-use basemat_problems::series::{Error, Series, whole};
+use basemat_problems::series::{RelativeError, TabledSeries, nearest_integer};
 use basemat_problems::table;
 use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
@@ -71,8 +71,10 @@ fn histories(
     quantities: &[TabledQuantity],
 ) -> Result<TabledRun, AnyError> {
     let table = table(file);
-    let columns: Vec<_> =
-        quantities.iter().map(|quantity| Series::new(&table, quantity.column)).collect();
+    let columns: Vec<_> = quantities
+        .iter()
+        .map(|quantity| TabledSeries::new(&table, quantity.column))
+        .collect();
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let strip = Strip::new(-1.0..1.0, ELEMENT_COUNT, Grading::Cosine)?;
     let mut simulation = Simulation::builder(TIME_STEP)
@@ -94,7 +96,7 @@ fn histories(
         })
         .collect();
     let duration = columns.first().ok_or("no quantities")?.duration();
-    let run = simulation.run(whole(duration / TIME_STEP), |state| {
+    let run = simulation.run(nearest_integer(duration / TIME_STEP), |state| {
         for ((history, quantity), column) in histories.iter_mut().zip(quantities).zip(&columns) {
             // The force of a step is its mean over the step, in the middle of the step.
             if quantity.mean {
@@ -108,7 +110,7 @@ fn histories(
         }
     })?;
     for history in &mut histories {
-        let mut error = Error::default();
+        let mut error = RelativeError::default();
         history.computed.iter().zip(&history.tabled).for_each(|(a, b)| error.add(*a, *b));
         history.error = error.relative();
     }

@@ -12,7 +12,7 @@ use basemat::structure::{BaseNode, MatrixModel, RigidBlock, Triplets};
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, milli_curve};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::{Error, whole};
+use basemat_problems::series::{RelativeError, nearest_integer};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "two_springs",
@@ -180,8 +180,8 @@ fn reference(dashpot: f64, duration: f64) -> [Vec<f64>; 2] {
     let mut series = [vec![0.0], vec![0.0]];
     // The parts are so short that no event happens twice in one of them.
     let parts = 10;
-    for n in 0..whole(duration / SAMPLE_INTERVAL) {
-        let moment = if n < whole(PUSH_DURATION / SAMPLE_INTERVAL) {
+    for n in 0..nearest_integer(duration / SAMPLE_INTERVAL) {
+        let moment = if n < nearest_integer(PUSH_DURATION / SAMPLE_INTERVAL) {
             PUSH_FACTOR * BLOCK_WEIGHT * B
         } else {
             0.0
@@ -220,9 +220,9 @@ fn computed(dashpot: f64, time_step: f64, duration: f64) -> Result<[Vec<f64>; 2]
             if time > 0.0 && time < PUSH_DURATION { PUSH_FACTOR * BLOCK_WEIGHT * B } else { 0.0 }
         }))
         .build()?;
-    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let mut series = [vec![0.0], vec![0.0]];
-    let run = simulation.run(whole(duration / time_step), |state| {
+    let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
             let displacement = state.displacement();
             series[0].push(displacement[RigidBlock::ROTATION]);
@@ -236,7 +236,7 @@ fn computed(dashpot: f64, time_step: f64, duration: f64) -> Result<[Vec<f64>; 2]
 }
 
 fn relative(computed: &[f64], reference: &[f64]) -> f64 {
-    let mut error = Error::default();
+    let mut error = RelativeError::default();
     computed.iter().zip(reference).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
 }

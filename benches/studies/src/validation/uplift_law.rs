@@ -16,7 +16,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_ORANGE, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::whole;
+use basemat_problems::series::nearest_integer;
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "uplift_law",
@@ -205,7 +205,7 @@ fn loops(
     let unit = base.compliance(count, friction)? / alpha;
     let mut points = Vec::new();
     let mut before = 0.0;
-    let run = simulation.run(whole(RUN_DURATION / TIME_STEP), |state| {
+    let run = simulation.run(nearest_integer(RUN_DURATION / TIME_STEP), |state| {
         let rotation = 0.5 * (state.base_rotation + before);
         before = state.base_rotation;
         points.push([

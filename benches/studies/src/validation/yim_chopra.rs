@@ -7,10 +7,11 @@ use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{Base, BaseNode, Structure, Triplets};
 use plotters::prelude::SeriesLabelPosition;
 
+use super::newmark_block::interpolated;
 use super::outcome::{ValidationCase, ValidationCheck, ValidationOutcome, worse};
 use crate::AnyError;
 use crate::figure::{CURVE_BLUE, CURVE_GRAY, CURVE_RED, Figure, FigurePanel};
-use basemat_problems::series::{Error, whole};
+use basemat_problems::series::{RelativeError, nearest_integer};
 
 pub(crate) const VALIDATION_CASE: ValidationCase = ValidationCase {
     name: "yim_chopra",
@@ -195,15 +196,6 @@ impl StripBed {
     }
 }
 
-/// Acceleration of a record at a time, linear between its samples.
-fn interpolated(record: &Record, time: f64) -> f64 {
-    let samples = record.accelerations();
-    let position = time / record.time_step();
-    let k = whole(position.floor()).min(samples.len() - 2);
-    let part = position - k as f64;
-    samples[k] * (1.0 - part) + samples[k + 1] * part
-}
-
 fn reference(
     model: &UpliftModel,
     record: &Record,
@@ -212,9 +204,9 @@ fn reference(
     duration: f64,
 ) -> UpliftHistory {
     let mut bed = StripBed::new(model, strips);
-    let stride = whole(SAMPLE_INTERVAL / step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / step);
     let mut history: UpliftHistory = [vec![0.0], vec![-bed.state[1]], vec![0.0], vec![0.0]];
-    for n in 0..whole(duration / step) {
+    for n in 0..nearest_integer(duration / step) {
         bed.step(record, n as f64 * step, step);
         if (n + 1) % stride == 0 {
             let y = &bed.state;
@@ -259,9 +251,9 @@ fn computed(
     };
     let mut simulation = builder.build()?;
     let settlement = -simulation.static_displacement()[1];
-    let stride = whole(SAMPLE_INTERVAL / time_step);
+    let stride = nearest_integer(SAMPLE_INTERVAL / time_step);
     let mut history: UpliftHistory = [vec![0.0], vec![settlement], vec![0.0], vec![0.0]];
-    let run = simulation.run(whole(duration / time_step), |state| {
+    let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
             let u = state.absolute_displacement();
             history[0].push(u[3] - u[0] + model.height * u[2]);
@@ -275,7 +267,7 @@ fn computed(
 
 fn errors(computed: &UpliftHistory, reference: &UpliftHistory) -> [f64; 4] {
     std::array::from_fn(|k| {
-        let mut error = Error::default();
+        let mut error = RelativeError::default();
         computed[k].iter().zip(&reference[k]).for_each(|(a, b)| error.add(*a, *b));
         error.relative()
     })

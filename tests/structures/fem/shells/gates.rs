@@ -4,7 +4,7 @@
 
 use super::{ALL_DIRECTIONS, Assembly, CellPattern, RX, RY, RZ, X, Y, Z, dof, material};
 use basemat::fem::{Direction, Element};
-use basemat_problems::table::close;
+use basemat_problems::table::assert_close;
 use std::f64::consts::PI;
 
 /// Half of the difference of six printed digits, relative, with some rounding.
@@ -61,7 +61,7 @@ fn straight_cantilever() {
             let a = u[dof(low, direction)];
             let b = u[dof(high, direction)];
             let found = if twist { (b - a) / 0.2 } else { 0.5 * (a + b) };
-            close(
+            assert_close(
                 &format!("{pattern:?} {shape} {direction:?}"),
                 found,
                 expected,
@@ -98,8 +98,8 @@ fn twisted_cantilever() {
             strip.load.fill(0.0);
             spread(&mut strip, &nodes[12], direction, 1.0);
             let found = strip.solve()[dof(nodes[12][1], direction)];
-            close("tip of the twisted strip", found, expected, 0.0, PRINTED_TOLERANCE);
-            close("tip of the twisted strip", found, target, 0.0, 0.01);
+            assert_close("tip of the twisted strip", found, expected, 0.0, PRINTED_TOLERANCE);
+            assert_close("tip of the twisted strip", found, target, 0.0, 0.01);
         }
     }
 }
@@ -129,8 +129,8 @@ fn scordelis_lo_roof() {
             }
         }
         let found = roof.solve()[dof(nodes[0][8], Z)];
-        close("edge of the roof", found, expected, 0.0, PRINTED_TOLERANCE);
-        close(
+        assert_close("edge of the roof", found, expected, 0.0, PRINTED_TOLERANCE);
+        assert_close(
             "edge of the roof",
             found,
             -0.3024,
@@ -161,7 +161,7 @@ fn pinched_hemisphere() {
         dome.fix(nodes[0][0], &[Z]);
         dome.load[dof(nodes[0][0], X)] = 1.0;
         dome.load[dof(nodes[8][0], Y)] = -1.0;
-        close(
+        assert_close(
             "pinched hemisphere",
             dome.solve()[dof(nodes[0][0], X)],
             expected,
@@ -190,7 +190,7 @@ fn pinched_cylinder() {
             pipe.fix(nodes[8][k], &[Y, Z]);
         }
         pipe.load[dof(nodes[0][0], Z)] = -0.25;
-        close(
+        assert_close(
             "pinched cylinder",
             pipe.solve()[dof(nodes[0][0], Z)],
             expected,
@@ -235,6 +235,6 @@ fn z_section_in_torsion() {
             }
         }
         let mean = stresses.iter().sum::<f64>() / stresses.len() as f64;
-        close("stress at the tip of the flange", mean, expected, 0.0, PRINTED_TOLERANCE);
+        assert_close("stress at the tip of the flange", mean, expected, 0.0, PRINTED_TOLERANCE);
     }
 }

@@ -13,9 +13,11 @@ mod single;
 mod surface;
 
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Shell};
-use basemat_problems::dense::{self, Matrix};
+use basemat_problems::dense::{self, DenseMatrix};
 
-pub(super) use basemat_problems::supported::{CLAMPED as ALL_DIRECTIONS, RX, RY, RZ, X, Y, Z};
+pub(super) use basemat_problems::supported::{
+    CLAMPED_DIRECTIONS as ALL_DIRECTIONS, RX, RY, RZ, X, Y, Z,
+};
 
 /// Shells in space with supports and loads at their nodes.
 pub(super) struct Assembly {
@@ -94,7 +96,10 @@ impl Assembly {
         nodes.iter().map(|&node| self.mesh.nodes()[node]).collect()
     }
 
-    pub(super) fn matrix(&self, add: impl Fn(&dyn Element, &[[f64; 3]], &mut [f64])) -> Matrix {
+    pub(super) fn matrix(
+        &self,
+        add: impl Fn(&dyn Element, &[[f64; 3]], &mut [f64]),
+    ) -> DenseMatrix {
         let order = self.load.len();
         let mut all = vec![vec![0.0; order]; order];
         for element in self.mesh.elements() {
@@ -112,17 +117,17 @@ impl Assembly {
         all
     }
 
-    pub(super) fn stiffness(&self) -> Matrix {
+    pub(super) fn stiffness(&self) -> DenseMatrix {
         self.matrix(Element::stiffness)
     }
 
-    pub(super) fn mass(&self, kind: MassKind) -> Matrix {
+    pub(super) fn mass(&self, kind: MassKind) -> DenseMatrix {
         self.matrix(|element, points, matrix| element.mass(points, kind, matrix))
     }
 
     /// Displacements under the load.
     pub(super) fn solve(&self) -> Vec<f64> {
-        dense::solve_held(&self.stiffness(), &self.load, &self.prescribed)
+        dense::solve_with_prescribed(&self.stiffness(), &self.load, &self.prescribed)
     }
 
     /// Displacements of the nodes of a shell.

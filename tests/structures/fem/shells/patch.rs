@@ -5,12 +5,12 @@
 use super::{Assembly, material};
 use basemat::fem::{Element, Shell};
 use basemat_problems::dense::{largest, multiply};
-use basemat_problems::patch::{POINTS, QUADS, STATES, field};
+use basemat_problems::patch::{PATCH_NODES, PATCH_QUADS, SHELL_STATES, field};
 
 /// Elements of the patch by their corners: quadrilaterals both ways round, triangles, or both.
 fn elements(kind: &str) -> Vec<Vec<usize>> {
     let mut all = Vec::new();
-    for (index, corners) in QUADS.into_iter().enumerate() {
+    for (index, corners) in PATCH_QUADS.into_iter().enumerate() {
         let [a, b, c, d] = corners;
         match (kind, index) {
             ("triangles", _) | ("mixed", 2) => all.extend([vec![a, b, c], vec![a, c, d]]),
@@ -53,7 +53,7 @@ struct SolvedPatch {
 impl SolvedPatch {
     fn new(kind: &str, state: &str, thickness: f64, match_sides: bool) -> Self {
         let mut assembly = Assembly::new();
-        for [x, y] in POINTS {
+        for [x, y] in PATCH_NODES {
             assembly.node(in_space([x, y, 0.0]));
         }
         let mut shells = Vec::new();
@@ -68,7 +68,7 @@ impl SolvedPatch {
             }
         }
         let mut exact = Vec::new();
-        for [x, y] in POINTS {
+        for [x, y] in PATCH_NODES {
             let [u, v, w, a, b, c] = field(state, x, y);
             exact.extend(in_space([u, v, w]));
             exact.extend(in_space([a, b, c]));
@@ -88,7 +88,7 @@ impl SolvedPatch {
 #[test]
 fn uniform_states_are_exact() {
     for kind in ["quads", "triangles", "mixed"] {
-        for state in STATES {
+        for state in SHELL_STATES {
             for thickness in [0.001, 0.05] {
                 let patch = SolvedPatch::new(kind, state, thickness, true);
                 let exact = &patch.exact;

@@ -4,8 +4,10 @@
 
 use super::{ALL_DIRECTIONS, Assembly, CellPattern, RX, RY, RZ, X, Y, Z, dof, material};
 use basemat::fem::{Element, MassKind};
-use basemat_problems::dense::{Matrix, eigenvalues, form, inverse, multiply, noise, part};
-use basemat_problems::table::close;
+use basemat_problems::dense::{
+    DenseMatrix, eigenvalues, form, inverse, multiply, noise, submatrix,
+};
+use basemat_problems::table::assert_close;
 use std::f64::consts::PI;
 
 /// A plate 10 × 10 m that moves across its plane only.
@@ -25,8 +27,8 @@ fn plate(thickness: f64, pattern: CellPattern) -> Plate {
 }
 
 /// φᵢᵀ A φⱼ for all pairs of shapes.
-fn projected(matrix: &Matrix, shapes: &Matrix) -> Matrix {
-    let images: Matrix = shapes.iter().map(|shape| multiply(matrix, shape)).collect();
+fn projected(matrix: &DenseMatrix, shapes: &DenseMatrix) -> DenseMatrix {
+    let images: DenseMatrix = shapes.iter().map(|shape| multiply(matrix, shape)).collect();
     shapes.iter().map(|shape| multiply(&images, shape)).collect()
 }
 
@@ -37,19 +39,22 @@ fn frequencies(plate: &Assembly) -> Vec<f64> {
         is_free[*index] = false;
     }
     let free: Vec<usize> = (0..plate.load.len()).filter(|index| is_free[*index]).collect();
-    let stiffness = part(&plate.stiffness(), &free);
-    let mass = part(&plate.mass(MassKind::Consistent), &free);
-    let flexibility: Matrix = inverse(&stiffness.concat(), free.len())
+    let stiffness = submatrix(&plate.stiffness(), &free);
+    let mass = submatrix(&plate.mass(MassKind::Consistent), &free);
+    let flexibility: DenseMatrix = inverse(&stiffness.concat(), free.len())
         .chunks(free.len())
         .map(<[f64]>::to_vec)
         .collect();
-    let mut shapes: Matrix = (0..16).map(|k| noise(free.len(), k)).collect();
+    let mut shapes: DenseMatrix = (0..16).map(|k| noise(free.len(), k)).collect();
     for _ in 0..30 {
         for k in 0..shapes.len() {
             let mut shape = multiply(&flexibility, &multiply(&mass, &shapes[k]));
             for found in &shapes[..k] {
                 let ratio = form(found, &mass, &shape);
-                shape.iter_mut().zip(found).for_each(|(value, part)| *value -= ratio * part);
+                shape
+                    .iter_mut()
+                    .zip(found)
+                    .for_each(|(value, submatrix)| *value -= ratio * submatrix);
             }
             let size = form(&shape, &mass, &shape).sqrt();
             shapes[k] = shape.into_iter().map(|value| value / size).collect();
@@ -71,7 +76,7 @@ fn cantilevered_plate() {
         }
         let computed = frequencies(&assembly);
         for (mode, (found, expected)) in computed.into_iter().zip(expected).enumerate() {
-            close(&format!("{pattern:?}, mode {mode}, Hz"), found, expected, 0.0, 1e-5);
+            assert_close(&format!("{pattern:?}, mode {mode}, Hz"), found, expected, 0.0, 1e-5);
         }
     }
 }
@@ -93,7 +98,7 @@ fn simply_supported_thick_plate() {
         }
         let computed = frequencies(&assembly);
         for (mode, (found, expected)) in computed.into_iter().zip(expected).enumerate() {
-            close(&format!("{pattern:?}, mode {mode}, Hz"), found, expected, 0.0, 1e-5);
+            assert_close(&format!("{pattern:?}, mode {mode}, Hz"), found, expected, 0.0, 1e-5);
         }
     }
 }
@@ -126,7 +131,7 @@ fn thin_plates_do_not_lock() {
             let found = deflection * stiffness / (0.001_265_32 * 1e4);
             // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
             let digits = if slenderness < 1e-5 { 1e-3 } else { 1e-6 };
-            close(&format!("{pattern:?}, t/L = {slenderness}"), found, ratio, 0.0, digits);
+            assert_close(&format!("{pattern:?}, t/L = {slenderness}"), found, ratio, 0.0, digits);
         }
     }
 }

@@ -7,8 +7,8 @@ use super::{
     turned_list,
 };
 use basemat::fem::{Element, Shell, ShellResultants};
-use basemat_problems::dense::{largest, solve_held};
-use basemat_problems::table::close;
+use basemat_problems::dense::{largest, solve_with_prescribed};
+use basemat_problems::table::assert_close;
 
 const X_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 const Z_AXIS: [f64; 3] = [0.0, 0.0, 1.0];
@@ -62,7 +62,7 @@ fn cantilever_is_in_equilibrium() {
         let found = at_node(&strip, &u, nodes[column][1]);
         let expected = [5000.0, 0.0, 0.0, 1000.0 * lever, 0.0, 0.0, 1000.0, 0.0];
         for (found, expected) in found.into_iter().zip(expected) {
-            close("resultant", found, expected, 1e-5, 0.0);
+            assert_close("resultant", found, expected, 1e-5, 0.0);
         }
     }
 }
@@ -101,15 +101,15 @@ fn raft_on_springs() {
             }
         }
     }
-    let u = solve_held(&stiffness, &raft.load, &raft.prescribed);
+    let u = solve_with_prescribed(&stiffness, &raft.load, &raft.prescribed);
     for ([i, j], expected) in [([4, 4], 3.382_413), ([8, 4], 0.754_215_9), ([8, 8], -0.468_305_3)] {
-        close("settlement, mm", -1e3 * u[dof(nodes[i][j], Z)], expected, 0.0, 1e-6);
+        assert_close("settlement, mm", -1e3 * u[dof(nodes[i][j], Z)], expected, 0.0, 1e-6);
     }
     for ([i, j], component, expected) in
         [([4, 4], 3, 477.9421), ([6, 4], 3, 55.672_89), ([8, 4], 4, 107.9159)]
     {
         let found = 1e-3 * at_node(&raft, &u, nodes[i][j])[component];
-        close("moment, kNm/m", found, expected, 0.0, 1e-6);
+        assert_close("moment, kNm/m", found, expected, 0.0, 1e-6);
     }
 }
 

@@ -6,8 +6,8 @@ use super::{ALL_DIRECTIONS, Assembly, CellPattern, X, Z, material};
 use basemat::Error;
 use basemat::fem::{LumpedMass, ShellResultants};
 use basemat::structure::{FemModel, ShellRows, Structure};
-use basemat_problems::dense::{solve_held, stiffness};
-use basemat_problems::table::close;
+use basemat_problems::dense::{solve_with_prescribed, stiffness};
+use basemat_problems::table::assert_close;
 
 fn resultants_at(rows: &[ShellRows], node: usize, u: &[f64]) -> ShellResultants {
     rows.iter().find(|rows| rows.node == node).unwrap().value(u)
@@ -16,7 +16,7 @@ fn resultants_at(rows: &[ShellRows], node: usize, u: &[f64]) -> ShellResultants 
 fn assert_resultants(computed: &ShellResultants, expected: [f64; 8]) {
     let found = [&computed.membrane[..], &computed.moments, &computed.shears].concat();
     for (found, expected) in found.into_iter().zip(expected) {
-        close("resultant", found, expected, 1e-5, 0.0);
+        assert_close("resultant", found, expected, 1e-5, 0.0);
     }
 }
 
@@ -38,7 +38,7 @@ fn a_strip_is_a_beam() {
     for &node in &nodes[0] {
         fixed.extend(ALL_DIRECTIONS.map(|direction| (model.dof(node, direction).unwrap(), 0.0)));
     }
-    let u = solve_held(&stiffness(&model), &load, &fixed);
+    let u = solve_with_prescribed(&stiffness(&model), &load, &fixed);
 
     let east_up = model.shell_rows(&shells, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
     let away_down = model.shell_rows(&shells, |_| [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]).unwrap();
@@ -50,8 +50,8 @@ fn a_strip_is_a_beam() {
             assert_eq!(resultants.axes, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
             assert_resultants(&resultants, [5000.0, 0.0, 0.0, moment, 0.0, 0.0, 1000.0, 0.0]);
             let principal = resultants.principal_moments();
-            close("principal moment", principal[0], moment, 1e-5, 0.0);
-            close("principal moment", principal[1], 0.0, 1e-5, 0.0);
+            assert_close("principal moment", principal[0], moment, 1e-5, 0.0);
+            assert_close("principal moment", principal[1], 0.0, 1e-5, 0.0);
             let turned = resultants_at(&away_down, node, &u);
             assert_resultants(&turned, [0.0, 5000.0, 0.0, 0.0, -moment, 0.0, 0.0, -1000.0]);
         }

@@ -16,7 +16,7 @@ fn stiffness(shell: &Shell, nodes: &[[f64; 3]]) -> Vec<Vec<f64>> {
 
 /// Displacements in a unit motion of a rigid body.
 fn rigid(motion: usize, nodes: &[[f64; 3]]) -> Vec<f64> {
-    nodes.iter().flat_map(|&node| supported::rigid(motion, node)).collect()
+    nodes.iter().flat_map(|&node| supported::rigid_motion(motion, node)).collect()
 }
 
 #[test]

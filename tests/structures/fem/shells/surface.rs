@@ -4,7 +4,7 @@
 
 use super::{Assembly, TabledShell, material, tabled_shells};
 use basemat::fem::{Element, MassKind};
-use basemat_problems::table::close;
+use basemat_problems::table::assert_close;
 
 /// Interpolates between the vector from node 0 and the vector between the opposite nodes.
 fn tangent(first: [[f64; 3]; 2], opposite: [[f64; 3]; 2], at: f64) -> [f64; 3] {
@@ -38,7 +38,7 @@ fn areas_are_areas_of_the_surface() {
         if nodes.len() == 4 {
             // Richardson's limit of the midpoint rule.
             let expected = (4.0 * area(&nodes, 200) - area(&nodes, 100)) / 3.0;
-            close(name, found, expected, 0.0, 1e-6);
+            assert_close(name, found, expected, 0.0, 1e-6);
         }
         // The lumped mass lies on the same areas.
         let order = shell.order();
@@ -47,7 +47,7 @@ fn areas_are_areas_of_the_surface() {
         let density = if name == "shell3_3" { 7850.0 } else { 2500.0 };
         for (node, area) in areas.iter().enumerate() {
             let lumped = mass[6 * node * (order + 1)];
-            close(name, lumped, density * shell.thickness() * area, 0.0, 1e-13);
+            assert_close(name, lumped, density * shell.thickness() * area, 0.0, 1e-13);
         }
     }
 }
@@ -109,6 +109,6 @@ fn pressure_on_a_closed_surface_is_in_equilibrium() {
             0.5 * (a[0] * b[1] - a[1] * b[0])
         })
         .sum();
-    close("force on the top", up, 3.0 * shoelace, 0.0, 1e-13);
+    assert_close("force on the top", up, 3.0 * shoelace, 0.0, 1e-13);
     assert_eq!(tank.shells[1].nodes(), [4, 5, 6, 7]);
 }
