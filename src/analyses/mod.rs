@@ -2,12 +2,12 @@
 //!
 //! Each takes a closure that builds the scene, so that it works for every structure, ground and law.
 //!
-//! | function | answers |
+//! | function | result |
 //! |---|---|
-//! | [`refine()`], [`refine_each`] | how large the errors of mesh and time step are, and what they cost |
-//! | [`sensitivity()`] | how many digits of a peak hold |
+//! | [`refine()`], [`refine_each`] | errors of mesh and time step, beside the run time |
+//! | [`sensitivity()`] | number of digits of a peak that are certain |
 //! | [`largest_convergent_step`] | the longest time step whose contact problems all have a solution |
-//! | [`interaction()`] | how the ground changes forces, period and damping against a fixed base |
+//! | [`interaction()`] | change of forces, period and damping by the ground, against a fixed base |
 //! | [`push_over()`] | the static load that the foundation carries, and the path to it |
 
 mod base_rotations;

@@ -198,7 +198,7 @@ fn relative(distance: f64, size: f64) -> f64 {
     if distance == 0.0 { 0.0 } else { distance / size }
 }
 
-/// Whether an observed order is one of a convergent method, or the results do not change.
+/// Whether an observed order belongs to a convergent method, or the results do not change.
 fn is_regular_order(order: f64) -> bool {
     order.is_nan() || CONVERGENCE_ORDERS.contains(&order)
 }

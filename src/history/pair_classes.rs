@@ -329,8 +329,7 @@ impl PairClasses {
         self.scatter(&mut matrix, of_pair);
         let mut scales = Vec::with_capacity(layout.len());
         for place in 0..layout.len() {
-            let element = layout.origin(place)[1];
-            let component = layout.origin(place)[0];
+            let [component, element] = layout.origin(place);
             // The first class of a lattice is a cell on itself.
             let self_pair = self.pairs.get(element * (self.elements.len() + 1));
             scales.push(1.0 / diagonal(self_pair.map_or(0, |pair| pair.class), component).sqrt());

@@ -87,7 +87,7 @@ impl ForceSearch {
         problem.update_scales();
         problem.near_field = None;
         problem.dense_lattice = None;
-        // Blocks of a W that changes would not pay.
+        // Blocks take longer to compute than they save if W changes.
         if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
             && let Some(cells) = soil.cells()
         {

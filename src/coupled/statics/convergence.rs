@@ -1,4 +1,4 @@
-//! Convergence of the search for a static state: by how much its iterates still change.
+//! Convergence of the search for a static state, judged by the change of its iterates.
 
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::statics::compliance::Compliance;
@@ -40,7 +40,7 @@ pub(super) fn has_converged(
         && change <= current.floating.condition() * f64::EPSILON
 }
 
-/// Force of the springs, relative to the load, that counts as rounding after so many iterations.
+/// Force of the springs, relative to the load, that counts as rounding after a number of iterations.
 pub(super) fn rounding(iterations: usize, current: &Compliance) -> f64 {
     match iterations {
         0..ROUNDING_CHECK_ITERATION => SPRING_FORCE_ROUNDING,

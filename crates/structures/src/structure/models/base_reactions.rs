@@ -22,6 +22,7 @@
 use super::rigid_links::Follower;
 use crate::error::Result;
 use crate::fem::{Direction, MatrixKind, assemble};
+use crate::geometry::span;
 use crate::linalg::{SparseMatrix, dot, largest};
 use crate::structure::{BaseNode, DofCombination, FemModel, Structure, Triplets};
 
@@ -281,9 +282,9 @@ fn outermost(nodes: &[BaseNode]) -> Vec<BaseNode> {
     let mut found: Vec<BaseNode> = Vec::new();
     for [x, y] in ways.into_iter().flatten().filter(|way| *way != [0.0; 2]) {
         let distances: Vec<f64> = nodes.iter().map(|node| x * node.x + y * node.y).collect();
-        let farthest = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
-        let slack = SAME_DISTANCE * (farthest - nearest);
+        let range = span(distances.iter().copied());
+        let farthest = range[1];
+        let slack = SAME_DISTANCE * (farthest - range[0]);
         let along = |node: &BaseNode| x * node.y - y * node.x;
         let outer = nodes.iter().zip(&distances);
         let outer = outer.filter(|(_, distance)| **distance >= farthest - slack);
