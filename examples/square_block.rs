@@ -73,7 +73,7 @@ fn main() -> basemat::Result<()> {
         .structure(slice)
         .ground(ground)
         .motion(el_centro_1940());
-    let plane_strain = shake(builder, Bonded, &[(RigidBlock::ROTATION, 0.5 * BLOCK_SIDE)])?;
+    let plane_strain = shake(builder, Bonded, &[(RigidBlock::ROTATION_DOF, 0.5 * BLOCK_SIDE)])?;
 
     println!("                    rise, mm  shear x/weight  open   slip, mm   energy error");
     for (name, run) in [

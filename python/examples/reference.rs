@@ -62,7 +62,7 @@ fn storeys(friction: f64) -> Result<Simulation> {
     let storey = PlanStorey { stiffness_center: [-4.0, 0.0], ..storey };
     let building = StoreyBuilding::new(mat, &[storey; 3])?.with_law(
         0,
-        StoreyBuilding::ACROSS,
+        StoreyBuilding::DIRECTION_ACROSS,
         Bilinear::new(3.0e8, 1.0e6, 0.1)?,
     )?;
     let wave = PlaneWave::sh(Soil::new(80.0e6, 0.25, 1900.0)?, 0.5)?;

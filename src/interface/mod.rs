@@ -64,7 +64,7 @@ impl ContactState {
     /// All numbers, in the order of columns in files.
     ///
     /// Each has its word, its SI unit, whether only grounds in plan have it, and its value.
-    pub const NUMBERS: [Number; 6] = [
+    pub const NUMBER_COLUMNS: [Number; 6] = [
         ("gap", "m", false, |state| state.gap),
         ("slip", "m", false, |state| state.slip),
         ("pressure", "Pa", false, |state| state.pressure),
@@ -335,4 +335,8 @@ pub trait InterfaceLaw: Send {
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
     }
+}
+
+former_constants! {
+    ContactState { NUMBERS: [Number; 6] = NUMBER_COLUMNS, "use `NUMBER_COLUMNS`"; }
 }

@@ -168,7 +168,7 @@ fn base_grid(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame
     let corners = time_series.elements().iter().flat_map(ContactElement::outline);
     let points = corners.map(|place| in_file_axes(time_series.up(), place)).collect();
     let mut cell_scalars = Vec::new();
-    for &(name, _, is_in_plan_only, value) in &ContactState::NUMBERS {
+    for &(name, _, is_in_plan_only, value) in &ContactState::NUMBER_COLUMNS {
         if time_series.in_plan() || !is_in_plan_only {
             cell_scalars.push((name, frame.states.iter().map(value).collect()));
         }

@@ -45,7 +45,7 @@ impl TimeSeries {
     /// Columns of contact frames with a number per element, and their values.
     pub(super) fn contact_numbers(&self) -> Vec<(String, ContactNumber)> {
         let mut columns = Vec::new();
-        for (word, unit, is_in_plan_only, value) in ContactState::NUMBERS {
+        for (word, unit, is_in_plan_only, value) in ContactState::NUMBER_COLUMNS {
             if self.in_plan() || !is_in_plan_only {
                 columns.push((column(word, unit), value));
             }
@@ -59,7 +59,7 @@ impl TimeSeries {
         let mut columns = vec![column("time", "s")];
         columns.extend(Quantity::recorded(in_plan).map(|quantity| quantity.column(in_plan)));
         let mut taken = columns.clone();
-        taken.extend(EnergyTerm::ALL.into_iter().map(|term| term.column(in_plan)));
+        taken.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
         taken.extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
         taken.extend(self.element_ends().into_iter().map(|(name, _)| format!("element_{name}")));
         taken.extend(self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}")));

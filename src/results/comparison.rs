@@ -130,7 +130,7 @@ fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
         }
     }
     rows.extend(dimensions.iter().map(|&in_plan| energy_input_row(in_plan)));
-    let lost_terms = EnergyTerm::ALL.into_iter().filter(|term| term.is_lost());
+    let lost_terms = EnergyTerm::ALL_TERMS.into_iter().filter(|term| term.is_lost());
     rows.extend(lost_terms.map(energy_fraction_row));
     rows
 }

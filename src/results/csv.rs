@@ -92,7 +92,7 @@ const IN_RUNS_WITH_WALLS: fn(&Run) -> bool = Run::has_walls;
 
 impl Run {
     /// Columns of an [envelope](Run::envelope): word, SI unit, whether a run has it, value.
-    pub const ENVELOPE: [EnvelopeColumn; 22] = [
+    pub const ENVELOPE_COLUMNS: [EnvelopeColumn; 22] = [
         ("left", "m", IN_ALL_RUNS, |element| element.element.left()),
         ("right", "m", IN_ALL_RUNS, |element| element.element.right()),
         ("front", "m", IN_PLAN_RUNS, |element| element.element.depth()[0]),
@@ -121,8 +121,10 @@ impl Run {
     ///
     /// A heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
-        let columns: Vec<_> =
-            Self::ENVELOPE.iter().filter(|(_, _, is_in_run, _)| is_in_run(self)).collect();
+        let columns: Vec<_> = Self::ENVELOPE_COLUMNS
+            .iter()
+            .filter(|(_, _, is_in_run, _)| is_in_run(self))
+            .collect();
         let mut heading = vec!["element".to_owned()];
         heading.extend(columns.iter().map(|(word, unit, ..)| column(word, unit)));
         let rows = self.envelope.iter().enumerate().map(|(number, element)| {
@@ -164,4 +166,8 @@ pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
          acceleration_m_per_s2",
         rows,
     )
+}
+
+former_constants! {
+    Run { ENVELOPE: [EnvelopeColumn; 22] = ENVELOPE_COLUMNS, "use `ENVELOPE_COLUMNS`"; }
 }

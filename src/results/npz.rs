@@ -114,7 +114,7 @@ impl TimeSeries {
         for (name, values) in self.columns().iter().zip(self.column_values()) {
             archive.add_numbers(name, &[steps], values.iter().copied())?;
         }
-        for term in EnergyTerm::ALL {
+        for term in EnergyTerm::ALL_TERMS {
             let values =
                 self.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
             archive.add_numbers(&term.column(self.in_plan()), &[steps], values)?;

@@ -38,16 +38,16 @@ pub struct SiteMotion {
 
 impl SiteMotion {
     /// Fraction of the peak below which motion counts as rest.
-    pub const LIMIT: f64 = 1e-9;
+    pub const MAX_REST_RATIO: f64 = 1e-9;
 
     /// Largest sample.
     pub fn peak(&self) -> f64 {
         largest(&self.samples)
     }
 
-    /// Whether nothing above [`SiteMotion::LIMIT`] of the peak is cut off or rounded away.
+    /// Whether nothing above [`SiteMotion::MAX_REST_RATIO`] of the peak is cut off or rounded away.
     pub fn is_whole(&self) -> bool {
-        self.before.max(self.after).max(self.rounding) <= Self::LIMIT * self.peak()
+        self.before.max(self.after).max(self.rounding) <= Self::MAX_REST_RATIO * self.peak()
     }
 
     /// Warning that the motion is mostly amplified noise.
@@ -82,9 +82,9 @@ impl SiteMotion {
         self.amplified_from.map(|frequency| SiteWarning::Amplified { frequency })
     }
 
-    /// Number of samples up to the last one above [`SiteMotion::LIMIT`] of the peak.
+    /// Number of samples up to the last one above [`SiteMotion::MAX_REST_RATIO`] of the peak.
     pub(super) fn duration(&self) -> usize {
-        let rest_limit = Self::LIMIT * self.peak();
+        let rest_limit = Self::MAX_REST_RATIO * self.peak();
         self.samples.iter().rposition(|x| x.abs() > rest_limit).map_or(0, |last| last + 1)
     }
 
@@ -110,4 +110,8 @@ impl fmt::Display for SiteMotion {
             self.rounding / peak
         )
     }
+}
+
+former_constants! {
+    SiteMotion { LIMIT: f64 = MAX_REST_RATIO, "use `MAX_REST_RATIO`"; }
 }

@@ -247,7 +247,7 @@ fn choices_are_written_as_their_words() {
     assert_words(&[SlipSense::Inelastic, SlipSense::Velocity, SlipSense::LastVelocity]);
     assert_words(&[MassKind::Consistent, MassKind::Lumped]);
     assert_words(&[Direction::X, Direction::Y, Direction::Rotation]);
-    assert_words(&Quantity::ALL);
+    assert_words(&Quantity::ALL_QUANTITIES);
     assert_words(&[
         AccelerationUnit::MetrePerSecondSquared,
         AccelerationUnit::MillimetrePerSecondSquared,

@@ -110,7 +110,7 @@ fn choices_are_read_as_they_are_printed() {
     assert_spelling("sense of slip", &[Inelastic, Velocity, LastVelocity]);
     assert_spelling("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
     assert_spelling("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
-    assert_spelling("quantity", &Quantity::ALL);
+    assert_spelling("quantity", &Quantity::ALL_QUANTITIES);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
     let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
     assert_spelling("kind of coordinates", &[Coordinates::Physical, Coordinates::Modes]);

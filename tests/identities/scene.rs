@@ -183,7 +183,7 @@ impl SceneResponse {
             if in_plan { [probes[0], probes[1], probes[2]] } else { [probes[0], 0.0, probes[1]] };
         self.groups[3].extend(view.vector_back(top).map(|part| part / frame.length));
         let energy = state.energy_balance;
-        self.groups[4].extend(EnergyTerm::ALL.map(|term| energy.term(term) * moment));
+        self.groups[4].extend(EnergyTerm::ALL_TERMS.map(|term| energy.term(term) * moment));
         self.steps += 1;
     }
 

@@ -17,7 +17,7 @@ use basemat_problems::wrapped::StructureWithForce;
 
 /// Rigid block with a moment (counter-clockwise, about the middle of the base) that varies in time.
 fn pushed_block<F>(block: RigidBlock, moment: F) -> StructureWithForce<RigidBlock, F> {
-    StructureWithForce { structure: block, along: RigidBlock::ROTATION.into(), force: moment }
+    StructureWithForce { structure: block, along: RigidBlock::ROTATION_DOF.into(), force: moment }
 }
 
 fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) -> ElasticGround {

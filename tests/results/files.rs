@@ -84,12 +84,12 @@ fn what_is_not_known_is_an_empty_cell() {
 #[test]
 fn columns_of_probes_differ() {
     let probes = [
-        Probe::displacement("Roof (left)", RigidBlock::HORIZONTAL),
-        Probe::displacement("roof, left", RigidBlock::HORIZONTAL),
-        Probe::displacement("roof_left_m", RigidBlock::HORIZONTAL).in_unit(""),
-        Probe::displacement("time", RigidBlock::HORIZONTAL).in_unit("s"),
-        Probe::displacement("input energy", RigidBlock::HORIZONTAL).in_unit("J/m"),
-        Probe::displacement("!", RigidBlock::HORIZONTAL).in_unit(""),
+        Probe::displacement("Roof (left)", RigidBlock::HORIZONTAL_DOF),
+        Probe::displacement("roof, left", RigidBlock::HORIZONTAL_DOF),
+        Probe::displacement("roof_left_m", RigidBlock::HORIZONTAL_DOF).in_unit(""),
+        Probe::displacement("time", RigidBlock::HORIZONTAL_DOF).in_unit("s"),
+        Probe::displacement("input energy", RigidBlock::HORIZONTAL_DOF).in_unit("J/m"),
+        Probe::displacement("!", RigidBlock::HORIZONTAL_DOF).in_unit(""),
     ];
     let simulation = scene(SI_UNITS, 0.6)
         .structure(block(SI_UNITS))

@@ -73,7 +73,7 @@ fn each_foundation_is_summed_up_by_itself() {
         assert!((alone.whole.overturning_safety.lowest.value - overturning).abs() < 1e-9);
         // A single foundation is all there is, but for the point that moments are about.
         let [only] = &alone.foundations[..] else { panic!("one foundation") };
-        for quantity in Quantity::ALL {
+        for quantity in Quantity::ALL_QUANTITIES {
             if quantity == Quantity::BaseMoment {
                 continue;
             }

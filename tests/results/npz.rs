@@ -172,7 +172,7 @@ fn arrays_are_what_was_kept() {
     archive.assert_holds("motion_velocity", &[frames.len(), 3], &velocities);
     let ground: Vec<f64> = frames.iter().flat_map(|s| s.free_field).collect();
     archive.assert_holds("motion_free_field_m", &[frames.len(), 2], &ground);
-    assert_eq!(arrays.len(), 12 + 2 + EnergyTerm::ALL.len() + 9 + 4);
+    assert_eq!(arrays.len(), 12 + 2 + EnergyTerm::ALL_TERMS.len() + 9 + 4);
 }
 
 /// Files for `tests/data/read_npz.py`.
@@ -188,7 +188,7 @@ fn archives_are_saved_beside_their_tables() {
 }
 
 fn unitless_probe(name: &str) -> Probe {
-    Probe::displacement(name, RigidBlock::HORIZONTAL).in_unit("")
+    Probe::displacement(name, RigidBlock::HORIZONTAL_DOF).in_unit("")
 }
 
 #[test]

@@ -19,11 +19,11 @@ fn probes_come_with_their_unit() {
         .structure(block(SI_UNITS))
         .interface(friction(FRICTION_COEFFICIENT))
         .probes([
-            Probe::displacement("slide", RigidBlock::HORIZONTAL),
-            Probe::displacement("turn", RigidBlock::ROTATION).in_unit("rad"),
-            Probe::velocity("rate", (RigidBlock::HORIZONTAL, 100.0)).in_unit("cm/s"),
-            Probe::acceleration("shake", RigidBlock::HORIZONTAL),
-            Probe::displacement("bare", RigidBlock::VERTICAL).in_unit(""),
+            Probe::displacement("slide", RigidBlock::HORIZONTAL_DOF),
+            Probe::displacement("turn", RigidBlock::ROTATION_DOF).in_unit("rad"),
+            Probe::velocity("rate", (RigidBlock::HORIZONTAL_DOF, 100.0)).in_unit("cm/s"),
+            Probe::acceleration("shake", RigidBlock::HORIZONTAL_DOF),
+            Probe::displacement("bare", RigidBlock::VERTICAL_DOF).in_unit(""),
         ])
         .build()
         .unwrap();
@@ -80,7 +80,7 @@ fn run_with(probe: Probe) -> Run {
 }
 
 fn tilt_probe() -> Probe {
-    Probe::displacement("tilt", RigidBlock::ROTATION)
+    Probe::displacement("tilt", RigidBlock::ROTATION_DOF)
 }
 
 #[test]

@@ -219,7 +219,7 @@ fn bad_requests_are_errors() {
     let nowhere = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
     let fault = plot::time_series("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
     assert!(is_unwritable(&fault));
-    let turn = Probe::displacement("turn", RigidBlock::ROTATION);
+    let turn = Probe::displacement("turn", RigidBlock::ROTATION_DOF);
     let length = recorded_probe(turn.clone());
     let angle = recorded_probe(turn.in_unit("rad"));
     let svg = plot::probe_time_series("T", &[("a", &angle)], "turn").unwrap();

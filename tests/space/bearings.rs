@@ -104,8 +104,9 @@ fn bearings_carry_the_floors_above() {
 fn an_oblique_motion_is_a_motion_along_an_axis() {
     let bed = BedProperties { stiffness: [3.0e7, 2.0e7, 2.0e7], dashpot: [6.0e5, 3.0e5, 3.0e5] };
     let record = el_centro_1940().scaled(2.0).unwrap();
-    let uniaxial =
-        isolated_building([0.0; 2]).with_law(0, StoreyBuilding::ALONG, bilinear()).unwrap();
+    let uniaxial = isolated_building([0.0; 2])
+        .with_law(0, StoreyBuilding::DIRECTION_ALONG, bilinear())
+        .unwrap();
     let drifts = uniaxial.drift(0).unwrap();
     let motion_along_x = Triaxial { x: Some(record.clone()), ..Triaxial::default() };
     let mut straight = simulation(uniaxial, bed, motion_along_x);
@@ -137,7 +138,7 @@ fn a_storey_has_one_law_in_each_direction() {
     let building = isolated_building([0.0; 2]);
     let beyond = building.clone().with_biaxial_law(2, bilinear().coupled());
     assert!(matches!(beyond, Err(Error::Index { index: 2, bound: 2, .. })));
-    for direction in [StoreyBuilding::ALONG, StoreyBuilding::ACROSS] {
+    for direction in [StoreyBuilding::DIRECTION_ALONG, StoreyBuilding::DIRECTION_ACROSS] {
         let uniaxial = building.clone().with_law(0, direction, bilinear()).unwrap();
         let second = uniaxial.with_biaxial_law(0, bilinear().coupled());
         assert!(matches!(second, Err(Error::Scene { .. })));
@@ -145,5 +146,5 @@ fn a_storey_has_one_law_in_each_direction() {
         assert!(matches!(biaxial.with_law(0, direction, bilinear()), Err(Error::Scene { .. })));
     }
     let biaxial = building.with_biaxial_law(0, bilinear().coupled()).unwrap();
-    assert!(biaxial.with_law(0, StoreyBuilding::TWIST, bilinear()).is_ok());
+    assert!(biaxial.with_law(0, StoreyBuilding::DIRECTION_TWIST, bilinear()).is_ok());
 }

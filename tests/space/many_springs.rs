@@ -228,7 +228,7 @@ fn buildings_on_a_bed_move_like_on_the_ground_with_matrices() {
     let mat = RigidBody::cuboid([sides[0], sides[1], 1.0], 2400.0).unwrap();
     let elastic = StoreyBuilding::new(mat, &[storey; 3]).unwrap();
     let law = Bilinear::new(6.0e7, 2.0e5, 0.1).unwrap();
-    let yielding = elastic.clone().with_law(0, StoreyBuilding::ALONG, law).unwrap();
+    let yielding = elastic.clone().with_law(0, StoreyBuilding::DIRECTION_ALONG, law).unwrap();
     for (name, building, coordinates) in [
         ("degrees of freedom", &elastic, Coordinates::Physical),
         ("modes", &elastic, Coordinates::Modes),

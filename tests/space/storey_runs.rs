@@ -113,9 +113,9 @@ fn yielding_building(quarter_turns: usize) -> StoreyBuilding {
     let along = Bilinear::new(stiffness[0], 1.0e5, 0.1).unwrap();
     let across = Bilinear::new(stiffness[1], 1.0e5, 0.1).unwrap();
     building(quarter_turns)
-        .with_law(0, StoreyBuilding::ALONG, along)
-        .and_then(|building| building.with_law(0, StoreyBuilding::ACROSS, across))
-        .and_then(|building| building.with_law(0, StoreyBuilding::TWIST, twist))
+        .with_law(0, StoreyBuilding::DIRECTION_ALONG, along)
+        .and_then(|building| building.with_law(0, StoreyBuilding::DIRECTION_ACROSS, across))
+        .and_then(|building| building.with_law(0, StoreyBuilding::DIRECTION_TWIST, twist))
         .unwrap()
 }
 

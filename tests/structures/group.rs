@@ -140,12 +140,12 @@ impl Structure for Softening {
 impl NonlinearForce for Softening {
     /// A dead weight's P–Δ, as a force.
     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
-        force[RigidBlock::ROTATION] -= 2.0e5 * u[RigidBlock::ROTATION];
+        force[RigidBlock::ROTATION_DOF] -= 2.0e5 * u[RigidBlock::ROTATION_DOF];
         Ok(())
     }
 
     fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> Result<()> {
-        matrix.add(RigidBlock::ROTATION, RigidBlock::ROTATION, -2.0e5);
+        matrix.add(RigidBlock::ROTATION_DOF, RigidBlock::ROTATION_DOF, -2.0e5);
         Ok(())
     }
 

@@ -99,14 +99,14 @@ impl PyEnergyBalance {
 
     /// All terms by their names: dict of numbers, J, in the plane J/m.
     fn to_dict(&self) -> OrderedDict<String, f64> {
-        EnergyTerm::ALL
+        EnergyTerm::ALL_TERMS
             .into_iter()
             .map(|term| (term.to_string(), self.0.term(term)))
             .collect()
     }
 
     fn _repr_html_(&self) -> String {
-        let rows = EnergyTerm::ALL
+        let rows = EnergyTerm::ALL_TERMS
             .map(|term| format!("<tr><td>{term}</td><td>{:.4e}</td></tr>", self.0.term(term)))
             .concat();
         format!(

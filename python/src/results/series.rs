@@ -49,7 +49,7 @@ pub(super) fn all_series(time_series: &TimeSeries) -> PyResult<OrderedDict<Strin
 /// Terms of the energy balance over time.
 pub(super) fn energy_balances(time_series: &TimeSeries) -> OrderedDict<String, Array> {
     let balances = time_series.energy_balances().iter();
-    let terms = EnergyTerm::ALL.map(|term| {
+    let terms = EnergyTerm::ALL_TERMS.map(|term| {
         (term.to_string(), balances.clone().map(|balance| balance.term(term)).collect())
     });
     let residual = balances.clone().map(EnergyBalance::residual).collect();
@@ -70,7 +70,7 @@ pub(super) fn contact<'py>(
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let in_plan = time_series.in_plan();
-    for (name, _, only_in_plan, value) in ContactState::NUMBERS {
+    for (name, _, only_in_plan, value) in ContactState::NUMBER_COLUMNS {
         if in_plan || !only_in_plan {
             let values = frames.iter().flat_map(|frame| frame.states).map(value);
             columns.set_item(name, filled_array(py, shape, values)?)?;
@@ -138,14 +138,14 @@ pub(super) fn units(run: &Run) -> OrderedDict<String, &str> {
         Quantity::recorded(in_plan).map(|quantity| (quantity.to_string(), quantity.unit(in_plan)));
     let probes = run.probes.iter().map(|probe| (probe.name.clone(), probe.unit.as_str()));
     let energy_unit = if in_plan { "J" } else { "J/m" };
-    let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy_unit));
+    let terms = EnergyTerm::ALL_TERMS.map(|term| (term.to_string(), energy_unit));
     let time = [("time".to_owned(), "s")].into_iter();
     time.chain(scalars).chain(probes).chain(terms).collect()
 }
 
 /// Envelopes of the elements, by their names.
 pub(super) fn envelope(run: &Run) -> OrderedDict<&'static str, Array> {
-    let columns = Run::ENVELOPE.into_iter().filter(|column| column.2(run));
+    let columns = Run::ENVELOPE_COLUMNS.into_iter().filter(|column| column.2(run));
     columns
         .map(|(name, .., value)| (name, run.envelope.iter().map(value).collect()))
         .collect()
@@ -153,6 +153,6 @@ pub(super) fn envelope(run: &Run) -> OrderedDict<&'static str, Array> {
 
 /// Units of the numbers of elements, in snapshots and envelopes.
 pub(crate) fn element_units() -> OrderedDict<&'static str, &'static str> {
-    let contact = ContactState::NUMBERS.map(|(name, unit, ..)| (name, unit)).into_iter();
-    contact.chain(Run::ENVELOPE.map(|(name, unit, ..)| (name, unit))).collect()
+    let contact = ContactState::NUMBER_COLUMNS.map(|(name, unit, ..)| (name, unit)).into_iter();
+    contact.chain(Run::ENVELOPE_COLUMNS.map(|(name, unit, ..)| (name, unit))).collect()
 }

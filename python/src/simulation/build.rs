@@ -32,7 +32,7 @@ pub(super) fn probes<'a, 'py: 'a>(
         let PyProbe(probe, weight_count) = probe.get();
         weight_count.check(&format!("the probe '{}'", probe.name), dofs)?;
         let name = probe.name.as_str();
-        if name == "time" || Quantity::ALL.iter().any(|quantity| quantity.to_string() == name) {
+        if name == "time" || Quantity::ALL_QUANTITIES.iter().any(|quantity| quantity.to_string() == name) {
             return Err(input_error(format!(
                 "a probe is called '{name}', but that is another time series of a run"
             )));

@@ -76,15 +76,15 @@ impl PyRigidBlock {
     /// Number of the degree of freedom of the displacement to the right.
     #[classattr]
     #[pyo3(name = "HORIZONTAL")]
-    const HORIZONTAL_DOF: usize = RigidBlock::HORIZONTAL;
+    const HORIZONTAL_DOF: usize = RigidBlock::HORIZONTAL_DOF;
     /// Number of the degree of freedom of the displacement up.
     #[classattr]
     #[pyo3(name = "VERTICAL")]
-    const VERTICAL_DOF: usize = RigidBlock::VERTICAL;
+    const VERTICAL_DOF: usize = RigidBlock::VERTICAL_DOF;
     /// Number of the degree of freedom of the rotation.
     #[classattr]
     #[pyo3(name = "ROTATION")]
-    const ROTATION_DOF: usize = RigidBlock::ROTATION;
+    const ROTATION_DOF: usize = RigidBlock::ROTATION_DOF;
 
     /// The `DofCombination` of the displacement to the right at a ``height`` (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyDofCombination {

@@ -224,10 +224,10 @@ impl PyPlanStorey {
 
 /// Directions of the laws of storeys in plan; none: a coupled law along x and y.
 const LAW_DIRECTIONS: [(&str, Option<usize>); 4] = [
-    ("x", Some(StoreyBuilding::ALONG)),
-    ("y", Some(StoreyBuilding::ACROSS)),
+    ("x", Some(StoreyBuilding::DIRECTION_ALONG)),
+    ("y", Some(StoreyBuilding::DIRECTION_ACROSS)),
     ("xy", None),
-    ("twist", Some(StoreyBuilding::TWIST)),
+    ("twist", Some(StoreyBuilding::DIRECTION_TWIST)),
 ];
 
 /// A law of a storey in plan.

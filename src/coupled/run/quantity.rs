@@ -79,7 +79,7 @@ macro_rules! quantities {
             /// All quantities, in the order of columns.
             ///
             /// Quantities in plan only are the last: [`Quantity::recorded`] leaves them out in the plane.
-            pub const ALL: [Self; QUANTITY_WORDS.len()] = [$(Self::$variant),+];
+            pub const ALL_QUANTITIES: [Self; QUANTITY_WORDS.len()] = [$(Self::$variant),+];
         }
 
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
@@ -283,7 +283,7 @@ impl Quantity {
 
     /// The quantities of a ground in plan, or of a ground in the plane.
     pub fn recorded(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
-        Self::ALL
+        Self::ALL_QUANTITIES
             .into_iter()
             .filter(move |quantity| in_plan || !quantity.is_shown(ShownIn::Plan))
     }
@@ -341,7 +341,7 @@ impl FromStr for Quantity {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|quantity| quantity.row().word == text);
+        let found = Self::ALL_QUANTITIES.into_iter().find(|quantity| quantity.row().word == text);
         found.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
     }
 }
@@ -383,4 +383,8 @@ impl Summary {
         let extremes = self.extremes(quantity);
         if quantity.limit().is_some() { extremes.lowest } else { extremes.largest() }
     }
+}
+
+former_constants! {
+    Quantity { ALL: [Self; QUANTITY_WORDS.len()] = ALL_QUANTITIES, "use `ALL_QUANTITIES`"; }
 }

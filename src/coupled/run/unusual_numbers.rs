@@ -54,7 +54,7 @@ const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
 const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
 /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
-const GRAVITIES: [f64; 2] = [1.5, 30.0];
+const GRAVITY_RANGE: [f64; 2] = [1.5, 30.0];
 /// Time steps per mean period of a record that a warning recommends, and per period of a structure.
 const STEPS_PER_RECORD_PERIOD: f64 = 15.0;
 const STEPS_PER_STRUCTURE_PERIOD: f64 = 30.0;
@@ -141,7 +141,7 @@ impl Warning {
             return warnings;
         }
         let &Weight { gravity, pressure, .. } = weight;
-        if gravity > 0.0 && !within(GRAVITIES, gravity) {
+        if gravity > 0.0 && !within(GRAVITY_RANGE, gravity) {
             warnings.push(Self::Mistake(Mistake::UnusualGravity { gravity }));
         }
         if gravity > 0.0 && pressure < MIN_BASE_PRESSURE {

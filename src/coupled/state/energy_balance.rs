@@ -32,7 +32,7 @@ macro_rules! energies {
 
         impl EnergyTerm {
             /// All terms, in the order of columns.
-            pub const ALL: [Self; ENERGY_TERM_ROWS.len()] = [$(Self::$variant),+];
+            pub const ALL_TERMS: [Self; ENERGY_TERM_ROWS.len()] = [$(Self::$variant),+];
         }
 
         /// Energies since the start, J, in the plane J per metre of thickness.
@@ -61,12 +61,12 @@ macro_rules! energies {
             /// The energy balance of a simulation without one: every term is NaN.
             pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
 
-            /// All terms, in the order of [`EnergyTerm::ALL`].
+            /// All terms, in the order of [`EnergyTerm::ALL_TERMS`].
             pub(crate) fn terms(&self) -> [f64; ENERGY_TERM_ROWS.len()] {
                 [$(self.$field),+]
             }
 
-            /// Mutable access to all terms, in the order of [`EnergyTerm::ALL`].
+            /// Mutable access to all terms, in the order of [`EnergyTerm::ALL_TERMS`].
             pub(crate) fn terms_mut(&mut self) -> [&mut f64; ENERGY_TERM_ROWS.len()] {
                 [$(&mut self.$field),+]
             }
@@ -164,7 +164,7 @@ impl EnergyBalance {
 
     /// Terms of the left-hand side.
     fn balance(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
-        let all = EnergyTerm::ALL.into_iter().zip(self.terms());
+        let all = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
         all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
@@ -247,6 +247,10 @@ impl fmt::Display for EnergyBalance {
     }
 }
 
+former_constants! {
+    EnergyTerm { ALL: [Self; ENERGY_TERM_ROWS.len()] = ALL_TERMS, "use `ALL_TERMS`"; }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -281,10 +285,10 @@ mod tests {
 
     #[test]
     fn columns_by_one_rule() {
-        let columns = EnergyTerm::ALL.map(|term| term.column(false));
+        let columns = EnergyTerm::ALL_TERMS.map(|term| term.column(false));
         assert_eq!(columns[0], "kinetic_energy_j_per_m");
         assert!(columns.contains(&"relative_input_energy_j_per_m".to_owned()));
         assert!(columns.contains(&"soil_error_bound_j_per_m".to_owned()));
-        assert_eq!(EnergyTerm::ALL[0].column(true), "kinetic_energy_j");
+        assert_eq!(EnergyTerm::ALL_TERMS[0].column(true), "kinetic_energy_j");
     }
 }

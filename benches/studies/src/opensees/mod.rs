@@ -86,7 +86,7 @@ pub(crate) fn run(options: &OpenseesOptions) -> Result<(), AnyError> {
         .motion(pulse)
         .probe(Probe::displacement("roof", roof.clone()))
         .probe(Probe::acceleration("acceleration", roof))
-        .probe(Probe::displacement("vertical", RigidBlock::VERTICAL))
+        .probe(Probe::displacement("vertical", RigidBlock::VERTICAL_DOF))
         .build()?;
     let mut out = BufWriter::new(std::io::stdout().lock());
     // The acceleration of a step is its mean: it belongs to the middle of the step.

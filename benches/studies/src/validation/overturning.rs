@@ -198,7 +198,7 @@ fn falls(
     let mut rises = false;
     for _ in 0..steps {
         let state = simulation.step()?;
-        let tilt = state.absolute_displacement()[RigidBlock::ROTATION].abs();
+        let tilt = state.absolute_displacement()[RigidBlock::ROTATION_DOF].abs();
         if tilt > 2.0 * CORNER_TILT {
             return Ok(true);
         }

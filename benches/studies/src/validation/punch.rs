@@ -30,7 +30,7 @@ fn tilted(moment: f64) -> basemat::Result<impl Structure> {
     let structure = RigidBlock::new(2.0, 1.0, 0.5)?;
     Ok(StructureWithForce {
         structure,
-        along: RigidBlock::ROTATION.into(),
+        along: RigidBlock::ROTATION_DOF.into(),
         force: move |_| -moment,
     })
 }
@@ -55,7 +55,7 @@ fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<PunchState,
         .build()?;
     let state = simulation.state();
     Ok(PunchState {
-        tilt: -simulation.static_displacement()[RigidBlock::ROTATION],
+        tilt: -simulation.static_displacement()[RigidBlock::ROTATION_DOF],
         length: 2.0 * (1.0 - state.uplifted_fraction),
         pressure: elements
             .into_iter()
@@ -104,7 +104,7 @@ fn bonded_strip(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError
     let u = simulation.static_displacement();
     let exponent = (3.0 - 4.0 * poisson).ln() / (2.0 * PI);
     let tilt = 2.0 * (1.0 - poisson) / ((1.0 + 4.0 * exponent * exponent) * PI);
-    let computed = [-u[RigidBlock::ROTATION], u[RigidBlock::HORIZONTAL]];
+    let computed = [-u[RigidBlock::ROTATION_DOF], u[RigidBlock::HORIZONTAL_DOF]];
     Ok([computed, [tilt, 2.0 * exponent * tilt]])
 }
 

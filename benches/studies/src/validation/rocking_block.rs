@@ -93,7 +93,7 @@ impl Structure for PushedBlock {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        load[RigidBlock::ROTATION] += self.push_factor * push(time);
+        load[RigidBlock::ROTATION_DOF] += self.push_factor * push(time);
         Ok(())
     }
 }

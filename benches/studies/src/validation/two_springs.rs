@@ -197,13 +197,13 @@ fn reference(dashpot: f64, duration: f64) -> [Vec<f64>; 2] {
 
 /// The block without the mass that couples its sideways motion to its rotation. Base: two elements, each 2b wide.
 fn guided() -> Result<MatrixModel, AnyError> {
-    let dofs = [RigidBlock::HORIZONTAL, RigidBlock::VERTICAL, RigidBlock::ROTATION];
+    let dofs = [RigidBlock::HORIZONTAL_DOF, RigidBlock::VERTICAL_DOF, RigidBlock::ROTATION_DOF];
     let mut mass = Triplets::new(3);
     let mut stiffness = Triplets::new(3);
     for (dof, value) in dofs.into_iter().zip([BLOCK_MASS, BLOCK_MASS, BASE_INERTIA]) {
         mass.add(dof, dof, value);
     }
-    stiffness.add(RigidBlock::ROTATION, RigidBlock::ROTATION, -BLOCK_WEIGHT * H);
+    stiffness.add(RigidBlock::ROTATION_DOF, RigidBlock::ROTATION_DOF, -BLOCK_WEIGHT * H);
     Ok(MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-2.0 * B, 2.0 * B, dofs))?)
 }
 
@@ -216,7 +216,7 @@ fn computed(dashpot: f64, time_step: f64, duration: f64) -> Result<[Vec<f64>; 2]
         .structure(guided()?)
         .ground(bed)
         .interface(Coulomb::uplift_only())
-        .load(Load::new(RigidBlock::ROTATION, |time: f64| {
+        .load(Load::new(RigidBlock::ROTATION_DOF, |time: f64| {
             if time > 0.0 && time < PUSH_DURATION { PUSH_FACTOR * BLOCK_WEIGHT * B } else { 0.0 }
         }))
         .build()?;
@@ -225,8 +225,8 @@ fn computed(dashpot: f64, time_step: f64, duration: f64) -> Result<[Vec<f64>; 2]
     let run = simulation.run(nearest_integer(duration / time_step), |state| {
         if state.step % stride == 0 {
             let displacement = state.displacement();
-            series[0].push(displacement[RigidBlock::ROTATION]);
-            series[1].push(displacement[RigidBlock::VERTICAL]);
+            series[0].push(displacement[RigidBlock::ROTATION_DOF]);
+            series[1].push(displacement[RigidBlock::VERTICAL_DOF]);
         }
     })?;
     if run.energy_error > 1e-9 {

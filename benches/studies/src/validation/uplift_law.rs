@@ -64,7 +64,7 @@ impl BodyBase {
 
     /// Degree of freedom of the rotation in the plane of the motion.
     fn rotation(self) -> usize {
-        if self.is_in_plane() { RigidBlock::ROTATION } else { 4 }
+        if self.is_in_plane() { RigidBlock::ROTATION_DOF } else { 4 }
     }
 
     /// Body on its ground, and its mass, kg or kg/m, for `count` elements or cells along the motion.

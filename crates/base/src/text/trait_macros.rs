@@ -42,3 +42,17 @@ macro_rules! short_debug {
         }
     };
 }
+
+/// Implements former names of associated constants, as deprecated: `former_constants! { Type { OLD: usize = NEW, "note"; } }`.
+#[macro_export]
+macro_rules! former_constants {
+    ($name:ty { $($old:ident: $type:ty = $new:ident, $note:literal;)+ }) => {
+        impl $name {
+            $(
+                #[doc = concat!("Former name of `", stringify!($new), "`.")]
+                #[deprecated(since = "0.5.0", note = $note)]
+                pub const $old: $type = Self::$new;
+            )+
+        }
+    };
+}

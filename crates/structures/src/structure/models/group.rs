@@ -39,7 +39,7 @@ struct Member {
 /// let group = StructureGroup::new()
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
-/// assert_eq!(group.row(1, RigidBlock::HORIZONTAL)?[..], [(3, 1.0)]);
+/// assert_eq!(group.row(1, RigidBlock::HORIZONTAL_DOF)?[..], [(3, 1.0)]);
 /// // The first block has no fourth degree of freedom: that is one of the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)

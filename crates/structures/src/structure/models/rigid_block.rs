@@ -33,11 +33,11 @@ pub struct RigidBlock {
 
 impl RigidBlock {
     /// Index of the horizontal displacement of the base's middle.
-    pub const HORIZONTAL: usize = 0;
+    pub const HORIZONTAL_DOF: usize = 0;
     /// Index of the vertical displacement of the base's middle.
-    pub const VERTICAL: usize = 1;
+    pub const VERTICAL_DOF: usize = 1;
     /// Index of the rotation.
-    pub const ROTATION: usize = 2;
+    pub const ROTATION_DOF: usize = 2;
 
     /// Homogeneous rectangle: width and height (m), density (kg/m³).
     ///
@@ -104,12 +104,12 @@ impl RigidBlock {
 
     /// Horizontal displacement at `height` (m) above the base, as a weighted sum of degrees of freedom.
     pub fn horizontal_at(&self, height: f64) -> DofCombination {
-        [(Self::HORIZONTAL, 1.0), (Self::ROTATION, -height)].into()
+        [(Self::HORIZONTAL_DOF, 1.0), (Self::ROTATION_DOF, -height)].into()
     }
 
     /// Vertical displacement at coordinate `x` (m) of the surface, as a weighted sum of degrees of freedom.
     pub fn vertical_at(&self, x: f64) -> DofCombination {
-        [(Self::VERTICAL, 1.0), (Self::ROTATION, x - self.center)].into()
+        [(Self::VERTICAL_DOF, 1.0), (Self::ROTATION_DOF, x - self.center)].into()
     }
 }
 
@@ -121,16 +121,21 @@ impl Structure for RigidBlock {
     fn base(&self) -> Base {
         let left = self.center - 0.5 * self.width;
         let right = self.center + 0.5 * self.width;
-        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION]).into()
+        BaseNode::rigid_base(
+            left,
+            right,
+            [Self::HORIZONTAL_DOF, Self::VERTICAL_DOF, Self::ROTATION_DOF],
+        )
+        .into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         let coupling = -self.mass * self.center_height;
-        matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.mass);
-        matrix.add(Self::VERTICAL, Self::VERTICAL, self.mass);
-        matrix.add(Self::ROTATION, Self::ROTATION, self.base_inertia());
-        matrix.add(Self::HORIZONTAL, Self::ROTATION, coupling);
-        matrix.add(Self::ROTATION, Self::HORIZONTAL, coupling);
+        matrix.add(Self::HORIZONTAL_DOF, Self::HORIZONTAL_DOF, self.mass);
+        matrix.add(Self::VERTICAL_DOF, Self::VERTICAL_DOF, self.mass);
+        matrix.add(Self::ROTATION_DOF, Self::ROTATION_DOF, self.base_inertia());
+        matrix.add(Self::HORIZONTAL_DOF, Self::ROTATION_DOF, coupling);
+        matrix.add(Self::ROTATION_DOF, Self::HORIZONTAL_DOF, coupling);
         Ok(())
     }
 
@@ -141,8 +146,16 @@ impl Structure for RigidBlock {
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         if self.gravity > 0.0 {
             let overturning = self.mass * self.gravity * self.center_height;
-            matrix.add(Self::ROTATION, Self::ROTATION, -overturning);
+            matrix.add(Self::ROTATION_DOF, Self::ROTATION_DOF, -overturning);
         }
         Ok(())
+    }
+}
+
+former_constants! {
+    RigidBlock {
+        HORIZONTAL: usize = HORIZONTAL_DOF, "use `HORIZONTAL_DOF`";
+        VERTICAL: usize = VERTICAL_DOF, "use `VERTICAL_DOF`";
+        ROTATION: usize = ROTATION_DOF, "use `ROTATION_DOF`";
     }
 }

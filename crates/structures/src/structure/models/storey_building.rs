@@ -91,11 +91,11 @@ short_debug! { StoreyBuilding; self; storeys: self.storeys, laws: self.springs.l
 
 impl StoreyBuilding {
     /// Direction along x of [`StoreyBuilding::with_law`].
-    pub const ALONG: usize = 0;
+    pub const DIRECTION_ALONG: usize = 0;
     /// Direction along y.
-    pub const ACROSS: usize = 1;
+    pub const DIRECTION_ACROSS: usize = 1;
     /// Twist about the vertical.
-    pub const TWIST: usize = 2;
+    pub const DIRECTION_TWIST: usize = 2;
 
     /// Building on a mat, with storeys listed from below.
     ///
@@ -133,8 +133,8 @@ impl StoreyBuilding {
 
     /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
     ///
-    /// Directions: [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or
-    /// [`TWIST`](StoreyBuilding::TWIST). The deformation of the law is the storey's
+    /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
+    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
     /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: two
     /// sliders carry √2 times their friction on the diagonal. For bearings that slide or yield in any direction use
     /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
@@ -163,10 +163,11 @@ impl StoreyBuilding {
     /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it has a law along x or y already.
     pub fn with_biaxial_law(mut self, storey: usize, law: BiaxialSpring) -> Result<Self> {
         let drift = self.drift(storey)?;
-        self.replace_stiffness(storey, Self::ALONG)?;
-        self.replace_stiffness(storey, Self::ACROSS)?;
+        self.replace_stiffness(storey, Self::DIRECTION_ALONG)?;
+        self.replace_stiffness(storey, Self::DIRECTION_ACROSS)?;
         let dofs = self.dofs();
-        let horizontal = [Self::ALONG, Self::ACROSS].map(|direction| drift[direction].clone());
+        let horizontal = [Self::DIRECTION_ALONG, Self::DIRECTION_ACROSS]
+            .map(|direction| drift[direction].clone());
         self.springs.add_biaxial(horizontal, law, dofs)?;
         Ok(self)
     }
@@ -250,8 +251,8 @@ impl StoreyBuilding {
         let storeys = &self.storeys[levels[0]..levels[1]];
         let height: f64 = storeys.iter().map(|storey| storey.height).sum();
         let mut deformation = sway(levels, place);
-        deformation[Self::ALONG] -= DofCombination::from((MAT_ROTATION_Y, height));
-        deformation[Self::ACROSS] += DofCombination::from((MAT_ROTATION_X, height));
+        deformation[Self::DIRECTION_ALONG] -= DofCombination::from((MAT_ROTATION_Y, height));
+        deformation[Self::DIRECTION_ACROSS] += DofCombination::from((MAT_ROTATION_X, height));
         deformation
     }
 
@@ -374,5 +375,13 @@ impl Structure for StoreyBuilding {
             });
         }
         Some(names.join(", "))
+    }
+}
+
+former_constants! {
+    StoreyBuilding {
+        ALONG: usize = DIRECTION_ALONG, "use `DIRECTION_ALONG`";
+        ACROSS: usize = DIRECTION_ACROSS, "use `DIRECTION_ACROSS`";
+        TWIST: usize = DIRECTION_TWIST, "use `DIRECTION_TWIST`";
     }
 }
