@@ -268,12 +268,11 @@ impl ConvolutionHistory for RelaxedFftHistory {
         };
         let weights_units = progress.total - spectra_units;
         let result = weights.and_then(|()| {
-            let mut report_spectra = |part: Progress| {
+            let mut report = |part: Progress| {
                 progress.done = weights_units + spectra_units * part.done / SPECTRA_PROGRESS_PARTS;
                 observer(progress)
             };
-            let mut watch =
-                ProgressReporter::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report_spectra);
+            let mut watch = ProgressReporter::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report);
             self.grow(steps, &mut watch)?;
             watch.reach(SPECTRA_PROGRESS_PARTS)
         });
