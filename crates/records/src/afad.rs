@@ -4,18 +4,15 @@
 //! (AFAD), with the heading `STRONG GROUND MOTION RECORDS OF TURKIYE`: lines `KEY : value`, a line with the names of
 //! the components, then a line a time step, in gal.
 
-use std::io::Read;
-
 use super::column_title::check_acceleration;
 use super::fault::{FaultResult, unclear, unequal_columns};
+use super::format::read_components;
 use super::header_line::titles_of_words;
 use super::header_number::HeaderNumber;
-use super::lines::{
-    LineResult, Lines, Series, is_like_number, push_numbers, required, sample_count,
-    select_component, to_record, to_records, wrong_count,
-};
-use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::{FileFault, Result};
+use super::lines::{LineResult, Lines, is_like_number, push_numbers, required};
+use super::series::{Series, check_sample_count, whole_sample_count};
+use super::{AccelerationUnit, agreement};
+use crate::error::FileFault;
 use crate::text::decimal::finite;
 
 /// The text files of the Turkish network (AFAD).
@@ -53,62 +50,56 @@ impl Default for AfadFormat {
     }
 }
 
-impl RecordFormat for AfadFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
-    }
-
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)))
-    }
-}
+read_components!(AfadFormat);
 
 /// Unit of the samples and of their peaks.
 const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::Gal;
 
-/// Entries of the header that are used.
+/// Values of a header that describe its samples.
 #[derive(Default)]
 struct AfadHeader {
     /// Time step, s.
-    interval: Option<f64>,
+    time_step: Option<f64>,
     /// Number of samples.
-    points: Option<usize>,
-    /// Text of the peaks, gal.
-    peaks: String,
+    sample_count: Option<usize>,
+    /// Text of the peaks (gal), in upper case: `(N-S) 13.2 (E-W) 12.2`.
+    peaks_text: String,
 }
 
 impl AfadHeader {
     /// Stores the value of a line `KEY : value`.
     fn read(&mut self, key: &str, value: &str) -> FaultResult<()> {
-        let upper = key.to_ascii_uppercase();
-        if upper.starts_with("NUMBER OF DATA") {
-            self.points = HeaderNumber::Points.read(value)?.and_then(sample_count);
-        } else if let Some(unit) = upper.strip_prefix("SAMPLING INTERVAL") {
-            self.interval = HeaderNumber::TimeStep.read(&format!("{value} {}", unit.trim()))?;
-        } else if upper.contains("PGA") {
+        let upper_case_key = key.to_ascii_uppercase();
+        if upper_case_key.starts_with("NUMBER OF DATA") {
+            self.sample_count = HeaderNumber::Points.read(value)?.and_then(whole_sample_count);
+        } else if let Some(unit) = upper_case_key.strip_prefix("SAMPLING INTERVAL") {
+            self.time_step = HeaderNumber::TimeStep.read(&format!("{value} {}", unit.trim()))?;
+        } else if upper_case_key.contains("PGA") {
             check_acceleration(key, SAMPLE_UNIT)?;
-            self.peaks = value.to_ascii_uppercase();
+            self.peaks_text = value.to_ascii_uppercase();
         }
         Ok(())
     }
 
-    /// Peak of a component, gal; zero if there is none: `(N-S) 13.2 (E-W) 12.2`.
-    fn peak(&self, name: &str) -> FaultResult<f64> {
+    /// Peak of a component, gal; zero if the header states none.
+    fn peak_in_gal(&self, name: &str) -> FaultResult<f64> {
         let name = name.split(['(', '[']).next().unwrap_or(name).trim().to_ascii_uppercase();
-        let text = self.peaks.split_once(&format!("({name})")).map_or("", |(_, text)| text);
-        match text.split_whitespace().next() {
+        let peak_text =
+            self.peaks_text.split_once(&format!("({name})")).map_or("", |(_, text)| text);
+        match peak_text.split_whitespace().next() {
             Some(word) => finite(word).ok_or_else(|| unclear("peak acceleration", word)),
             None => Ok(0.0),
         }
     }
 }
 
-/// Reads all components.
+/// Reads all components of a file.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let AfadHead { header, names, first_row } = read_head(lines)?;
-    let step = header.interval.filter(|&step| step > 0.0);
-    let step = required(lines, step, "sampling interval (SAMPLING INTERVAL)")?;
-    let needed = required(lines, header.points, "number of samples (NUMBER OF DATA)")?;
+    let time_step = header.time_step.filter(|&time_step| time_step > 0.0);
+    let time_step = required(lines, time_step, "sampling interval (SAMPLING INTERVAL)")?;
+    let expected_count =
+        required(lines, header.sample_count, "number of samples (NUMBER OF DATA)")?;
     let factor = SAMPLE_UNIT.in_metres_per_second_squared();
     let mut columns = vec![Vec::new(); names.len()];
     let mut row = first_row;
@@ -121,20 +112,17 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
         }
         row = next_row(lines)?;
     }
-    let found = columns[0].len();
-    if found != needed {
-        return Err(lines.fault(wrong_count(found, needed)));
-    }
+    check_sample_count(lines, columns[0].len(), expected_count)?;
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
-        let peak = lines.with_line_number(header.peak(&name))?;
+        let peak = lines.with_line_number(header.peak_in_gal(&name))?;
         lines.with_line_number(agreement::peak(&samples, peak * factor))?;
-        components.push(Series { name, step, samples });
+        components.push(Series { name, time_step, samples });
     }
     Ok(components)
 }
 
-/// The numbers of the next line that is not empty; none at the end of the file.
+/// Numbers of the next line that is not empty; no numbers at the file's end.
 fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
     let mut row = Vec::new();
     while row.is_empty() {
@@ -144,7 +132,7 @@ fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
     Ok(row)
 }
 
-/// The lines of a file up to the first line of numbers.
+/// What the lines up to the first line of numbers contain.
 struct AfadHead {
     header: AfadHeader,
     /// Names of the components.
@@ -153,6 +141,7 @@ struct AfadHead {
     first_row: Vec<f64>,
 }
 
+/// Reads the lines up to the first line of numbers, this line included.
 fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
     let mut header = AfadHeader::default();
     let mut previous_line = String::new();

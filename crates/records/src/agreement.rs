@@ -11,79 +11,104 @@ const MAX_PEAK_RATIO: f64 = 2.0;
 /// Largest relative difference of two printed numbers that counts as rounding.
 const PRINTED_NUMBER_TOLERANCE: f64 = 1e-3;
 
-/// Error unless `points` samples every `step` (s) last as long as the file states.
+/// Error unless the samples last as long as the file states.
 ///
-/// `stated` (s) is rounded to `rounding` (s).
+/// `time_step`: s. `stated_duration` (s) is rounded to `stated_rounding` (s).
 pub(super) fn duration(
-    points: usize,
-    step: f64,
-    stated: f64,
-    rounding: f64,
+    sample_count: usize,
+    time_step: f64,
+    stated_duration: f64,
+    stated_rounding: f64,
 ) -> Result<(), FileFault> {
-    let found = points as f64 * step;
+    let computed_duration = sample_count as f64 * time_step;
     // Some agencies count the samples, others the intervals between them.
-    let agrees =
-        (found - stated).abs() <= DURATION_TOLERANCE * stated.abs() + rounding + 2.0 * step;
+    let agrees = (computed_duration - stated_duration).abs()
+        <= DURATION_TOLERANCE * stated_duration.abs() + stated_rounding + 2.0 * time_step;
     let quantity = "number of samples times the time step (s)";
-    if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
+    if agrees {
+        Ok(())
+    } else {
+        Err(contradiction(quantity, computed_duration, stated_duration))
+    }
 }
 
 /// Error unless two places state the same number, up to its last printed digit.
-pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<(), FileFault> {
-    let agrees = (found - stated).abs() <= PRINTED_NUMBER_TOLERANCE * found.abs();
-    if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
+pub(super) fn number(
+    quantity: &'static str,
+    value: f64,
+    stated_value: f64,
+) -> Result<(), FileFault> {
+    let agrees = (value - stated_value).abs() <= PRINTED_NUMBER_TOLERANCE * value.abs();
+    if agrees { Ok(()) } else { Err(contradiction(quantity, value, stated_value)) }
 }
 
-/// Error if the peak that a file states differs from the samples' peak, for example by its unit.
+/// Error if the stated peak is in another unit than the samples.
 ///
-/// Both in m/s². A stated peak of zero is not checked.
-pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), FileFault> {
+/// Both in m/s²; the stated peak may have either sign. A stated peak of zero is not checked.
+pub(super) fn peak(samples: &[f64], stated_peak: f64) -> Result<(), FileFault> {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
-    let found = largest_deviation(samples, 0.0);
-    // The stated peak may refer to the samples before or after removal of the mean.
-    if stated == 0.0
-        || is_same_peak(found, stated)
-        || is_same_peak(largest_deviation(samples, mean), stated)
+    let computed_peak = max_deviation(samples, 0.0);
+    // An agency may state the peak of the samples with or without their mean.
+    if stated_peak == 0.0
+        || may_be_same_peak(computed_peak, stated_peak)
+        || may_be_same_peak(max_deviation(samples, mean), stated_peak)
     {
         return Ok(());
     }
-    Err(contradiction("peak acceleration (m/s²)", found, stated))
+    Err(contradiction("peak acceleration (m/s²)", computed_peak, stated_peak))
 }
 
 /// Largest magnitude of the differences of the samples from `mean`.
-fn largest_deviation(samples: &[f64], mean: f64) -> f64 {
-    samples.iter().fold(0.0_f64, |largest, sample| largest.max((sample - mean).abs()))
+fn max_deviation(samples: &[f64], mean: f64) -> f64 {
+    samples
+        .iter()
+        .fold(0.0_f64, |max_magnitude, sample| max_magnitude.max((sample - mean).abs()))
 }
 
-/// Whether a peak of the samples may be the stated one; a peak of zero may be any.
-fn is_same_peak(found: f64, stated: f64) -> bool {
-    let ratio = found / stated.abs();
+/// Whether the stated peak may be that of the samples.
+///
+/// Samples of zero agree with any stated peak.
+fn may_be_same_peak(computed_peak: f64, stated_peak: f64) -> bool {
+    let ratio = computed_peak / stated_peak.abs();
     ratio == 0.0 || (1.0 / MAX_PEAK_RATIO..=MAX_PEAK_RATIO).contains(&ratio)
 }
 
 /// Error unless the samples have the stated extreme at the stated time.
 ///
-/// `time` in s, `stated` in m/s². If no sample has that value, only its size is checked.
-pub(super) fn extreme(samples: &[f64], step: f64, time: f64, stated: f64) -> Result<(), FileFault> {
-    peak(samples, stated)?;
-    let mut first_time = None;
+/// `stated_time`: s. `stated_value`: m/s². If no sample has that value, only its unit is checked.
+pub(super) fn extreme(
+    samples: &[f64],
+    time_step: f64,
+    stated_time: f64,
+    stated_value: f64,
+) -> Result<(), FileFault> {
+    peak(samples, stated_value)?;
+    let mut first_sample_time = None;
     for (index, sample) in samples.iter().enumerate() {
-        if (sample - stated).abs() <= PRINTED_NUMBER_TOLERANCE * stated.abs() {
-            let found = index as f64 * step;
-            if (found - time).abs() <= DURATION_TOLERANCE * time.abs() + 2.0 * step {
+        if (sample - stated_value).abs() <= PRINTED_NUMBER_TOLERANCE * stated_value.abs() {
+            let sample_time = index as f64 * time_step;
+            if (sample_time - stated_time).abs()
+                <= DURATION_TOLERANCE * stated_time.abs() + 2.0 * time_step
+            {
                 return Ok(());
             }
-            first_time.get_or_insert(found);
+            first_sample_time.get_or_insert(sample_time);
         }
     }
-    match first_time {
+    match first_sample_time {
         None => Ok(()),
-        Some(found) => Err(contradiction("time of the peak acceleration (s)", found, time)),
+        Some(sample_time) => {
+            Err(contradiction("time of the peak acceleration (s)", sample_time, stated_time))
+        }
     }
 }
 
-fn contradiction(quantity: &'static str, found: f64, stated: f64) -> FileFault {
-    FileFault::value(quantity, found.to_string(), format!("{stated}, as the file states elsewhere"))
+fn contradiction(quantity: &'static str, value: f64, stated_value: f64) -> FileFault {
+    FileFault::value(
+        quantity,
+        value.to_string(),
+        format!("{stated_value}, as the file states elsewhere"),
+    )
 }
 
 #[cfg(test)]
@@ -92,7 +117,7 @@ mod tests {
 
     #[test]
     fn durations_are_rounded_and_no_more() {
-        for (points, step, stated, rounding) in [
+        for (sample_count, time_step, stated, rounding) in [
             (400, 0.005, 2.0, 0.0),
             (401, 0.005, 2.0, 0.0),
             (7000, 0.01, 70.0, 1.0),
@@ -100,20 +125,27 @@ mod tests {
             (10, 0.005, 0.0, 1.0),
             (1560, 0.02, 31.0, 1.0),
         ] {
-            assert_eq!(duration(points, step, stated, rounding), Ok(()), "{points} {step}");
+            assert_eq!(
+                duration(sample_count, time_step, stated, rounding),
+                Ok(()),
+                "{sample_count} {time_step}"
+            );
         }
-        for (points, step, stated, rounding) in [
+        for (sample_count, time_step, stated, rounding) in [
             (400, 5e-6, 2.0, 1.0),
             (400, 5.0, 2.0, 1.0),
             (7000, 0.005, 70.0, 1.0),
             (400, 0.005, 2.5, 0.0),
         ] {
-            assert!(duration(points, step, stated, rounding).is_err(), "{points} {step}");
+            assert!(
+                duration(sample_count, time_step, stated, rounding).is_err(),
+                "{sample_count} {time_step}"
+            );
         }
     }
 
     #[test]
-    fn peaks_tell_units() {
+    fn peaks_show_units() {
         let samples = [0.1, -0.4, 0.2];
         for stated in [0.4, -0.4, 0.0, 0.37, 0.25] {
             assert_eq!(peak(&samples, stated), Ok(()), "{stated}");

@@ -11,18 +11,19 @@ use super::fault::{
 use super::fortran_format::FortranFormat;
 use super::header_line::HeaderLines;
 use super::lines::{
-    LineFields, LineResult, Lines, Series, first_word, has_spreadsheet_error, is_header,
-    line_or_header_fault, push_numbers, scaled, to_record, to_records, wrong_count,
+    LineFields, LineResult, Lines, first_word, has_spreadsheet_error, is_header,
+    line_or_header_fault, push_numbers,
 };
 use super::number_table::NumberTable;
+use super::series::{Series, check_sample_count, multiplied, to_record, to_records};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::Result;
 use crate::text::decimal::has_implied_point;
 
-/// Number of lines from which a column may be known as times.
+/// Number of lines from which a column with equal steps counts as times: in fewer lines it may be chance.
 const MIN_LINES_WITH_TIMES: usize = 4;
 
-/// Layout of a record whose values follow each other along the lines, several on each line.
+/// Layout of a record with several successive values on each line.
 ///
 /// The reader accepts:
 /// * numbers separated by white space, commas or semicolons; a sign may begin a number right after another;
@@ -33,8 +34,8 @@ const MIN_LINES_WITH_TIMES: usize = 4;
 ///   numbers are skipped if `header_lines` states their number. A title or comment that names another unit is an
 ///   error.
 ///
-/// All lines have equally many values, except for the last one, which may have fewer. A column that counts or has
-/// times is an error, since tables have such columns: see [`ColumnFormat`](super::ColumnFormat).
+/// All lines have equally many values; the last line may have fewer. A column of counts or times is an error, since
+/// tables have such columns: see [`ColumnFormat`](super::ColumnFormat).
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, AlongLinesFormat, Record};
@@ -55,7 +56,7 @@ pub struct AlongLinesFormat {
     pub unit: AccelerationUnit,
     /// Time step, s.
     pub time_step: f64,
-    /// Fortran format of the lines; `None`: numbers apart, or in columns that the header names.
+    /// Fortran format of the lines; `None`: separated numbers, or columns that the header names.
     pub layout: Option<FortranFormat>,
     /// Number of samples of the file, if known; another number is an error.
     pub samples: Option<usize>,
@@ -64,7 +65,7 @@ pub struct AlongLinesFormat {
 }
 
 impl AlongLinesFormat {
-    /// Acceleration in `unit` every `time_step` (s), numbers apart.
+    /// Layout of separated accelerations in `unit`, one every `time_step` (s).
     ///
     /// A step that is not positive is an error when a file is read.
     pub fn new(unit: AccelerationUnit, time_step: f64) -> Self {
@@ -82,6 +83,7 @@ impl RecordFormat for AlongLinesFormat {
     }
 }
 
+/// Reads the series of a file.
 fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
     let mut header = HeaderLines::default();
     let mut header_format = None;
@@ -93,55 +95,54 @@ fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
         let is_comment = text.starts_with('#') && !has_spreadsheet_error(text);
         let fields = LineFields::split(text);
         let is_title = title_may_come && !is_skipped && is_header(&fields);
-        let is_first = series.values.is_empty();
+        let is_before_numbers = series.values.is_empty();
         if text.is_empty() || is_skipped || is_comment || is_title {
             title_may_come &= text.is_empty() || is_skipped || is_comment;
-            if is_first {
+            if is_before_numbers {
                 header.add(text);
                 header_format = FortranFormat::find(text).or(header_format);
             }
             continue;
         }
         title_may_come = false;
-        if is_first {
+        if is_before_numbers {
             series.begin(&line, format.layout, header_format, lines.number);
             if let Some(word) = first_word(&fields) {
                 return Err(lines.fault(unexpected_header_line(word)));
             }
             lines.with_line_number(header.titles(&(1..=1)).check_acceleration(1, format.unit))?;
         }
-        let added = series.add(&line, &fields, lines.number);
-        added
-            .map_err(|(number, fault)| (number, line_or_header_fault(fault, &fields, is_first)))?;
+        let result = series.add(&line, &fields, lines.number);
+        result.map_err(|(number, fault)| {
+            (number, line_or_header_fault(fault, &fields, is_before_numbers))
+        })?;
     }
-    let found = series.values.len();
+    // A stated number of samples confirms that the lines are one series.
     match format.samples {
-        Some(needed) if needed != found => {
-            return Err(lines.fault(wrong_count(found, needed)));
-        }
-        // A known number of samples confirms the series.
-        Some(_) => {}
+        Some(expected_count) => check_sample_count(lines, series.values.len(), expected_count)?,
         None => series.check()?,
     }
-    let samples = scaled(series.values, format.unit.in_metres_per_second_squared());
-    Ok(Series { name: String::new(), step: format.time_step, samples })
+    let samples = multiplied(series.values, format.unit.in_metres_per_second_squared());
+    Ok(Series { name: String::new(), time_step: format.time_step, samples })
 }
 
 /// The values of the lines read so far.
 #[derive(Default)]
 struct SeriesInLines {
     values: Vec<f64>,
-    /// Columns that all lines must have.
+    /// Fortran format that all lines must match.
     format: Option<FortranFormat>,
-    /// Whether the header names a format with implied decimal points, which the lines do not match.
+    /// Whether the lines do not match the header's format, which has implied decimal points.
     ignores_implied_points: bool,
-    /// Number of the first line in the file.
-    first_line: usize,
+    /// Number of the first line of values in the file.
+    first_line_number: usize,
     /// Number of values in a full line; zero before the first line.
     values_per_line: usize,
+    /// The last line, if it has fewer values than the others.
     short_line: Option<ShortLine>,
     /// Number of the previous card.
-    previous_card: Option<u64>,
+    previous_card_number: Option<u64>,
+    /// Values of the full lines.
     full_lines: NumberTable,
     full_line_count: usize,
 }
@@ -149,48 +150,49 @@ struct SeriesInLines {
 /// A line with fewer values than the others, which must be the last one.
 struct ShortLine {
     /// Number of the line in the file.
-    number: usize,
+    line_number: usize,
     value_count: usize,
 }
 
 impl SeriesInLines {
-    /// Decides, by the first line of numbers, whether lines are in columns.
+    /// Decides from the first line of values whether the lines have a Fortran format.
     ///
-    /// `format`: requested by the caller. `header_format`: named in the header, which counts if the line matches it.
+    /// `format`: format that the caller states. `header_format`: format that the header names; it applies if the line
+    /// matches it.
     fn begin(
         &mut self,
         line: &str,
         format: Option<FortranFormat>,
         header_format: Option<FortranFormat>,
-        number: usize,
+        line_number: usize,
     ) {
-        self.first_line = number;
-        let matching = header_format.filter(|format| format.read_card(line).is_some());
-        self.format = format.or(matching);
+        self.first_line_number = line_number;
+        let matching_format = header_format.filter(|format| format.read_card(line).is_some());
+        self.format = format.or(matching_format);
         self.values_per_line = self.format.map_or(0, |format| format.numbers_per_line());
         self.ignores_implied_points =
             self.format.is_none() && header_format.is_some_and(FortranFormat::has_implied_points);
     }
 
     /// Appends the values of a line.
-    fn add(&mut self, line: &str, fields: &LineFields, number: usize) -> LineResult<()> {
+    fn add(&mut self, line: &str, fields: &LineFields, line_number: usize) -> LineResult<()> {
         if let Some(short) = &self.short_line {
             let fault = unequal_columns(short.value_count, self.values_per_line);
-            return Err((short.number, fault));
+            return Err((short.line_number, fault));
         }
         let values = match self.format {
             Some(format) => self.values_in_columns(format, line),
             None => self.separate_values(line, fields),
         };
-        let values = values.map_err(|fault| (number, fault))?;
+        let values = values.map_err(|fault| (line_number, fault))?;
         if self.values_per_line == 0 {
             self.values_per_line = values.len();
         }
         if values.len() > self.values_per_line {
-            return Err((number, unequal_columns(values.len(), self.values_per_line)));
+            return Err((line_number, unequal_columns(values.len(), self.values_per_line)));
         }
         if values.len() < self.values_per_line {
-            self.short_line = Some(ShortLine { number, value_count: values.len() });
+            self.short_line = Some(ShortLine { line_number, value_count: values.len() });
         } else {
             self.full_lines.push(&values);
             self.full_line_count += 1;
@@ -202,16 +204,16 @@ impl SeriesInLines {
     /// Values of a line in the columns of a format; numbers of cards must rise.
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
-        if let Some(number) = card.card_number {
-            if self.previous_card.is_some_and(|previous| previous >= number) {
+        if let Some(card_number) = card.card_number {
+            if self.previous_card_number.is_some_and(|previous| previous >= card_number) {
                 return Err(not_in_format(line));
             }
-            self.previous_card = Some(number);
+            self.previous_card_number = Some(card_number);
         }
         Ok(card.numbers)
     }
 
-    /// Values of a line that separators or signs keep apart.
+    /// Values of a line between separators or signs.
     fn separate_values(&self, line: &str, fields: &LineFields) -> FaultResult<Vec<f64>> {
         let mut values = Vec::new();
         if fields.separator.is_none() {
@@ -227,20 +229,20 @@ impl SeriesInLines {
         Ok(values)
     }
 
-    /// Error if a column counts or has times.
+    /// Error if a column of counts or times shows that the lines are a table.
     fn check(&self) -> LineResult<()> {
-        if let Some(column) = self.full_lines.even_column() {
+        if let Some(column) = self.full_lines.equal_step_column() {
             let is_count = column.step == 1.0;
             let is_time = column.step > 0.0 && self.full_line_count >= MIN_LINES_WITH_TIMES;
             if is_count || is_time {
-                return Err((self.first_line, may_be_table(column.number)));
+                return Err((self.first_line_number, may_be_table(column.number)));
             }
         }
         Ok(())
     }
 }
 
-/// Whether the value of a number without a decimal point depends on the format.
+/// Whether the format decides the value of a number, which has no decimal point.
 fn lacks_point(field: &str) -> bool {
     let is_nonzero = field.contains(|character: char| matches!(character, '1'..='9'));
     has_implied_point(field) && is_nonzero

@@ -77,19 +77,19 @@ words_with_numbers! {
     }
 }
 
-/// Largest degree of a polynomial.
+/// Largest degree of a polynomial: higher ones follow the motion itself.
 const MAX_POLYNOMIAL_DEGREE: usize = 8;
 
-/// A linear least-squares problem for the polynomial in acceleration.
+/// Linear least-squares fit of the polynomial in acceleration.
 struct BaselineFit {
     /// Number of coefficients.
-    terms: usize,
+    term_count: usize,
     /// Whether the polynomial has the factor t.
     starts_from_zero: bool,
     /// Quantity whose square is minimised.
-    minimized: FitQuantity,
+    minimized_quantity: FitQuantity,
     /// Quantities that are zero at the end.
-    zero_at_end: &'static [FitQuantity],
+    zero_end_quantities: &'static [FitQuantity],
 }
 
 /// An integral of the acceleration to which a condition applies.
@@ -103,30 +103,40 @@ impl Baseline {
     /// Returns the treated samples.
     pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
         let newmark = BaselineFit {
-            terms: 3,
+            term_count: 3,
             starts_from_zero: false,
-            minimized: FitQuantity::Velocity,
-            zero_at_end: &[],
+            minimized_quantity: FitQuantity::Velocity,
+            zero_end_quantities: &[],
         };
-        let at_rest_at_end = &[FitQuantity::Velocity];
+        let end_velocity_only = &[FitQuantity::Velocity];
         let fit = match self {
             Self::None => return Ok(samples.to_vec()),
-            Self::RemoveMean => BaselineFit { terms: 1, zero_at_end: at_rest_at_end, ..newmark },
+            Self::RemoveMean => {
+                BaselineFit { term_count: 1, zero_end_quantities: end_velocity_only, ..newmark }
+            }
             Self::NewmarkParabola => newmark,
             Self::VelocityPolynomial { degree } => {
                 check_degree(degree, 1, "between 1 and 8")?;
-                BaselineFit { terms: degree, zero_at_end: at_rest_at_end, ..newmark }
+                BaselineFit {
+                    term_count: degree,
+                    zero_end_quantities: end_velocity_only,
+                    ..newmark
+                }
             }
             Self::DisplacementPolynomial { degree } => {
                 check_degree(degree, 2, "between 2 and 8")?;
-                BaselineFit { terms: degree - 1, minimized: FitQuantity::Displacement, ..newmark }
+                BaselineFit {
+                    term_count: degree - 1,
+                    minimized_quantity: FitQuantity::Displacement,
+                    ..newmark
+                }
             }
             Self::RestToRest { degree } => {
                 check_degree(degree, 3, "between 3 and 8")?;
                 BaselineFit {
-                    terms: degree - 1,
+                    term_count: degree - 1,
                     starts_from_zero: true,
-                    zero_at_end: &[FitQuantity::Velocity, FitQuantity::Displacement],
+                    zero_end_quantities: &[FitQuantity::Velocity, FitQuantity::Displacement],
                     ..newmark
                 }
             }
@@ -135,6 +145,7 @@ impl Baseline {
     }
 }
 
+/// Error unless `min_degree` ≤ `degree` ≤ [`MAX_POLYNOMIAL_DEGREE`].
 fn check_degree(degree: usize, min_degree: usize, needed: &'static str) -> Result<()> {
     let is_in_range = (min_degree..=MAX_POLYNOMIAL_DEGREE).contains(&degree);
     require("degree of the baseline polynomial", degree as f64, is_in_range, needed).map(drop)
@@ -149,33 +160,33 @@ impl BaselineFit {
     fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
         let quantity = "number of samples under a baseline fit";
         let needed = "above the number of coefficients by two at least";
-        require(quantity, samples.len() as f64, samples.len() > self.terms + 1, needed)?;
-        let scale = samples.iter().fold(0.0, |largest: f64, sample| largest.max(sample.abs()));
-        if scale == 0.0 {
+        require(quantity, samples.len() as f64, samples.len() > self.term_count + 1, needed)?;
+        let peak = samples.iter().fold(0.0, |max_so_far: f64, sample| max_so_far.max(sample.abs()));
+        if peak == 0.0 {
             return Ok(samples.to_vec());
         }
         let step = 1.0 / (samples.len() - 1) as f64;
         let basis: Vec<Vec<f64>> =
-            (0..self.terms).map(|term| self.basis_function(term, samples.len())).collect();
-        let target: Vec<f64> = samples.iter().map(|sample| sample / scale).collect();
+            (0..self.term_count).map(|term| self.basis_function(term, samples.len())).collect();
+        let scaled_samples: Vec<f64> = samples.iter().map(|sample| sample / peak).collect();
         let integrals: Vec<FitIntegrals> = basis
             .iter()
-            .chain([&target])
-            .map(|acceleration| FitIntegrals::new(step, acceleration, self.minimized))
+            .chain([&scaled_samples])
+            .map(|acceleration| FitIntegrals::new(step, acceleration, self.minimized_quantity))
             .collect();
         let coefficients = self.solve(&integrals)?;
         let mut treated = Vec::with_capacity(samples.len());
         for (index, sample) in samples.iter().enumerate() {
             let correction: f64 =
                 coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum();
-            treated.push(sample - scale * correction);
+            treated.push(sample - peak * correction);
         }
         Ok(treated)
     }
 
     /// Legendre polynomial on [0, 1] at the samples, times t if `starts_from_zero`.
     ///
-    /// Powers of t would leave the system ill-conditioned.
+    /// Powers of t would make the system ill-conditioned.
     fn basis_function(&self, degree: usize, sample_count: usize) -> Vec<f64> {
         let mut values = Vec::with_capacity(sample_count);
         for index in 0..sample_count {
@@ -188,24 +199,24 @@ impl BaselineFit {
 
     /// Coefficients of the fit; the last of `integrals` belongs to its target.
     fn solve(&self, integrals: &[FitIntegrals]) -> Result<Vec<f64>> {
-        let terms = self.terms;
-        let order = terms + self.zero_at_end.len();
+        let term_count = self.term_count;
+        let order = term_count + self.zero_end_quantities.len();
         // The last column is the right-hand side.
         let mut rows = vec![vec![0.0; order + 1]; order];
-        for i in 0..terms {
+        for i in 0..term_count {
             for (j, other) in integrals.iter().enumerate() {
-                let column = if j == terms { order } else { j };
+                let column = if j == term_count { order } else { j };
                 rows[i][column] = integrals[i].product(other);
             }
-            for (k, &quantity) in self.zero_at_end.iter().enumerate() {
-                rows[i][terms + k] = integrals[i].at_end(quantity);
-                rows[terms + k][i] = integrals[i].at_end(quantity);
-                rows[terms + k][order] = integrals[terms].at_end(quantity);
+            for (k, &quantity) in self.zero_end_quantities.iter().enumerate() {
+                rows[i][term_count + k] = integrals[i].at_end(quantity);
+                rows[term_count + k][i] = integrals[i].at_end(quantity);
+                rows[term_count + k][order] = integrals[term_count].at_end(quantity);
             }
         }
         let mut solution = solve_dense(rows)
             .ok_or(Error::Singular { matrix: "system of the baseline fit", order })?;
-        solution.truncate(terms);
+        solution.truncate(term_count);
         Ok(solution)
     }
 }
@@ -274,7 +285,7 @@ impl FitIntegrals {
         }
     }
 
-    /// Integral of the product of the minimised quantities.
+    /// Integral over time of the product of two minimised quantities.
     fn product(&self, other: &Self) -> f64 {
         self.values.iter().zip(&other.values).map(|(a, b)| a * b).sum()
     }
@@ -286,8 +297,9 @@ impl FitIntegrals {
 fn solve_dense(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let order = rows.len();
     for k in 0..order {
-        let pivot = (k..order).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
-        rows.swap(k, pivot);
+        let pivot_index =
+            (k..order).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+        rows.swap(k, pivot_index);
         if rows[k][k] == 0.0 || !rows[k][k].is_finite() {
             return None;
         }

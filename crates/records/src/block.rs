@@ -2,80 +2,86 @@
 
 use super::fault::{FaultResult, not_acceleration, not_in_header, unclear, unprocessed};
 use super::fortran_format::FortranFormat;
-use super::lines::{LineResult, Lines, line_after_block, read_numbers, sample_count, scaled};
+use super::lines::{LineResult, Lines, line_after_block, read_numbers};
+use super::series::{multiplied, whole_sample_count};
 use super::{AccelerationUnit, agreement};
 use crate::text::decimal::finite;
 
-/// Description of a block of numbers by its title.
+/// A block of accelerations as its title describes it.
 pub(super) struct DataBlock {
     /// Number of samples.
-    pub(super) points: usize,
+    pub(super) sample_count: usize,
     /// Time step, s.
-    pub(super) step: f64,
+    pub(super) time_step: f64,
     pub(super) unit: AccelerationUnit,
     /// Columns of the numbers; `None` if white space separates them.
     pub(super) format: Option<FortranFormat>,
-    /// Peak that the header states, in the unit of the block.
+    /// Peak acceleration that the header states, in the unit of the block.
     pub(super) peak: Option<f64>,
 }
 
 impl DataBlock {
-    /// The samples (m/s²), and the line after them.
+    /// Reads the samples (m/s²), and the line after them.
     pub(super) fn read(&self, lines: &mut Lines) -> LineResult<(Vec<f64>, Option<String>)> {
-        let values = read_numbers(lines, self.points, self.format)?;
+        let values = read_numbers(lines, self.sample_count, self.format)?;
         let factor = self.unit.in_metres_per_second_squared();
-        let samples = scaled(values, factor);
+        let samples = multiplied(values, factor);
         if let Some(peak) = self.peak {
             lines.with_line_number(agreement::peak(&samples, peak * factor))?;
         }
-        let next_line = line_after_block(lines, self.points)?;
+        let next_line = line_after_block(lines, self.sample_count)?;
         Ok((samples, next_line))
     }
 }
 
-/// The count at the beginning of a title; an error names its `quantity`.
+/// The count that begins a title; an error names its `quantity`.
 pub(super) fn leading_count(title: &str, quantity: &'static str) -> FaultResult<usize> {
-    let first = title.split_whitespace().next();
-    first
-        .and_then(|field| sample_count(finite(field)?))
+    let first_word = title.split_whitespace().next();
+    first_word
+        .and_then(|field| whole_sample_count(finite(field)?))
         .ok_or_else(|| not_in_header(quantity))
 }
 
-/// A time step, which must be there and above zero.
-pub(super) fn positive_step(value: Option<f64>) -> FaultResult<f64> {
-    value.filter(|&step| step > 0.0).ok_or_else(|| not_in_header("sampling interval"))
+/// The time step (s), or an error if it is missing or not positive.
+pub(super) fn positive_time_step(value: Option<f64>) -> FaultResult<f64> {
+    value
+        .filter(|&time_step| time_step > 0.0)
+        .ok_or_else(|| not_in_header("sampling interval"))
 }
 
 /// The Fortran format that a title names, if any.
 ///
-/// An error if `rest`, the text after the unit, contains more than a format.
-pub(super) fn format_of_title(title: &str, rest: &str) -> FaultResult<Option<FortranFormat>> {
-    if !FortranFormat::is_all_of(rest) {
-        return Err(unclear("unit or format", rest.trim()));
+/// An error if `text_after_unit` contains more than a format.
+pub(super) fn format_of_title(
+    title: &str,
+    text_after_unit: &str,
+) -> FaultResult<Option<FortranFormat>> {
+    if !FortranFormat::is_only_format(text_after_unit) {
+        return Err(unclear("unit or format", text_after_unit.trim()));
     }
     Ok(FortranFormat::find(title))
 }
 
-/// The unit at the beginning of `text`, and the text behind it.
+/// The unit at the beginning of `text`, and the text after it.
 ///
-/// `text`: the part of a title from the unit's name on.
-pub(super) fn unit_and_rest<'a>(
+/// `text`: part of the `title` that begins with the name of the unit.
+pub(super) fn unit_and_text_after<'a>(
     title: &str,
     text: &'a str,
 ) -> FaultResult<(AccelerationUnit, &'a str)> {
-    let separator = text.find([',', '(', ')']).unwrap_or(text.len());
-    let end = text.find("format").unwrap_or(text.len()).min(separator);
-    let rest = &text[end..];
-    let name = text[..end].trim_matches([' ', '\t', '.']);
+    let separator_position = text.find([',', '(', ')']).unwrap_or(text.len());
+    let name_end = text.find("format").unwrap_or(text.len()).min(separator_position);
+    let text_after_unit = &text[name_end..];
+    let name = text[..name_end].trim_matches([' ', '\t', '.']);
     if is_raw_unit(name) {
         return Err(unprocessed(title, RAW_COUNTS_TEXT));
     }
-    let code = rest.trim_start_matches([' ', ',']).strip_prefix('(');
-    let code = code.and_then(|rest| rest.split_once(')')?.0.trim().parse().ok());
+    let code = text_after_unit.trim_start_matches([' ', ',']).strip_prefix('(');
+    let code = code.and_then(|bracket| bracket.split_once(')')?.0.trim().parse().ok());
     let unit = AccelerationUnit::named(name);
     let unit = unit.filter(|&unit| code.is_none_or(|code| unit_of_code(code) == Some(unit)));
     let unit = unit.ok_or_else(|| not_acceleration(title))?;
-    Ok((unit, rest.trim_start_matches(')')))
+    Ok((unit, text_after_unit.trim_start_matches(')')))
 }
 
 /// The unit of a code of COSMOS (format 1.20, table 2).
@@ -88,8 +94,10 @@ pub(super) fn unit_of_code(code: i64) -> Option<AccelerationUnit> {
     }
 }
 
-/// Unit for a title without one: `expected`, unless the title contains another one.
-pub(super) fn unit_of_untitled(
+/// The `expected` unit of a title that names no unit, or an error.
+///
+/// A title that contains another unit is an error.
+pub(super) fn unit_without_name(
     title: &str,
     expected: Option<AccelerationUnit>,
 ) -> FaultResult<AccelerationUnit> {
@@ -99,10 +107,10 @@ pub(super) fn unit_of_untitled(
     unit.ok_or_else(|| not_acceleration(title))
 }
 
-/// Description of data in counts, for errors.
+/// Name of data without a recorder's sensitivity, in errors.
 const RAW_COUNTS_TEXT: &str = "raw counts of a recorder";
 
-/// Whether a unit belongs to numbers without a recorder's sensitivity.
+/// Whether a unit is one of raw counts or volts of a recorder.
 pub(super) fn is_raw_unit(name: &str) -> bool {
     matches!(name, "count" | "counts" | "cnt" | "cnts" | "volt" | "volts" | "mvolts" | "mv" | "v")
 }
@@ -124,25 +132,26 @@ mod tests {
             ("in/sec2 (07)", InchPerSecondSquared),
             ("cms/sec/sec)   (8f10.3)", Gal),
         ] {
-            let (found, rest) = unit_and_rest("title", text).unwrap();
-            assert!(found == expected && FortranFormat::is_all_of(rest), "{text}");
+            let (unit, rest) = unit_and_text_after("title", text).unwrap();
+            assert!(unit == expected && FortranFormat::is_only_format(rest), "{text}");
         }
         for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
-            let error = unit_and_rest("title", text).unwrap_err();
+            let error = unit_and_text_after("title", text).unwrap_err();
             assert_eq!(error, not_acceleration("title"), "{text}");
         }
         for text in ["counts (50),format=(10i8)", "volts", "counts(50)"] {
-            let error = unit_and_rest("title", text).unwrap_err();
+            let error = unit_and_text_after("title", text).unwrap_err();
             assert_eq!(error, unprocessed("title", RAW_COUNTS_TEXT), "{text}");
         }
         assert_eq!(
-            unit_of_untitled("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)),
+            unit_without_name("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)),
             Ok(Gal)
         );
-        assert_eq!(unit_of_untitled("4 points, in the gallery", Some(Gal)), Ok(Gal));
-        assert!(unit_of_untitled("4 points equally spaced at .010 sec.", None).is_err());
+        assert_eq!(unit_without_name("4 points, in the gallery", Some(Gal)), Ok(Gal));
+        assert!(unit_without_name("4 points equally spaced at .010 sec.", None).is_err());
         assert!(
-            unit_of_untitled("4 points equally spaced at .010 sec. g (8f10.3)", Some(Gal)).is_err()
+            unit_without_name("4 points equally spaced at .010 sec. g (8f10.3)", Some(Gal))
+                .is_err()
         );
     }
 }

@@ -2,9 +2,11 @@
 
 use super::AccelerationUnit;
 use super::fault::{FaultResult, other_unit_in_title};
-use super::unit_name::{MAX_UNIT_NAME_BYTES, SECOND_NAMES, is_ratio, is_unit};
+use super::unit_name::{MAX_UNIT_NAME_BYTES, SECOND_NAMES, is_ratio_of_units, is_unit};
 
-/// Names of units, in lower case, that without brackets mean something else: minimum, input, main shock.
+/// Names of units, in lower case, with another meaning where they are not in brackets.
+///
+/// `min` is then the minimum, `in` the input, `ms` the main shock.
 const AMBIGUOUS_UNIT_NAMES: [&str; 11] =
     ["s", "ms", "min", "h", "v", "in", "%", "day", "days", "sample", "samples"];
 /// First words, in lower case, in titles of quantities other than acceleration.
@@ -20,17 +22,17 @@ pub(super) fn check_time(title: &str) -> FaultResult<()> {
     }
 }
 
-/// Error if the title of a column of accelerations names a unit other than `expected`, or another quantity.
-pub(super) fn check_acceleration(title: &str, expected: AccelerationUnit) -> FaultResult<()> {
+/// Error if the title of a column of accelerations names another unit or quantity.
+pub(super) fn check_acceleration(title: &str, expected_unit: AccelerationUnit) -> FaultResult<()> {
     let word = first_word(title);
     // `T` may be the transverse component.
     let is_time = word == "t" && title.trim_start_matches(['"', '\'']).starts_with('t');
     let names_other_quantity = (OTHER_QUANTITY_WORDS.contains(&word.as_str()) || is_time)
         && !title.to_lowercase().contains("acc");
     let names_other_unit = acceleration_unit(title)
-        .is_some_and(|unit| AccelerationUnit::named(unit) != Some(expected));
+        .is_some_and(|unit| AccelerationUnit::named(unit) != Some(expected_unit));
     if names_other_quantity || names_other_unit {
-        return Err(other_unit_in_title(title, &expected.to_string()));
+        return Err(other_unit_in_title(title, &expected_unit.to_string()));
     }
     Ok(())
 }
@@ -42,34 +44,35 @@ pub(super) fn first_word(title: &str) -> String {
     word.unwrap_or(title).to_lowercase()
 }
 
-/// The unit that the title of a column of times names.
+/// The unit that the title of a column of times names, if any.
 pub(super) fn time_unit(title: &str) -> Option<&str> {
     bracketed_unit(title).or_else(|| {
         endings(title).find(|&ending| {
-            let may_be_letter = ending == title || ending.len() > 1 || ending == "s";
-            is_unit(ending) && ending != "in" && may_be_letter
+            let may_be_unit = ending == title || ending.len() > 1 || ending == "s";
+            is_unit(ending) && ending != "in" && may_be_unit
         })
     })
 }
 
-/// The unit that the title of a column of accelerations names.
+/// The unit that the title of a column of accelerations names, if any.
 pub(super) fn acceleration_unit(title: &str) -> Option<&str> {
     bracketed_unit(title).or_else(|| {
         endings(title).find(|&ending| {
-            // Behind a name `m` may be the middle.
-            let is_clear = !AMBIGUOUS_UNIT_NAMES.contains(&ending.to_lowercase().as_str())
+            // After a name, `m` may mean the middle.
+            let is_unambiguous = !AMBIGUOUS_UNIT_NAMES.contains(&ending.to_lowercase().as_str())
                 && (ending == title || ending.len() > 1);
             AccelerationUnit::named(ending).is_some()
-                || is_ratio(ending)
-                || is_clear && is_unit(ending)
+                || is_ratio_of_units(ending)
+                || is_unambiguous && is_unit(ending)
         })
     })
 }
 
 /// Whether a title is the name of a unit alone, in brackets or not.
 pub(super) fn is_unit_alone(title: &str) -> bool {
-    let bare = title.trim_matches(['(', ')', '[', ']', '{', '}', '（', '）', '"', '\'', ' ']);
-    is_unit(bare) || AccelerationUnit::named(bare).is_some()
+    let unbracketed_title =
+        title.trim_matches(['(', ')', '[', ']', '{', '}', '（', '）', '"', '\'', ' ']);
+    is_unit(unbracketed_title) || AccelerationUnit::named(unbracketed_title).is_some()
 }
 
 /// The last unit in brackets in a title: `a (cm/s2)`, `acc[g] filtered`, `a (in cm/s2, corrected)`.
@@ -86,37 +89,37 @@ fn without_unit_words(text: &str) -> &str {
     words.iter().find_map(|word| text.strip_prefix(word)).unwrap_or(text).trim()
 }
 
-/// The texts in the outer brackets of a title; the last bracket may be open.
+/// The texts in the outer brackets of a title; the last one need not be closed.
 fn bracketed_texts(title: &str) -> Vec<&str> {
     let mut texts = Vec::new();
     let mut depth = 0;
-    let mut begin = 0;
+    let mut text_start = 0;
     for (position, character) in title.char_indices() {
         match character {
             '(' | '[' | '{' | '（' => {
                 if depth == 0 {
-                    begin = position + character.len_utf8();
+                    text_start = position + character.len_utf8();
                 }
                 depth += 1;
             }
             ')' | ']' | '}' | '）' if depth > 0 => {
                 depth -= 1;
                 if depth == 0 {
-                    texts.push(&title[begin..position]);
+                    texts.push(&title[text_start..position]);
                 }
             }
             _ => {}
         }
     }
     if depth > 0 {
-        texts.push(&title[begin..]);
+        texts.push(&title[text_start..]);
     }
     texts
 }
 
-/// The title and the parts behind its separators, the longest first.
+/// The title and its parts after each separator, the longest first.
 ///
-/// Example: `a in cm/s2`, `in cm/s2`, `cm/s2`. Texts longer than any unit are left out.
+/// Example: `a in cm/s2`, `in cm/s2`, `cm/s2`. Texts longer than any unit are skipped.
 fn endings(title: &str) -> impl Iterator<Item = &str> {
     let title = title.trim_matches(['"', '\'', ' ']);
     let separators = title.match_indices([' ', '_', ',', '=', '/', '-']);

@@ -9,9 +9,8 @@ use std::io::Read;
 use super::block::{self, DataBlock};
 use super::csmip::{self, CsmipHeader};
 use super::fault::{FaultResult, not_acceleration, out_of_range, unclear, unprocessed};
-use super::lines::{
-    LineResult, Lines, Series, read_numbers, select_component, to_record, to_records,
-};
+use super::lines::{LineResult, Lines, read_numbers};
+use super::series::{Series, select_component, to_record, to_records};
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::Result;
 use crate::text::decimal::finite;
@@ -96,83 +95,86 @@ impl RecordFormat for CosmosFormat {
     }
 }
 
-/// Reads the channel with the number `wanted`, or all channels.
+/// Reads the selected channel, or all channels.
+///
+/// `selected_channel`: number of a block of acceleration, counted from 1; `None` for all.
 fn read(
     lines: &mut Lines,
     format: &CosmosFormat,
-    wanted: Option<usize>,
+    selected_channel: Option<usize>,
 ) -> LineResult<Vec<Series>> {
     let mut channel_count = 0;
     let mut channels = Vec::new();
     let mut cosmos_header = CosmosHeader::default();
     let mut csmip_header = CsmipHeader::default();
     let mut uncorrected_title = None;
-    let mut other_quantity = None;
-    let mut line_after_block = None;
-    while let Some(line) = match line_after_block.take() {
+    let mut other_quantity_fault = None;
+    let mut next_line = None;
+    while let Some(line) = match next_line.take() {
         Some(line) => Some(line),
         None => lines.next()?,
     } {
-        let lower = line.to_ascii_lowercase();
+        let lower_case_line = line.to_ascii_lowercase();
         let is_comment = line.starts_with('|');
-        if is_comment || cosmos_header.read(lines, &line, &lower)? {
+        if is_comment || cosmos_header.read(lines, &line, &lower_case_line)? {
             continue;
         }
-        let block = if csmip::is_title(&lower) {
+        let block = if csmip::is_title(&lower_case_line) {
             csmip_header.block(&line, format.unit)
-        } else if is_title_of(&lower, &["accel"]) {
+        } else if is_title_of(&lower_case_line, &["accel"]) {
             cosmos_header.block(&line, format.unit)
         } else {
-            csmip_header.read(&lower);
-            let is_other = is_title_of(&lower, &["vel", "disp"]) || csmip::is_other_title(&lower);
-            if other_quantity.is_none() && is_other {
-                other_quantity = Some(lines.fault(not_acceleration(line.trim())));
+            csmip_header.read(&lower_case_line);
+            let is_other_quantity = is_title_of(&lower_case_line, &["vel", "disp"])
+                || csmip::is_other_title(&lower_case_line);
+            if other_quantity_fault.is_none() && is_other_quantity {
+                other_quantity_fault = Some(lines.fault(not_acceleration(line.trim())));
             }
-            if lines.number == 1 && lower.contains("uncorrected accelerogram") {
+            if lines.number == 1 && lower_case_line.contains("uncorrected accelerogram") {
                 uncorrected_title = Some(line);
             }
             continue;
         };
         channel_count += 1;
-        if wanted.is_none_or(|wanted| wanted == channel_count) {
+        if selected_channel.is_none_or(|number| number == channel_count) {
             let block = lines.with_line_number(block)?;
-            let (samples, next_line) = block.read(lines)?;
+            let (samples, line_after_block) = block.read(lines)?;
             let name = cosmos_header.channel_name.take();
             let name = name.unwrap_or_else(|| format!("channel {channel_count}"));
-            channels.push(Series { name, step: block.step, samples });
-            line_after_block = next_line;
+            channels.push(Series { name, time_step: block.time_step, samples });
+            next_line = line_after_block;
         }
-        if wanted.is_some_and(|wanted| wanted == channel_count) {
+        if selected_channel.is_some_and(|number| number == channel_count) {
             return Ok(channels);
         }
         cosmos_header = CosmosHeader::default();
         csmip_header = CsmipHeader::default();
     }
-    if channel_count > 0 && wanted.is_none() {
+    if channel_count > 0 && selected_channel.is_none() {
         return Ok(channels);
     }
     if channel_count == 0 {
-        if let Some(fault) = other_quantity {
+        if let Some(fault) = other_quantity_fault {
             return Err(fault);
         }
         if let Some(title) = uncorrected_title {
             return Err((1, unprocessed(&title, "uncorrected data in unequal steps")));
         }
     }
-    Err(lines.fault(out_of_range("channel", channel_count, wanted.unwrap_or(1))))
+    Err(lines.fault(out_of_range("channel", channel_count, selected_channel.unwrap_or(1))))
 }
 
 /// Whether a line in lower case is the title of a block of one of the `quantities`.
 ///
 /// Examples for `accel`: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
 fn is_title_of(line: &str, quantities: &[&str]) -> bool {
-    let mut previous = "";
+    let mut previous_word = "";
     for word in line.split([' ', '\t', ',']).filter(|word| !word.is_empty()) {
-        let is_count = matches!(word, "pts" | "points");
-        if is_count && quantities.iter().any(|quantity| previous.starts_with(quantity)) {
+        let is_count_unit = matches!(word, "pts" | "points");
+        if is_count_unit && quantities.iter().any(|quantity| previous_word.starts_with(quantity)) {
             return true;
         }
-        previous = word;
+        previous_word = word;
     }
     false
 }
@@ -188,25 +190,27 @@ const DATA_PEAK_INDEX: usize = 63;
 /// Real header value that means unknown.
 const UNKNOWN_REAL_VALUE: f64 = -999.0;
 
-/// Statements of the header of a channel.
+/// Values of a channel's header that describe its samples.
 #[derive(Default)]
 struct CosmosHeader {
+    /// Name of the channel, if the header states one.
     channel_name: Option<String>,
-    /// Code of the unit, if it is known.
+    /// Code of the unit, if the header states one.
     unit_code: Option<i64>,
-    reals: Vec<f64>,
+    /// Real header values.
+    real_values: Vec<f64>,
 }
 
 impl CosmosHeader {
     /// Reads a line of the header, with the numbers under it; `false` for any other line.
-    fn read(&mut self, lines: &mut Lines, line: &str, lower: &str) -> LineResult<bool> {
-        if lower.contains("real-header values follow") {
-            self.reals = read_reals(lines, lower)?;
-        } else if lower.contains("integer-header values follow") {
+    fn read(&mut self, lines: &mut Lines, line: &str, lower_case_line: &str) -> LineResult<bool> {
+        if lower_case_line.contains("real-header values follow") {
+            self.real_values = read_real_values(lines, lower_case_line)?;
+        } else if lower_case_line.contains("integer-header values follow") {
             let Some(line) = lines.next_indented()? else { return Ok(true) };
-            // The first of ten values is the stage of processing, the third the unit.
-            let third = line.split_whitespace().nth(2).and_then(|field| field.parse().ok());
-            self.unit_code = third.filter(|&code| code > 0);
+            // The first of ten values is the stage of processing, the third one the code of the unit.
+            let unit_code = line.split_whitespace().nth(2).and_then(|field| field.parse().ok());
+            self.unit_code = unit_code.filter(|&code| code > 0);
         } else if let Some(name) = channel_name(line) {
             self.channel_name = Some(name);
         } else {
@@ -217,7 +221,7 @@ impl CosmosHeader {
 
     /// A real header value; `None` if it is unknown.
     fn real(&self, index: usize) -> Option<f64> {
-        self.reals.get(index).copied().filter(|&value| value != UNKNOWN_REAL_VALUE)
+        self.real_values.get(index).copied().filter(|&value| value != UNKNOWN_REAL_VALUE)
     }
 
     /// A real header value; `None` if it is unknown or not positive.
@@ -225,58 +229,65 @@ impl CosmosHeader {
         self.real(index).filter(|&value| value > 0.0)
     }
 
-    /// The block under a title; `default_unit` is the unit if the title names none.
+    /// Description of the block under a title.
+    ///
+    /// `default_unit`: unit of a title that names none.
     fn block(&self, line: &str, default_unit: Option<AccelerationUnit>) -> FaultResult<DataBlock> {
         let title = line.to_ascii_lowercase();
         let title = title.as_str();
-        let points = block::leading_count(title, "number of points")?;
-        let (unit, rest) = if let Some((_, text)) = title.split_once("units") {
-            block::unit_and_rest(line, text.trim_start_matches([' ', '=', ':']))?
+        let sample_count = block::leading_count(title, "number of points")?;
+        let (unit, text_after_unit) = if let Some((_, text)) = title.split_once("units") {
+            block::unit_and_text_after(line, text.trim_start_matches([' ', '=', ':']))?
         } else {
             let format = title.find("format").map_or("", |position| &title[position..]);
-            (block::unit_of_untitled(title, default_unit)?, format)
+            (block::unit_without_name(title, default_unit)?, format)
         };
-        let other_code = self.unit_code.filter(|&code| block::unit_of_code(code) != Some(unit));
-        if let Some(code) = other_code {
+        let contradicting_code =
+            self.unit_code.filter(|&code| block::unit_of_code(code) != Some(unit));
+        if let Some(code) = contradicting_code {
             return Err(unclear("unit", &format!("{unit}, and the code {code} of another one")));
         }
-        let format = block::format_of_title(title, rest)?;
-        let data_interval = self.positive_real(DATA_INTERVAL_INDEX).map(|ms| ms / 1e3);
-        let interval = data_interval.or_else(|| self.positive_real(RECORDER_INTERVAL_INDEX));
-        let step = block::positive_step(interval)?;
-        if let Some(stated) = self.positive_real(DATA_DURATION_INDEX) {
-            agreement::duration(points, step, stated, 0.0)?;
+        let format = block::format_of_title(title, text_after_unit)?;
+        let data_interval =
+            self.positive_real(DATA_INTERVAL_INDEX).map(|milliseconds| milliseconds / 1e3);
+        let sampling_interval =
+            data_interval.or_else(|| self.positive_real(RECORDER_INTERVAL_INDEX));
+        let time_step = block::positive_time_step(sampling_interval)?;
+        if let Some(stated_duration) = self.positive_real(DATA_DURATION_INDEX) {
+            agreement::duration(sample_count, time_step, stated_duration, 0.0)?;
         }
-        // `approx  120 secs`, without its fraction.
+        // `approx  120 secs`: the stated duration has no decimals.
         let approximate_duration = title.split_once("approx").and_then(|(_, text)| {
             finite(text.trim_start_matches(['.', ' ', '=']).split_whitespace().next()?)
         });
-        if let Some(stated) = approximate_duration {
-            agreement::duration(points, step, stated, 1.0)?;
+        if let Some(stated_duration) = approximate_duration {
+            agreement::duration(sample_count, time_step, stated_duration, 1.0)?;
         }
-        Ok(DataBlock { points, step, unit, format, peak: self.real(DATA_PEAK_INDEX) })
+        Ok(DataBlock { sample_count, time_step, unit, format, peak: self.real(DATA_PEAK_INDEX) })
     }
 }
 
 /// Reads the values under a title of real header values.
-fn read_reals(lines: &mut Lines, title: &str) -> LineResult<Vec<f64>> {
-    let count = lines.with_line_number(block::leading_count(title, "number of header values"))?;
-    let format = title.split_once("format").map_or("", |(_, format)| format);
-    let format = format.trim_start_matches([' ', '=', ':']);
-    let format = lines.with_line_number(block::format_of_title(title, format))?;
-    read_numbers(lines, count, format)
+fn read_real_values(lines: &mut Lines, title: &str) -> LineResult<Vec<f64>> {
+    let value_count =
+        lines.with_line_number(block::leading_count(title, "number of header values"))?;
+    let format_text = title.split_once("format").map_or("", |(_, text)| text);
+    let format_text = format_text.trim_start_matches([' ', '=', ':']);
+    let format = lines.with_line_number(block::format_of_title(title, format_text))?;
+    read_numbers(lines, value_count, format)
 }
 
-/// The channel that a line of the header names.
+/// The name of a channel in a line of the header, if any.
 ///
 /// `Chan 1: 90 Deg` of `Sta Chan   1: 90 Deg (Rcrdr Chan  1) Location:Ground`, `CHAN  1:  90 DEG` or `COMP S58W`.
 fn channel_name(line: &str) -> Option<String> {
     let text = line.strip_prefix("Sta ").unwrap_or(line);
-    let key = text.get(..4)?.to_ascii_lowercase();
-    let is_name = key == "chan" && text.contains(':') || key == "comp" && text.contains(' ');
+    let lower_case_key = text.get(..4)?.to_ascii_lowercase();
+    let is_name = lower_case_key == "chan" && text.contains(':')
+        || lower_case_key == "comp" && text.contains(' ');
     let text = text.split(['(', '=']).next()?;
     // Digits after `COMP S58W` belong to the punched card.
-    let max_words = if key == "comp" { 2 } else { usize::MAX };
+    let max_words = if lower_case_key == "comp" { 2 } else { usize::MAX };
     let words: Vec<&str> = text.split_whitespace().take(max_words).collect();
     is_name.then(|| words.join(" "))
 }

@@ -4,16 +4,12 @@
 //! Engineering Strong-Motion Database*, Seismological Research Letters 87, 2016) and of ITACA (itaca.mi.ingv.it):
 //! lines `KEY: value`, then one sample a line. Turkey's archive (AFAD) gives files in this layout, too.
 
-use std::io::Read;
-
 use super::fault::{FaultResult, not_acceleration};
+use super::format::read_one_component;
 use super::header_number::HeaderNumber;
-use super::lines::{
-    LineResult, Lines, Series, push_numbers, required, sample_count, scaled, to_record, to_records,
-    wrong_count,
-};
-use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::Result;
+use super::lines::{LineResult, Lines, push_numbers, required};
+use super::series::{Series, check_sample_count, multiplied, whole_sample_count};
+use super::{AccelerationUnit, agreement};
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
@@ -34,27 +30,19 @@ use crate::error::Result;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EsmFormat;
 
-impl RecordFormat for EsmFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, read(&mut Lines::new(source)))
-    }
+read_one_component!(EsmFormat);
 
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
-    }
-}
-
-/// Entries of the header that are used.
+/// Values of a header that describe its samples.
 #[derive(Default)]
 struct EsmHeader {
     /// Time step, s.
-    interval: Option<f64>,
+    time_step: Option<f64>,
     /// Number of samples.
-    points: Option<usize>,
+    sample_count: Option<usize>,
     /// Duration, s.
     duration: Option<f64>,
     unit: Option<AccelerationUnit>,
-    /// Peak acceleration, m/s²; zero if there is none.
+    /// Peak acceleration, m/s²; zero if the header states none.
     peak: f64,
     /// Name of the component.
     stream: String,
@@ -65,8 +53,10 @@ impl EsmHeader {
     fn read(&mut self, key: &str, value: &str) -> FaultResult<()> {
         let entry = format!("{key}: {value}");
         match key.to_ascii_uppercase().as_str() {
-            "SAMPLING_INTERVAL_S" => self.interval = HeaderNumber::TimeStep.read(value)?,
-            "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(sample_count),
+            "SAMPLING_INTERVAL_S" => self.time_step = HeaderNumber::TimeStep.read(value)?,
+            "NDATA" => {
+                self.sample_count = HeaderNumber::Points.read(value)?.and_then(whole_sample_count)
+            }
             "DURATION_S" => self.duration = HeaderNumber::Duration.read(value)?,
             "UNITS" => {
                 let unit = AccelerationUnit::named(value);
@@ -76,8 +66,8 @@ impl EsmHeader {
                 return Err(not_acceleration(&entry));
             }
             "STREAM" => value.clone_into(&mut self.stream),
-            other => {
-                let unit = other.strip_prefix("PGA_").and_then(AccelerationUnit::named);
+            key => {
+                let unit = key.strip_prefix("PGA_").and_then(AccelerationUnit::named);
                 if let Some(unit) = unit
                     && let Some(value) = HeaderNumber::Peak.read(value)?
                 {
@@ -89,15 +79,15 @@ impl EsmHeader {
     }
 
     /// Error unless the samples have the stated duration and peak.
-    fn check(&self, samples: &[f64], step: f64) -> FaultResult<()> {
-        if let Some(stated) = self.duration {
-            agreement::duration(samples.len(), step, stated, 0.0)?;
+    fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
+        if let Some(stated_duration) = self.duration {
+            agreement::duration(samples.len(), time_step, stated_duration, 0.0)?;
         }
         agreement::peak(samples, self.peak)
     }
 }
 
-/// Reads the component.
+/// Reads the component of a file.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let mut header = EsmHeader::default();
     let mut values = Vec::new();
@@ -107,15 +97,12 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
             _ => push_numbers(&line, &mut values),
         })?;
     }
-    let step = header.interval.filter(|&step| step > 0.0);
-    let step = required(lines, step, "sampling interval (SAMPLING_INTERVAL_S)")?;
-    let needed = required(lines, header.points, "number of samples (NDATA)")?;
+    let time_step = header.time_step.filter(|&time_step| time_step > 0.0);
+    let time_step = required(lines, time_step, "sampling interval (SAMPLING_INTERVAL_S)")?;
+    let expected_count = required(lines, header.sample_count, "number of samples (NDATA)")?;
     let unit = required(lines, header.unit, "unit (UNITS)")?;
-    let found = values.len();
-    if found != needed {
-        return Err(lines.fault(wrong_count(found, needed)));
-    }
-    let samples = scaled(values, unit.in_metres_per_second_squared());
-    lines.with_line_number(header.check(&samples, step))?;
-    Ok(Series { name: header.stream, step, samples })
+    check_sample_count(lines, values.len(), expected_count)?;
+    let samples = multiplied(values, unit.in_metres_per_second_squared());
+    lines.with_line_number(header.check(&samples, time_step))?;
+    Ok(Series { name: header.stream, time_step, samples })
 }

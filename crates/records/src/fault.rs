@@ -6,7 +6,7 @@ use crate::text::decimal::{excerpt, quoted};
 /// Largest number of characters that a message quotes from a file.
 const MAX_QUOTED_CHARACTERS: usize = 60;
 
-/// Result of reading, or the fault without the number of a line.
+/// What was read, or a fault without its line number.
 pub(super) type FaultResult<T> = Result<T, FileFault>;
 
 /// A field that is not a finite number.
@@ -26,38 +26,41 @@ pub(super) fn not_in_header(quantity: &str) -> FileFault {
     FileFault::missing(format!("{quantity} in the header, or none that makes sense"))
 }
 
-/// A quantity of the header without a known number or unit.
+/// A quantity of the header whose number or unit is not understood.
 pub(super) fn unclear(quantity: &str, text: &str) -> FileFault {
     FileFault::value(quantity, quoted(text), "clear: all of it a known number, unit or word")
 }
 
-/// A line with more or fewer columns than the lines before; its columns may have shifted.
-pub(super) fn unequal_columns(found: usize, before: usize) -> FileFault {
-    FileFault::count("columns", found, format!("{before}, as before"))
+/// Fault of a file whose number of samples is not the expected one.
+pub(super) fn wrong_sample_count(sample_count: usize, expected_count: usize) -> FileFault {
+    FileFault::count("samples", sample_count, expected_count.to_string())
 }
 
-/// Lines of numbers that may be one series along the lines.
-///
-/// A single column would then be a small part of it.
-pub(super) fn may_be_one_series(numbers: usize) -> FileFault {
+/// A line with more or fewer columns than the previous lines.
+pub(super) fn unequal_columns(column_count: usize, previous_count: usize) -> FileFault {
+    FileFault::count("columns", column_count, format!("{previous_count}, as before"))
+}
+
+/// Lines of numbers that may be one series along the lines, of which a column is a small part.
+pub(super) fn may_be_one_series(numbers_per_line: usize) -> FileFault {
     let needed = "columns with titles: read values along the lines as such (`AlongLinesFormat`, in Python \
          `along_lines`), or give the number of lines (`samples`) if they are columns";
-    FileFault::format(format!("{numbers} numbers a line, which may be one series"), needed)
+    FileFault::format(format!("{numbers_per_line} numbers a line, which may be one series"), needed)
 }
 
-/// Lines of numbers that may be the rows of a table, or have numbers of cards.
-pub(super) fn may_be_table(column: usize) -> FileFault {
+/// Lines of numbers whose column of counts or times makes them a table or cards.
+pub(super) fn may_be_table(column_number: usize) -> FileFault {
     let needed = "values of one series: read columns by `ColumnFormat` (in Python `columns`), cards by their Fortran \
          format (`layout`), or give the number of values (`samples`)";
-    FileFault::format(format!("column {column}, which counts or has times"), needed)
+    FileFault::format(format!("column {column_number}, which counts or has times"), needed)
 }
 
-/// A requested column or channel that the file, which has `found` of them, does not have.
-pub(super) fn out_of_range(item: &str, found: usize, number: usize) -> FileFault {
-    if found == 0 {
+/// A requested column or channel beyond the `count` in the file.
+pub(super) fn out_of_range(item: &str, count: usize, number: usize) -> FileFault {
+    if count == 0 {
         return FileFault::missing(format!("{item} {number}, nor any other"));
     }
-    FileFault::value(format!("requested {item}"), number.to_string(), format!("from 1 to {found}"))
+    FileFault::value(format!("requested {item}"), number.to_string(), format!("from 1 to {count}"))
 }
 
 /// Another quantity than acceleration, or an unknown unit; `text` is quoted from the file.
@@ -65,25 +68,27 @@ pub(super) fn not_acceleration(text: &str) -> FileFault {
     FileFault::format(beginning(text), "an acceleration in a known unit")
 }
 
-/// Data of a recorder that are not yet an acceleration at equal steps; `text` is quoted from the file.
-pub(super) fn unprocessed(text: &str, kind: &str) -> FileFault {
+/// Recorder data that are not yet accelerations at equal steps.
+///
+/// `text` is quoted from the file.
+pub(super) fn unprocessed(text: &str, reason: &str) -> FileFault {
     FileFault::format(
         beginning(text),
-        format!("corrected data: {kind}; read the file of corrected data (volume 2)"),
+        format!("corrected data: {reason}; read the file of corrected data (volume 2)"),
     )
 }
 
-/// A line whose numbers cannot be understood beside the numbers of other lines.
+/// A line whose numbers follow another layout than the numbers of other lines.
 ///
-/// It does not match the columns of the file's Fortran format, which place the decimal points or scale the numbers; or it
-/// does, and previous lines did not.
+/// The columns of the file's Fortran format place the decimal points or scale the numbers. Either this line does not
+/// match these columns, or it matches them and previous lines did not.
 pub(super) fn not_in_format(line: &str) -> FileFault {
-    let needed = "numbers in the columns of the file's format, which place the decimal points: all lines must keep to \
-         it, or none";
+    let needed = "numbers in the columns of the file's format, which place the decimal points: either all lines must \
+         match it, or none";
     FileFault::format(excerpt(line), needed)
 }
 
-/// A title that names another unit than `unit`, in which the column is read.
+/// A title that names another unit than the `unit` in which its column is read.
 pub(super) fn other_unit_in_title(title: &str, unit: &str) -> FileFault {
     let needed = format!("without another unit than {unit}, in which the column is read");
     FileFault::value("title", quoted(title), needed)
@@ -95,6 +100,6 @@ fn beginning(text: &str) -> String {
 }
 
 /// A time (s) that differs from equal steps.
-pub(super) fn unequal_time_step(found: f64, expected: f64) -> FileFault {
-    FileFault::value("time", format!("{found} s"), format!("{expected} s with equal steps"))
+pub(super) fn unequal_time_step(time: f64, expected_time: f64) -> FileFault {
+    FileFault::value("time", format!("{time} s"), format!("{expected_time} s with equal steps"))
 }

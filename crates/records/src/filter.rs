@@ -5,13 +5,16 @@ use crate::error::{Error, Result, not_negative, positive, require};
 use basemat_fourier::RealPlanner;
 use basemat_fourier::num_complex::Complex;
 
-/// Highest order of a filter.
+/// Highest order of a filter: steeper ones ring for long.
 const MAX_FILTER_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record, times the corner frequency and divided by the order.
+/// Quiet time on either side of a filtered record, in orders of the filter per corner frequency.
 const PAD_LENGTH_FACTOR: f64 = 1.5;
 
+/// Excess of the tapers over the duration, relative to it, that is rounding of their sum.
+const TAPER_SUM_TOLERANCE: f64 = 1e-12;
+
 impl Record {
-    /// Removes motion slower than the `corner` frequency (Hz).
+    /// Removes motion below the `corner` frequency (Hz).
     ///
     /// A Butterworth filter of `order` (1 to 8) forwards and backwards: gain 1/(1 + (corner/f)^(2 order)), no
     /// phase.
@@ -41,7 +44,7 @@ impl Record {
         self.filtered(corner, order, |frequency| corner / frequency)
     }
 
-    /// Removes motion faster than the `corner` frequency (Hz).
+    /// Removes motion above the `corner` frequency (Hz).
     ///
     /// A Butterworth filter of `order` (1 to 8) forwards and backwards: gain 1/(1 + (f/corner)^(2 order)), no
     /// phase. Deconvolution through soft soil needs it, since it amplifies noise at high frequencies. The record
@@ -65,25 +68,30 @@ impl Record {
         self.filtered(corner, order, |frequency| frequency / corner)
     }
 
-    /// Record with quiet time, filtered by the gain 1/(1 + `ratio`^(2 order)) at each frequency.
-    fn filtered(&self, corner: f64, order: u32, ratio: impl Fn(f64) -> f64) -> Result<Self> {
+    /// Record with quiet time, filtered by the gain 1/(1 + `frequency_ratio`^(2 order)) at each frequency.
+    fn filtered(
+        &self,
+        corner: f64,
+        order: u32,
+        frequency_ratio: impl Fn(f64) -> f64,
+    ) -> Result<Self> {
         positive("corner frequency", corner)?;
         let needed = "below half the sampling frequency";
         require("corner frequency", corner, corner < 0.5 / self.time_step(), needed)?;
         let quantity = "order of the filter";
         let needed = "from 1 to 8";
         require(quantity, f64::from(order), (1..=MAX_FILTER_ORDER).contains(&order), needed)?;
-        let quiet = PAD_LENGTH_FACTOR * f64::from(order) / corner;
-        let padded = self.padded(quiet, quiet)?;
+        let quiet_time = PAD_LENGTH_FACTOR * f64::from(order) / corner;
+        let padded = self.padded(quiet_time, quiet_time)?;
         // The transform is circular: only the quiet pads wrap around.
-        let length = padded.len().next_power_of_two();
-        let frequency_step = 1.0 / (length as f64 * self.time_step());
+        let transform_length = padded.len().next_power_of_two();
+        let frequency_step = 1.0 / (transform_length as f64 * self.time_step());
         let exponent = f64::from(2 * order);
-        let mut coefficients = spectrum(padded.accelerations(), length)?;
+        let mut coefficients = spectrum(padded.accelerations(), transform_length)?;
         for (k, value) in coefficients.iter_mut().enumerate() {
-            *value /= 1.0 + ratio(k as f64 * frequency_step).powf(exponent);
+            *value /= 1.0 + frequency_ratio(k as f64 * frequency_step).powf(exponent);
         }
-        let mut filtered = signal(coefficients, length)?;
+        let mut filtered = signal(coefficients, transform_length)?;
         filtered.truncate(padded.len());
         Self::new(self.time_step(), filtered)
     }
@@ -109,12 +117,17 @@ impl Record {
         let duration = self.duration();
         let quantity = "length of both tapers";
         let needed = "at most the duration";
-        require(quantity, beginning + end, beginning + end <= duration * (1.0 + 1e-12), needed)?;
+        require(
+            quantity,
+            beginning + end,
+            beginning + end <= duration * (1.0 + TAPER_SUM_TOLERANCE),
+            needed,
+        )?;
         let mut tapered = Vec::with_capacity(self.len());
         for (k, value) in self.accelerations().iter().enumerate() {
             let time = k as f64 * self.time_step();
-            let weight_at_beginning = cosine_rise(time, beginning);
-            tapered.push(value * weight_at_beginning * cosine_rise(duration - time, end));
+            let beginning_weight = cosine_rise(time, beginning);
+            tapered.push(value * beginning_weight * cosine_rise(duration - time, end));
         }
         Self::new(self.time_step(), tapered)
     }
@@ -129,25 +142,25 @@ fn cosine_rise(time: f64, length: f64) -> f64 {
     }
 }
 
-/// Fourier coefficients of samples with zeros up to `length`.
+/// Fourier coefficients of samples, padded with zeros to `length`.
 pub(super) fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
-    let forward = RealPlanner::new().plan_fft_forward(length);
-    let mut signal = forward.make_input_vec();
-    let mut spectrum = forward.make_output_vec();
+    let transform = RealPlanner::new().plan_fft_forward(length);
+    let mut signal = transform.make_input_vec();
+    let mut spectrum = transform.make_output_vec();
     signal[..samples.len()].copy_from_slice(samples);
-    forward.process(&mut signal, &mut spectrum).map_err(|_| failed_transform(length))?;
+    transform.process(&mut signal, &mut spectrum).map_err(|_| failed_transform(length))?;
     Ok(spectrum)
 }
 
 /// The real signal of this length with these Fourier coefficients.
 pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
-    let inverse = RealPlanner::new().plan_fft_inverse(length);
-    let mut signal = inverse.make_output_vec();
+    let transform = RealPlanner::new().plan_fft_inverse(length);
+    let mut signal = transform.make_output_vec();
     spectrum[0].im = 0.0;
-    if let Some(last) = spectrum.last_mut() {
-        last.im = 0.0;
+    if let Some(highest) = spectrum.last_mut() {
+        highest.im = 0.0;
     }
-    inverse.process(&mut spectrum, &mut signal).map_err(|_| failed_transform(length))?;
+    transform.process(&mut spectrum, &mut signal).map_err(|_| failed_transform(length))?;
     let scale = 1.0 / length as f64;
     for value in &mut signal {
         *value *= scale;

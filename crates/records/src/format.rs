@@ -35,6 +35,59 @@ pub trait RecordFormat {
     }
 }
 
+/// Implements [`RecordFormat`] by the module's `read(lines)`, which returns the one component of a file.
+macro_rules! read_one_component {
+    ($format:ty) => {
+        impl crate::RecordFormat for $format {
+            fn parse(
+                &self,
+                name: &str,
+                source: &mut dyn std::io::Read,
+            ) -> crate::Result<crate::Record> {
+                crate::series::to_record(name, read(&mut crate::lines::Lines::new(source)))
+            }
+
+            fn parse_all(
+                &self,
+                name: &str,
+                source: &mut dyn std::io::Read,
+            ) -> crate::Result<Vec<(String, crate::Record)>> {
+                let component = read(&mut crate::lines::Lines::new(source));
+                crate::series::to_records(name, component.map(|series| vec![series]))
+            }
+        }
+    };
+}
+
+/// Implements [`RecordFormat`] by the module's `read(lines)`, which returns all components of a file.
+///
+/// The format's field `component` is the number, counted from 1, of the component that `parse` returns.
+macro_rules! read_components {
+    ($format:ty) => {
+        impl crate::RecordFormat for $format {
+            fn parse(
+                &self,
+                name: &str,
+                source: &mut dyn std::io::Read,
+            ) -> crate::Result<crate::Record> {
+                let components = read(&mut crate::lines::Lines::new(source));
+                let component = crate::series::select_component(self.component, components);
+                crate::series::to_record(name, component)
+            }
+
+            fn parse_all(
+                &self,
+                name: &str,
+                source: &mut dyn std::io::Read,
+            ) -> crate::Result<Vec<(String, crate::Record)>> {
+                crate::series::to_records(name, read(&mut crate::lines::Lines::new(source)))
+            }
+        }
+    };
+}
+
+pub(super) use {read_components, read_one_component};
+
 impl Record {
     /// Reads a record from a file.
     ///

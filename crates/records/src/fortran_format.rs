@@ -8,7 +8,13 @@ use crate::text::decimal::in_field;
 use crate::text::words::unknown;
 
 /// Largest number of fields in a line, and largest width of a field, in a format.
+///
+/// Formats of files have far smaller numbers; the limit keeps products of both in range.
 const MAX_REPEAT_OR_WIDTH: usize = 1000;
+/// Upper limit, excluded, of the decimals of a number: longer numbers exceed any field.
+const DECIMALS_LIMIT: u16 = 1000;
+/// Upper limit, excluded, of the k of `kP`: larger factors exceed the range of numbers in practice.
+const SCALE_LIMIT: u16 = 100;
 
 /// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`: columns of equal width.
 ///
@@ -33,9 +39,9 @@ pub struct FortranFormat {
     pub(super) scale: u16,
 }
 
-/// Numbers of a line of punched cards, and the number of the card.
+/// The line of a punched card: its numbers, and the card's sequence number.
 ///
-/// The number of a card stands behind the numbers, in columns 73 to 80.
+/// A card has its sequence number after the numbers, in columns 73 to 80.
 pub(super) struct Card {
     pub(super) numbers: Vec<f64>,
     pub(super) card_number: Option<u64>,
@@ -47,23 +53,24 @@ impl FortranFormat {
         self.repeat
     }
 
-    /// The numbers of a line in these columns; `None` if the line does not match them.
+    /// Reads the numbers of a line in these columns; `None` if the line does not match them.
     ///
-    /// Behind the columns may stand the number of a card and nothing else.
+    /// Only the number of a card may follow the columns.
     pub(super) fn read_card(self, line: &str) -> Option<Card> {
         let end = line.len().min(self.repeat * self.width);
         if !line.is_ascii() {
             return None;
         }
-        let rest = &line[end..];
+        let text_after = &line[end..];
         let fields = self.fields(line[..end].trim_end())?;
-        if continues_number(rest) && !fields.last().is_some_and(|field| self.ends_in_column(field))
+        if continues_number(text_after)
+            && !fields.last().is_some_and(|field| self.ends_in_column(field))
         {
             return None;
         }
-        let card_number = match rest.trim() {
+        let card_number = match text_after.trim() {
             "" => None,
-            number => Some(number.parse().ok().filter(|_| !number.starts_with('+'))?),
+            text => Some(text.parse().ok().filter(|_| !text.starts_with('+'))?),
         };
         Some(Card { numbers: self.numbers(&fields)?, card_number })
     }
@@ -78,14 +85,16 @@ impl FortranFormat {
         self.decimals > 0
     }
 
-    /// Whether a number with a point has as many decimals as the format, so that it ends where its column does.
+    /// Whether a number ends where its column does.
+    ///
+    /// A number with a point must then have as many decimals as the format.
     fn ends_in_column(self, field: &str) -> bool {
         let mantissa = field.split(['E', 'e', 'D', 'd']).next().unwrap_or(field);
         let decimals = mantissa.split_once('.').map(|(_, decimals)| decimals.len());
         decimals.is_none_or(|decimals| decimals == usize::from(self.decimals))
     }
 
-    /// The last format in brackets in `text`, or the one after `format=` without brackets.
+    /// The last format in brackets in a text, or the format after `format=`.
     ///
     /// `None` if it is not one repeated item.
     pub(super) fn find(text: &str) -> Option<Self> {
@@ -102,23 +111,24 @@ impl FortranFormat {
     /// Reads one item, such as `8F10.5`, `10I8`, `1E15.6E2` or `1P8E10.3`.
     fn parse(item: &str) -> Option<Self> {
         let (scale, item) = match item.trim().split_once(['P', 'p']) {
-            Some((scale, item)) => (scale.parse().ok().filter(|&scale| scale < 100)?, item),
+            Some((scale, item)) => (scale.parse().ok().filter(|&scale| scale < SCALE_LIMIT)?, item),
             None => (0, item.trim()),
         };
-        let letter = item.find(|character: char| !character.is_ascii_digit())?;
-        let repeat = &item[..letter];
-        let rest = &item[letter..];
-        let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
-        let whole_numbers = rest.starts_with(['I', 'i']);
+        let letter_position = item.find(|character: char| !character.is_ascii_digit())?;
+        let repeat = &item[..letter_position];
+        let letter_and_width = &item[letter_position..];
+        let width =
+            letter_and_width.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
+        let is_integer_format = letter_and_width.starts_with(['I', 'i']);
         let (width, decimals) = width.split_once('.').unwrap_or((width, "0"));
         // Digits of the exponent follow an E.
         let (decimals, exponent) = decimals.split_once(['E', 'e']).unwrap_or((decimals, ""));
         if !exponent.bytes().all(|byte| byte.is_ascii_digit()) {
             return None;
         }
-        let decimals = decimals.parse().ok().filter(|&decimals: &u16| decimals < 1000)?;
+        let decimals = decimals.parse().ok().filter(|&decimals: &u16| decimals < DECIMALS_LIMIT)?;
         // In `I8.4` the 4 is the smallest number of digits; none of them are decimals.
-        let decimals = if whole_numbers { 0 } else { decimals };
+        let decimals = if is_integer_format { 0 } else { decimals };
         let repeat = if repeat.is_empty() { 1 } else { repeat.parse().ok()? };
         let width = width.parse().ok()?;
         let is_in_range = (1..=MAX_REPEAT_OR_WIDTH).contains(&repeat)
@@ -128,16 +138,17 @@ impl FortranFormat {
 
     /// Whether `text` is a format and nothing else, with or without `format=` and brackets.
     ///
-    /// Numbers in brackets, codes of units, are allowed. `(*)` is a format that matches any line.
-    pub(super) fn is_all_of(text: &str) -> bool {
-        let mut rest = text.trim_matches([' ', '\t', '.', ',', ';']).to_ascii_lowercase();
+    /// Whole numbers in brackets, which are codes of units, are allowed. `(*)` is a format that matches any line.
+    pub(super) fn is_only_format(text: &str) -> bool {
+        let mut remaining_text = text.trim_matches([' ', '\t', '.', ',', ';']).to_ascii_lowercase();
         loop {
-            let text = rest.trim_start_matches([' ', '\t', '.', ',', ';']);
+            let text = remaining_text.trim_start_matches([' ', '\t', '.', ',', ';']);
             let text = match text.strip_prefix("format") {
                 Some(text) => text.trim_start_matches([' ', '=', ':']),
                 None => text,
             };
-            let Some((item, after)) = text.strip_prefix('(').and_then(|text| text.split_once(')'))
+            let Some((item, text_after)) =
+                text.strip_prefix('(').and_then(|text| text.split_once(')'))
             else {
                 return text.is_empty() || Self::parse(text).is_some();
             };
@@ -145,14 +156,14 @@ impl FortranFormat {
             if !(is_unit_code || item.trim() == "*" || Self::parse(item).is_some()) {
                 return false;
             }
-            rest = after.to_owned();
+            remaining_text = text_after.to_owned();
         }
     }
 
     /// The fields of a line of the file, without white space at its end.
     ///
-    /// `None` if the line does not match these columns: if it is longer, not ASCII, has white space inside a
-    /// number, or has a number that continues after a column's end, which its decimals show.
+    /// `None` if the line does not match these columns: if it is longer or not ASCII, if a number contains white space, or
+    /// if its decimals show that a number continues after the end of its column.
     pub(super) fn fields(self, line: &str) -> Option<Vec<&str>> {
         if !line.is_ascii() || line.len() > self.repeat * self.width {
             return None;
@@ -161,8 +172,8 @@ impl FortranFormat {
         for start in (0..line.len()).step_by(self.width) {
             let end = line.len().min(start + self.width);
             let field = line[start..end].trim();
-            let is_whole = !field.is_empty() && !field.contains(char::is_whitespace);
-            if !is_whole || continues_number(&line[end..]) && !self.ends_in_column(field) {
+            let is_one_number = !field.is_empty() && !field.contains(char::is_whitespace);
+            if !is_one_number || continues_number(&line[end..]) && !self.ends_in_column(field) {
                 return None;
             }
             fields.push(field);
@@ -171,9 +182,9 @@ impl FortranFormat {
     }
 }
 
-/// Whether the text behind a column may continue the number in it.
-fn continues_number(rest: &str) -> bool {
-    rest.starts_with(|character: char| character.is_ascii_digit() || character == '.')
+/// Whether the text after a column may continue the number in it.
+fn continues_number(text: &str) -> bool {
+    text.starts_with(|character: char| character.is_ascii_digit() || character == '.')
 }
 
 /// Accepts brackets around the format.
@@ -184,9 +195,11 @@ impl FromStr for FortranFormat {
     /// [`Error::Name`] unless the text is one repeated item.
     fn from_str(text: &str) -> Result<Self> {
         let item = text.trim();
-        let bare = item.strip_prefix('(').and_then(|item| item.strip_suffix(')')).unwrap_or(item);
-        let known = &["8F10.5", "1E15.6", "1P8E10.3", "10I8"];
-        Self::parse(bare).ok_or_else(|| unknown("Fortran format of one item", text, known))
+        let item_without_brackets =
+            item.strip_prefix('(').and_then(|item| item.strip_suffix(')')).unwrap_or(item);
+        let examples = &["8F10.5", "1E15.6", "1P8E10.3", "10I8"];
+        Self::parse(item_without_brackets)
+            .ok_or_else(|| unknown("Fortran format of one item", text, examples))
     }
 }
 
@@ -253,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_cut() {
+    fn lines_are_split_into_fields() {
         let columns = FortranFormat { repeat: 3, width: 4, decimals: 1, scale: 0 };
         assert_eq!(columns.fields("12345678"), Some(vec!["1234", "5678"]));
         assert_eq!(columns.fields("   1-2.312"), Some(vec!["1", "-2.3", "12"]));
@@ -264,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn cards_have_a_number_behind_their_columns() {
+    fn cards_have_a_number_after_their_columns() {
         let format: FortranFormat = "(2F9.6)".parse().unwrap();
         let read = |line: &str| format.read_card(line).map(|card| (card.numbers, card.card_number));
         assert_eq!(read("-0.276388-0.272017"), Some((vec![-0.276_388, -0.272_017], None)));
@@ -283,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn formats_are_told_from_other_text() {
+    fn formats_are_distinguished_from_other_text() {
         for text in [
             "",
             "Format: (8f9.6)",
@@ -294,10 +307,10 @@ mod tests {
             " (*)",
             ",",
         ] {
-            assert!(FortranFormat::is_all_of(text), "{text}");
+            assert!(FortranFormat::is_only_format(text), "{text}");
         }
         for text in ["x 1000 (8f10.3)", "(8f10.3) x 10", "(x 10)", "()", "(", "(8f10.3,2x)", "8"] {
-            assert!(!FortranFormat::is_all_of(text), "{text}");
+            assert!(!FortranFormat::is_only_format(text), "{text}");
         }
     }
 }

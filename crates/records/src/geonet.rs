@@ -4,18 +4,15 @@
 //! of text, 40 integers as `10I8`, 60 reals as `10F8`, then acceleration, and in volume 2 velocity and displacement, as
 //! `10F8.1` in mm/s², in which numbers may touch.
 
-use std::io::Read;
-
 use super::fault::{FaultResult, not_acceleration};
+use super::format::read_components;
 use super::fortran_format::FortranFormat;
 use super::header_number::HeaderNumber;
-use super::lines::{
-    LineResult, Lines, Series, read_numbers, required, sample_count, scaled, select_component,
-    to_record, to_records,
-};
+use super::lines::{LineResult, Lines, read_numbers, required};
+use super::series::{Series, multiplied, whole_sample_count};
 use super::unit_name::is_unit;
-use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::{FileFault, Result};
+use super::{AccelerationUnit, agreement};
+use crate::error::FileFault;
 use crate::text::decimal::finite;
 
 /// The `.V1A` and `.V2A` files of GeoNet (New Zealand).
@@ -46,37 +43,45 @@ impl Default for GeoNetFormat {
     }
 }
 
-impl RecordFormat for GeoNetFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
-    }
-
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)))
-    }
-}
+read_components!(GeoNetFormat);
 
 /// Number of lines of text at the beginning of a component.
-const TEXT_LINES: usize = 16;
+const TEXT_LINE_COUNT: usize = 16;
+/// Number of whole numbers after the text.
+const INTEGER_COUNT: usize = 40;
+/// Number of real numbers after the whole ones.
+const REAL_COUNT: usize = 60;
+/// Index, from 0, of the number of samples in the whole numbers.
+const SAMPLE_COUNT_INDEX: usize = 33;
+/// Index, from 0, of the number of velocities in the whole numbers.
+const VELOCITY_COUNT_INDEX: usize = 34;
+/// Index, from 0, of the number of displacements in the whole numbers.
+const DISPLACEMENT_COUNT_INDEX: usize = 35;
+/// Index, from 0, of the time step (s) in the real numbers.
+const TIME_STEP_INDEX: usize = 25;
+/// Columns of the whole numbers.
 const INTEGER_FORMAT: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 0, scale: 0 };
+/// Columns of the real numbers and of the samples.
 const REAL_FORMAT: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 1, scale: 0 };
+/// Unit in which the text states readings and peaks.
+const TEXT_UNIT: AccelerationUnit = AccelerationUnit::MillimetrePerSecondSquared;
 /// Numbers in a line of velocity or displacement.
 const NUMBERS_PER_LINE: f64 = 10.0;
 
-/// Quantities in the lines of text.
+/// Quantities that the lines of text state.
 #[derive(Default)]
 struct GeoNetHeader {
     /// Name of the component.
     name: String,
     /// Number of samples.
-    points: Option<f64>,
+    sample_count: Option<f64>,
     /// Duration, s.
     duration: Option<f64>,
     /// Time step, s.
-    interval: Option<f64>,
-    /// Unit of the numbers, mm/s².
+    time_step: Option<f64>,
+    /// Unit of the samples, mm/s².
     unit: Option<f64>,
-    /// Peak acceleration, mm/s².
+    /// Peak acceleration, mm/s²; zero if the text states none.
     peak: f64,
 }
 
@@ -84,43 +89,46 @@ impl GeoNetHeader {
     /// Stores the quantities of a line.
     fn read(&mut self, line: &str) -> FaultResult<()> {
         let words: Vec<&str> = line.split_whitespace().collect();
-        let lower = line.to_ascii_lowercase();
-        if lower.starts_with("number of points") {
-            self.points = number_after("points", &words);
+        let lower_case_line = line.to_ascii_lowercase();
+        if lower_case_line.starts_with("number of points") {
+            self.sample_count = number_after("points", &words);
             self.duration = number_after("duration", &words);
-        } else if lower.starts_with("component") {
+        } else if lower_case_line.starts_with("component") {
             words.get(1).copied().unwrap_or("").clone_into(&mut self.name);
-        } else if lower.starts_with("acceleration:") && lower.contains("mm/s/s") {
+        } else if lower_case_line.starts_with("acceleration:") && lower_case_line.contains("mm/s/s")
+        {
             self.peak = number_after("peak", &words).unwrap_or(0.0);
             self.unit.get_or_insert(1.0);
-        } else if lower.starts_with("acceleration:") && words.iter().any(|word| is_unit(word)) {
+        } else if lower_case_line.starts_with("acceleration:")
+            && words.iter().any(|word| is_unit(word))
+        {
             return Err(not_acceleration(line));
-        } else if let Some((_, text)) = lower.split_once("in units of") {
+        } else if let Some((_, text)) = lower_case_line.split_once("in units of") {
             let value = text.split_once("mm/s/s").map_or("", |(value, _)| value);
             self.unit = HeaderNumber::Peak.read(value)?;
         }
         // `at intervals of 0.005 s`, `at 0.020 sec intervals`.
-        if let Some((_, text)) = lower.split_once("intervals of") {
-            self.interval = text.split_whitespace().next().and_then(finite);
-        } else if lower.contains("intervals") {
-            self.interval = number_after("at", &words);
+        if let Some((_, text)) = lower_case_line.split_once("intervals of") {
+            self.time_step = text.split_whitespace().next().and_then(finite);
+        } else if lower_case_line.contains("intervals") {
+            self.time_step = number_after("at", &words);
         }
         Ok(())
     }
 
     /// Error unless the samples have the stated number, time step, duration and peak.
-    fn check(&self, samples: &[f64], step: f64) -> FaultResult<()> {
-        let points = samples.len();
-        if let Some(stated) = self.points {
-            agreement::number("number of points", points as f64, stated)?;
+    fn check(&self, samples: &[f64], time_step: f64) -> FaultResult<()> {
+        let sample_count = samples.len();
+        if let Some(stated_count) = self.sample_count {
+            agreement::number("number of points", sample_count as f64, stated_count)?;
         }
-        if let Some(stated) = self.interval {
-            agreement::number("time step (s)", step, stated)?;
+        if let Some(stated_step) = self.time_step {
+            agreement::number("time step (s)", time_step, stated_step)?;
         }
-        if let Some(stated) = self.duration {
-            agreement::duration(points, step, stated, 0.0)?;
+        if let Some(stated_duration) = self.duration {
+            agreement::duration(sample_count, time_step, stated_duration, 0.0)?;
         }
-        agreement::peak(samples, self.peak * 1e-3)
+        agreement::peak(samples, self.peak * TEXT_UNIT.in_metres_per_second_squared())
     }
 }
 
@@ -130,7 +138,7 @@ fn number_after(key: &str, words: &[&str]) -> Option<f64> {
     finite(words.get(index + 1)?)
 }
 
-/// Reads all components.
+/// Reads all components of a file.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut components = Vec::new();
     while let Some(first_line) = lines.next()? {
@@ -148,30 +156,30 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
 /// Reads a component after its first line.
 fn read_component(lines: &mut Lines) -> LineResult<Series> {
     let mut header = GeoNetHeader::default();
-    for _ in 1..TEXT_LINES {
+    for _ in 1..TEXT_LINE_COUNT {
         let Some(line) = lines.next()? else {
             return Err(lines.fault(FileFault::missing("header of 16 lines")));
         };
         lines.with_line_number(header.read(&line))?;
     }
-    let integers = read_numbers(lines, 40, Some(INTEGER_FORMAT))?;
-    let reals = read_numbers(lines, 60, Some(REAL_FORMAT))?;
-    let points = sample_count(integers[33]);
-    let points = required(lines, points, "number of points (34th integer)")?;
-    let step = Some(reals[25]).filter(|&step| step > 0.0);
-    let step = required(lines, step, "sampling interval (26th real)")?;
+    let integers = read_numbers(lines, INTEGER_COUNT, Some(INTEGER_FORMAT))?;
+    let reals = read_numbers(lines, REAL_COUNT, Some(REAL_FORMAT))?;
+    let sample_count = whole_sample_count(integers[SAMPLE_COUNT_INDEX]);
+    let sample_count = required(lines, sample_count, "number of points (34th integer)")?;
+    let time_step = Some(reals[TIME_STEP_INDEX]).filter(|&time_step| time_step > 0.0);
+    let time_step = required(lines, time_step, "sampling interval (26th real)")?;
     let unit = required(lines, header.unit.filter(|&unit| unit > 0.0), "unit (mm/s/s)")?;
-    let factor = unit * AccelerationUnit::MillimetrePerSecondSquared.in_metres_per_second_squared();
-    let samples = scaled(read_numbers(lines, points, Some(REAL_FORMAT))?, factor);
-    lines.with_line_number(header.check(&samples, step))?;
-    let velocity_count = integers[34];
-    let displacement_count = integers[35];
+    let factor = unit * TEXT_UNIT.in_metres_per_second_squared();
+    let samples = multiplied(read_numbers(lines, sample_count, Some(REAL_FORMAT))?, factor);
+    lines.with_line_number(header.check(&samples, time_step))?;
+    let velocity_count = integers[VELOCITY_COUNT_INDEX];
+    let displacement_count = integers[DISPLACEMENT_COUNT_INDEX];
     skip_numbers(lines, velocity_count)?;
     skip_numbers(lines, displacement_count)?;
-    Ok(Series { name: header.name, step, samples })
+    Ok(Series { name: header.name, time_step, samples })
 }
 
-/// Skips the lines of a block of `count` numbers.
+/// Skips the lines of a block of `count` numbers, in full lines of ten.
 fn skip_numbers(lines: &mut Lines, count: f64) -> LineResult<()> {
     let mut remaining = count;
     while remaining > 0.0

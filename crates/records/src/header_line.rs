@@ -46,31 +46,35 @@ impl HeaderLines {
 pub(super) struct ColumnTitles(Vec<LineTitles>);
 
 impl ColumnTitles {
-    /// Error if the titles of a column of times, counted from 1, name a unit other than the second.
+    /// Error if a title of a column of times names another unit than the second.
+    ///
+    /// `column`: number of the column, from 1.
     pub(super) fn check_time(&self, column: usize) -> FaultResult<()> {
         let mut titles = self.titles(column, |first_word| matches!(first_word, "t" | "time"));
         titles.find(|title| time_unit(title).is_some()).map_or(Ok(()), check_time)
     }
 
-    /// Error if the titles of a column of accelerations name a unit other than `expected`, or another quantity.
+    /// Error if a title of a column of accelerations names another unit or quantity.
+    ///
+    /// `column`: number of the column, from 1.
     pub(super) fn check_acceleration(
         &self,
         column: usize,
-        expected: AccelerationUnit,
+        expected_unit: AccelerationUnit,
     ) -> FaultResult<()> {
         if let Some(name) = self.name(column) {
-            check_acceleration(name, expected)?;
+            check_acceleration(name, expected_unit)?;
         }
         let mut titles = self.titles(column, |first_word| {
             first_word.starts_with("acc") || matches!(first_word, "unit" | "units")
         });
         let title = titles.find(|title| acceleration_unit(title).is_some());
-        title.map_or(Ok(()), |title| check_acceleration(title, expected))
+        title.map_or(Ok(()), |title| check_acceleration(title, expected_unit))
     }
 
-    /// Titles of a column, counted from 1, the last line first.
+    /// Titles of a column, counted from 1, from the last line to the first.
     ///
-    /// Includes lines that are one title each, if `is_key` accepts their first word.
+    /// A line that is a single title belongs to the column if `is_key` accepts its first word.
     fn titles(&self, column: usize, is_key: fn(&str) -> bool) -> impl Iterator<Item = &str> {
         let lines = self.0.iter().rev();
         lines.filter_map(move |line| line.title(column).or_else(|| line.single_title(is_key)))
@@ -81,36 +85,37 @@ impl ColumnTitles {
         self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
     }
 
-    /// Names of columns of accelerations; an error if a title names a unit other than `expected`.
+    /// Names of columns of accelerations; an error if a title names a unit other than `expected_unit`.
     pub(super) fn acceleration_names(
         &self,
         columns: &[usize],
-        expected: AccelerationUnit,
+        expected_unit: AccelerationUnit,
     ) -> FaultResult<Vec<String>> {
         let mut names = Vec::new();
         for &column in columns {
-            self.check_acceleration(column, expected)?;
+            self.check_acceleration(column, expected_unit)?;
             names.push(self.name(column).map_or_else(|| format!("column {column}"), str::to_owned));
         }
         Ok(names)
     }
 
-    /// The name of a column: its last title that is more than a unit.
+    /// The name of a column, counted from 1: its last title that is more than a unit.
     fn name(&self, column: usize) -> Option<&str> {
         let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));
         titles.find(|title| !is_unit_alone(title))
     }
 }
 
-/// Titles in a line.
+/// Titles of columns in a line.
 enum LineTitles {
     /// Titles of all columns.
     All(Vec<String>),
-    /// A line for one of several columns, or for none.
+    /// The text of a line with a title of one column, or with none.
     One(String),
 }
 
 impl LineTitles {
+    /// Reads a line as titles of a number of columns in this range.
     fn read(line: &str, columns: &RangeInclusive<usize>) -> Self {
         let separator = [';', ','].into_iter().find(|&separator| line.contains(separator));
         let mut readings = Vec::new();
@@ -120,7 +125,7 @@ impl LineTitles {
         readings.push(titles_of_words(line));
         readings.push(words(line, |character| character == '\t', 1));
         readings.push(words(line, char::is_whitespace, 2));
-        readings.push(split_behind_brackets(line));
+        readings.push(split_after_brackets(line));
         let with_units: Vec<_> = readings.iter().map(|titles| with_units(titles)).collect();
         readings.extend(with_units);
         readings.push(vec![line.to_owned()]);
@@ -148,19 +153,17 @@ impl LineTitles {
 
 /// Whether texts may be the titles of a number of columns in this range.
 fn are_titles_of(columns: &RangeInclusive<usize>, titles: &[String]) -> bool {
-    let last = titles.iter().rposition(|title| !title.is_empty());
-    last.is_some_and(|last| columns.contains(&(last + 1)))
+    let last_index = titles.iter().rposition(|title| !title.is_empty());
+    last_index.is_some_and(|index| columns.contains(&(index + 1)))
         && !titles.iter().any(|title| states_a_number(title))
 }
 
-/// The titles in a line, one a word; brackets belong to the word before them.
+/// Splits a line into titles of one word each, with the brackets after it.
 pub(super) fn titles_of_words(line: &str) -> Vec<String> {
     with_brackets(words(line, char::is_whitespace, 1))
 }
 
-/// The cells between the `separator`s of a line, empty ones included.
-///
-/// Brackets keep a cell together.
+/// Splits a line into cells at each `separator` outside brackets; cells may be empty.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let mut depth = 0;
     let cells = line.split(|character| {
@@ -170,9 +173,7 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     cells.map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// The words of a line, with at least `min_separators` between them.
-///
-/// Brackets keep a word together.
+/// Splits a line into words at `min_separators` or more separators outside brackets.
 fn words(line: &str, is_separator: fn(char) -> bool, min_separators: usize) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut depth = 0;
@@ -197,7 +198,7 @@ fn words(line: &str, is_separator: fn(char) -> bool, min_separators: usize) -> V
     words.filter(|word| !word.is_empty()).collect()
 }
 
-/// Number of open brackets behind a character.
+/// Number of open brackets after a character; `depth` is the number before it.
 fn depth_after(character: char, depth: usize) -> usize {
     match character {
         '(' | '[' | '{' | '（' => depth + 1,
@@ -209,44 +210,46 @@ fn depth_after(character: char, depth: usize) -> usize {
 /// Characters that open a bracket.
 const OPENING_BRACKETS: [char; 4] = ['(', '[', '{', '（'];
 
-/// Titles with the brackets behind them, unless a title has brackets already.
+/// Joins each title with the brackets after it, unless the title has brackets already.
 fn with_brackets(titles: Vec<String>) -> Vec<String> {
-    let mut merged: Vec<String> = Vec::new();
+    let mut merged_titles: Vec<String> = Vec::new();
     for title in titles {
-        let last = merged.last_mut();
-        match last.filter(|last| !last.is_empty() && !last.contains(OPENING_BRACKETS)) {
-            Some(last) if title.starts_with(OPENING_BRACKETS) => {
-                last.push(' ');
-                last.push_str(&title);
+        let last_title = merged_titles.last_mut();
+        match last_title.filter(|title| !title.is_empty() && !title.contains(OPENING_BRACKETS)) {
+            Some(last_title) if title.starts_with(OPENING_BRACKETS) => {
+                last_title.push(' ');
+                last_title.push_str(&title);
             }
-            _ => merged.push(title),
+            _ => merged_titles.push(title),
         }
     }
-    merged
+    merged_titles
 }
 
-/// Titles with the unit behind them, unless a title has a unit already: `t in s  a in g`.
+/// Joins each title with the unit after it, as in `t in s  a in g`.
+///
+/// A title that has a unit already stays as it is.
 fn with_units(titles: &[String]) -> Vec<String> {
-    let mut merged: Vec<String> = Vec::new();
+    let mut merged_titles: Vec<String> = Vec::new();
     let mut has_unit = true;
     for title in titles {
         let is_preposition = title == "in";
-        let is_of_unit = is_preposition || is_unit(title);
-        let last = merged.last_mut().filter(|_| !has_unit && is_of_unit);
-        if let Some(last) = last {
-            last.push(' ');
-            last.push_str(title);
+        let may_belong_to_unit = is_preposition || is_unit(title);
+        let last_title = merged_titles.last_mut().filter(|_| !has_unit && may_belong_to_unit);
+        if let Some(last_title) = last_title {
+            last_title.push(' ');
+            last_title.push_str(title);
             has_unit = !is_preposition;
         } else {
-            merged.push(title.clone());
+            merged_titles.push(title.clone());
             has_unit = title.contains(OPENING_BRACKETS);
         }
     }
-    merged
+    merged_titles
 }
 
-/// The parts of a line that end with brackets: `Elapsed time [s] Ground acceleration [cm/s2]`.
-fn split_behind_brackets(line: &str) -> Vec<String> {
+/// Splits a line after each outer bracket: `Elapsed time [s] Ground acceleration [cm/s2]`.
+fn split_after_brackets(line: &str) -> Vec<String> {
     let mut depth = 0;
     let parts = line.split_inclusive(|character| {
         let previous_depth = depth;
@@ -257,16 +260,22 @@ fn split_behind_brackets(line: &str) -> Vec<String> {
     parts.filter(|part| !part.is_empty()).collect()
 }
 
-/// Whether a text states a value, as `PGA (g) 0.31` does; `CH 1` and `H 090` are names.
+/// Whether a text states a value, as in `PGA (g) 0.31`.
+///
+/// Numbers of channels and azimuths, as in `CH 1` and `H 090`, are names.
 fn states_a_number(text: &str) -> bool {
     let mut words = text.split([' ', '\t', '=', ':', ',']).filter(|word| !word.is_empty());
-    finite(text).is_some() || words.any(|word| finite(word).is_some() && !is_channel_number(word))
+    finite(text).is_some()
+        || words.any(|word| finite(word).is_some() && !is_channel_or_azimuth(word))
 }
 
-/// Whether a number may be the number of a channel (at most two digits) or an azimuth.
-fn is_channel_number(word: &str) -> bool {
+/// Largest number of digits of a channel's number.
+const MAX_CHANNEL_DIGITS: usize = 2;
+
+/// Whether a word may be the number of a channel or an azimuth.
+fn is_channel_or_azimuth(word: &str) -> bool {
     let is_azimuth = word.len() == 3 && (word.starts_with('0') || word == "180" || word == "270");
-    is_all_digits(word) && (word.len() < 3 || is_azimuth)
+    is_all_digits(word) && (word.len() <= MAX_CHANNEL_DIGITS || is_azimuth)
 }
 
 #[cfg(test)]

@@ -3,12 +3,13 @@
 use super::fault::{FaultResult, unclear};
 use crate::text::decimal::finite;
 
-/// Characters around a quantity that have no meaning.
+/// Characters that separate a quantity from the text around it.
 const SURROUNDING_CHARACTERS: [char; 6] = [' ', '\t', ',', ';', '=', ':'];
 
-/// Names of units, in lower case, and how many of them make the SI unit.
+/// Names of units, in lower case, each with the number of units in an SI unit.
 type UnitTable = &'static [(&'static str, f64)];
 
+/// Units of times.
 const TIME_UNITS: UnitTable = &[
     ("s", 1.0),
     ("", 1.0),
@@ -23,12 +24,13 @@ const TIME_UNITS: UnitTable = &[
     ("milliseconds", 1e3),
 ];
 
+/// Units of frequencies.
 const FREQUENCY_UNITS: UnitTable = &[("hz", 1.0), ("", 1.0)];
 
-/// A number without a unit.
+/// Table for quantities without a unit.
 const NO_UNITS: UnitTable = &[("", 1.0)];
 
-/// Quantities in the header of a file, and their names in errors.
+/// Quantity that the header of a file states as a number.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum HeaderNumber {
     /// Time step, s.
@@ -63,7 +65,7 @@ impl HeaderNumber {
         }
     }
 
-    /// The value of `text` in SI units: a number or a fraction, with or without a unit.
+    /// Reads the value (SI) of a number or a fraction, with or without a unit.
     ///
     /// `None` if the text is empty; an error unless all of it is understood.
     pub(super) fn read(self, text: &str) -> FaultResult<Option<f64>> {
@@ -90,12 +92,15 @@ impl HeaderNumber {
 
     /// The value of a text whose unit begins at `position`.
     fn parse_split(self, text: &str, position: usize) -> Option<f64> {
-        let number = &text[..position];
-        let unit = &text[position..];
-        let bare = unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit);
-        let name = bare.strip_suffix('.').unwrap_or(bare).to_ascii_lowercase();
-        let units_per_si_unit = self.units().iter().find(|(unit, _)| *unit == name)?.1;
-        Some(number_or_fraction(number.trim_end())? / units_per_si_unit)
+        let number_text = &text[..position];
+        let unit_text = &text[position..];
+        let unit_name = unit_text
+            .strip_prefix('(')
+            .and_then(|unit| unit.strip_suffix(')'))
+            .unwrap_or(unit_text);
+        let lower_case_name = unit_name.strip_suffix('.').unwrap_or(unit_name).to_ascii_lowercase();
+        let units_per_si_unit = self.units().iter().find(|(unit, _)| *unit == lower_case_name)?.1;
+        Some(number_or_fraction(number_text.trim_end())? / units_per_si_unit)
     }
 }
 
@@ -112,7 +117,7 @@ fn number_or_fraction(text: &str) -> Option<f64> {
 
 /// Position of the comma or semicolon that ends the first clause, or the text's end.
 ///
-/// A separator with a digit behind it is part of a number.
+/// A separator before a digit is part of a number.
 pub(super) fn clause_end(text: &str) -> usize {
     for (position, _) in text.match_indices([',', ';']) {
         if !text[position + 1..].starts_with(|character: char| character.is_ascii_digit()) {

@@ -6,13 +6,13 @@
 //! (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
 //!
 //! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
-//! (1970), 585–586). A linear convolution, computed by Fourier transforms long enough that nothing wraps around.
+//! (1970), 585–586). The linear convolution is computed by Fourier transforms, which are so long that nothing wraps around.
 
 use std::f64::consts::PI;
 
 use super::Record;
 use super::filter::{signal, spectrum};
-use super::record::check_samples;
+use super::record::check_sample_memory;
 use crate::error::{Result, not_negative};
 
 impl Record {
@@ -22,19 +22,19 @@ impl Record {
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative,
     /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
     pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
-        let before = self.quiet_samples("quiet time before the record", before)?;
-        let after = self.quiet_samples("quiet time after the record", after)?;
-        check_samples((before + self.len() + after) as f64)?;
-        let mut padded = vec![0.0; before];
+        let leading_count = self.quiet_sample_count("quiet time before the record", before)?;
+        let trailing_count = self.quiet_sample_count("quiet time after the record", after)?;
+        check_sample_memory((leading_count + self.len() + trailing_count) as f64)?;
+        let mut padded = vec![0.0; leading_count];
         padded.extend_from_slice(self.accelerations());
-        padded.resize(padded.len() + after, 0.0);
+        padded.resize(padded.len() + trailing_count, 0.0);
         Self::new(self.time_step(), padded)
     }
 
     /// Number of samples of a quiet time (s).
-    fn quiet_samples(&self, quantity: &'static str, time: f64) -> Result<usize> {
+    fn quiet_sample_count(&self, quantity: &'static str, time: f64) -> Result<usize> {
         let count = (not_negative(quantity, time)? / self.time_step()).ceil();
-        check_samples(count + self.len() as f64)?;
+        check_sample_memory(count + self.len() as f64)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         Ok(count as usize)
     }
@@ -43,9 +43,8 @@ impl Record {
     ///
     /// Exact for the band-limited function through the samples, zero outside them. The transform begins before the
     /// record and ends after it. The part outside the record is lost, so add quiet time with [`Record::padded`].
-    /// As every record it is integrated from rest, so its displacement lacks the earlier motion:
+    /// Like every record the result is integrated from rest, so its displacement lacks the earlier motion:
     /// `PlaneWave::field_from_horizontal` computes displacements.
-    ///
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) if a value is not finite.
@@ -54,28 +53,28 @@ impl Record {
     }
 }
 
-/// The transform at the samples, and at `around` more times before and after.
+/// The Hilbert transform at the samples, and at `padding` more times before and after.
 #[doc(hidden)]
-pub fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
-    let count = samples.len() + 2 * around;
-    // Index k of the kernel is a distance of output and input of k − zero_distance.
-    let zero_distance = around + samples.len() - 1;
-    let distances = count + samples.len() - 1;
-    let length = distances.next_power_of_two();
-    let mut kernel = vec![0.0; distances];
+pub fn hilbert(samples: &[f64], padding: usize) -> Result<Vec<f64>> {
+    let output_count = samples.len() + 2 * padding;
+    // Entry k of the kernel is the weight at a distance of k − `zero_distance` samples between output and input.
+    let zero_distance = padding + samples.len() - 1;
+    let distance_count = output_count + samples.len() - 1;
+    let transform_length = distance_count.next_power_of_two();
+    let mut kernel = vec![0.0; distance_count];
     for (index, weight) in kernel.iter_mut().enumerate() {
         if index.abs_diff(zero_distance) % 2 == 1 {
             *weight = 2.0 / (PI * (index as f64 - zero_distance as f64));
         }
     }
-    let kernel = spectrum(&kernel, length)?;
-    let mut product = spectrum(samples, length)?;
-    for (value, factor) in product.iter_mut().zip(&kernel) {
+    let kernel_spectrum = spectrum(&kernel, transform_length)?;
+    let mut product_spectrum = spectrum(samples, transform_length)?;
+    for (value, factor) in product_spectrum.iter_mut().zip(&kernel_spectrum) {
         *value *= factor;
     }
-    let signal = signal(product, length)?;
+    let outputs = signal(product_spectrum, transform_length)?;
     // The first outputs contain the part that wraps around.
-    Ok(signal[samples.len() - 1..][..count].to_vec())
+    Ok(outputs[samples.len() - 1..][..output_count].to_vec())
 }
 
 #[cfg(test)]
@@ -85,9 +84,9 @@ mod tests {
     /// H[1/(1+t²)] = t/(1+t²), and its tails outside the samples.
     #[test]
     fn lorentzian_has_its_closed_form() {
-        let half = 16_000;
+        let half_count = 16_000;
         let step = 0.125;
-        let times: Vec<f64> = (-half..=half).map(|k| f64::from(k) * step).collect();
+        let times: Vec<f64> = (-half_count..=half_count).map(|k| f64::from(k) * step).collect();
         let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
         let found = hilbert(&samples, 0).unwrap();
         for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
@@ -103,19 +102,19 @@ mod tests {
     #[test]
     fn convolution_is_the_sum() {
         let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();
-        for around in [0, 1, 50] {
-            let found = hilbert(&samples, around).unwrap();
-            assert_eq!(found.len(), 37 + 2 * around);
+        for padding in [0, 1, 50] {
+            let found = hilbert(&samples, padding).unwrap();
+            assert_eq!(found.len(), 37 + 2 * padding);
             for (k, found) in found.iter().enumerate() {
                 let terms = samples.iter().enumerate().map(|(j, f)| {
-                    let distance = k as f64 - around as f64 - j as f64;
+                    let distance = k as f64 - padding as f64 - j as f64;
                     if distance == 0.0 {
                         0.0
                     } else {
                         f * (1.0 - (PI * distance).cos()) / (PI * distance)
                     }
                 });
-                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{around} {k}");
+                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{padding} {k}");
             }
         }
     }

@@ -15,7 +15,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Motion after a further time `elapsed`, with the acceleration changing at the rate `jerk`.
+    /// Motion after the time `elapsed` (s), while the acceleration changes at the rate `jerk` (m/s³).
     pub(super) fn after(self, elapsed: f64, jerk: f64) -> Self {
         let Self { acceleration: a, velocity: v, displacement: u } = self;
         Self {
@@ -26,14 +26,14 @@ impl Motion {
     }
 }
 
-/// Integrals of an acceleration at its samples, from rest.
+/// Velocity (m/s) and displacement (m) at the samples of an acceleration.
 pub(super) struct Integrals {
     pub(super) velocity: Vec<f64>,
     pub(super) displacement: Vec<f64>,
 }
 
-/// Velocity and displacement at the samples of an acceleration, from rest.
-pub(super) fn integrate(step: f64, acceleration: &[f64]) -> Integrals {
+/// Integrates samples of acceleration (m/s²), linear in between, from rest.
+pub(super) fn integrate(time_step: f64, acceleration: &[f64]) -> Integrals {
     let mut velocity = Vec::with_capacity(acceleration.len());
     let mut displacement = Vec::with_capacity(acceleration.len());
     let mut v = 0.0;
@@ -41,8 +41,8 @@ pub(super) fn integrate(step: f64, acceleration: &[f64]) -> Integrals {
     velocity.push(v);
     displacement.push(u);
     for pair in acceleration.windows(2) {
-        u += step * v + step * step * (2.0 * pair[0] + pair[1]) / 6.0;
-        v += step * (pair[0] + pair[1]) / 2.0;
+        u += time_step * v + time_step * time_step * (2.0 * pair[0] + pair[1]) / 6.0;
+        v += time_step * (pair[0] + pair[1]) / 2.0;
         velocity.push(v);
         displacement.push(u);
     }
@@ -51,21 +51,22 @@ pub(super) fn integrate(step: f64, acceleration: &[f64]) -> Integrals {
 
 /// Roots of c₀ + c₁ s + c₂ s² in the open interval (0, `end`), ascending.
 ///
-/// Without cancellation: the larger root first, the other from their product.
+/// The root of larger magnitude is computed first, and the other from the product of both, without cancellation.
 #[doc(hidden)]
 pub fn quadratic_roots_within(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
     let discriminant = c1 * c1 - 4.0 * c0 * c2;
     if discriminant < 0.0 {
         return [None, None];
     }
-    let sum = -(c1 + discriminant.sqrt().copysign(c1)) / 2.0;
-    // The sum is zero only if c₁ and c₀c₂ are. A division by zero gives no root within the interval.
-    let larger = Some(sum / c2).filter(|&root| root > 0.0 && root < end);
-    let smaller = Some(c0 / sum).filter(|&root| root > 0.0 && root < end);
-    match (larger, smaller) {
-        (Some(first), Some(second)) if first > second => [Some(second), Some(first)],
-        (None, Some(second)) => [Some(second), None],
-        (first, second) => [first, second],
+    // q = c₂ times the root of larger magnitude. The other root is c₀/q, since the product of the roots is c₀/c₂.
+    let q = -(c1 + discriminant.sqrt().copysign(c1)) / 2.0;
+    // q is zero only if c₁ and c₀c₂ are. A division by zero gives no root within the interval.
+    let root_from_sum = Some(q / c2).filter(|&root| root > 0.0 && root < end);
+    let root_from_product = Some(c0 / q).filter(|&root| root > 0.0 && root < end);
+    match (root_from_sum, root_from_product) {
+        (Some(upper), Some(lower)) if upper > lower => [Some(lower), Some(upper)],
+        (None, Some(root)) => [Some(root), None],
+        sorted_roots => sorted_roots.into(),
     }
 }
 

@@ -9,8 +9,8 @@ impl Record {
     ///
     /// The largest magnitudes during the record, also between samples.
     pub fn peaks(&self) -> Motion {
-        let mut velocity = largest(self.velocities().iter().copied());
-        let mut displacement = largest(self.displacements().iter().copied());
+        let mut velocity = max_magnitude(self.velocities().iter().copied());
+        let mut displacement = max_magnitude(self.displacements().iter().copied());
         for index in 0..self.len() - 1 {
             let start = self.sample(index);
             let jerk = self.jerk(index);
@@ -35,7 +35,7 @@ impl Record {
 
     /// Largest |a|, m/s².
     pub(super) fn peak_acceleration(&self) -> f64 {
-        largest(self.accelerations().iter().copied())
+        max_magnitude(self.accelerations().iter().copied())
     }
 
     /// Arias intensity π/(2g) ∫ a² dt, m/s, with standard gravity.
@@ -52,7 +52,7 @@ impl Record {
         let sum: f64 = self
             .accelerations()
             .windows(2)
-            .map(|a| f64::midpoint(a[0] * a[0], a[1] * a[1]))
+            .map(|pair| f64::midpoint(pair[0] * pair[0], pair[1] * pair[1]))
             .sum();
         std::f64::consts::FRAC_PI_2 / STANDARD_GRAVITY * sum * self.time_step()
     }
@@ -75,33 +75,34 @@ impl Record {
     /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `from` ≤ `to` ≤ 1 and the record is not zero throughout.
     pub fn significant_times(&self, from: f64, to: f64) -> Result<[f64; 2]> {
         let quantity = "fraction of the Arias intensity";
-        let needed = "from 0 to 1, the second not below the first";
+        let needed = "from 0 to 1, the second at least the first";
         require(quantity, from, (0.0..=1.0).contains(&from), needed)?;
         require(quantity, to, (from..=1.0).contains(&to), needed)?;
         let peak = positive("peak acceleration of the record", self.peak_acceleration())?;
         // Relative to the peak: squares of tiny numbers vanish.
         let squares: Vec<f64> =
             self.accelerations().iter().map(|a| (a / peak) * (a / peak)).collect();
-        let mut sums = vec![0.0];
+        let mut cumulative_sums = vec![0.0];
         for pair in squares.windows(2) {
-            sums.push(sums[sums.len() - 1] + f64::midpoint(pair[0], pair[1]));
+            cumulative_sums
+                .push(cumulative_sums[cumulative_sums.len() - 1] + f64::midpoint(pair[0], pair[1]));
         }
-        let total = sums[sums.len() - 1];
-        Ok([from, to].map(|fraction| self.time_of_sum(fraction * total, &sums)))
+        let total = cumulative_sums[cumulative_sums.len() - 1];
+        Ok([from, to].map(|fraction| self.time_of_sum(fraction * total, &cumulative_sums)))
     }
 
     /// Time (s) at which `sums`, linear between samples, reach a value.
     fn time_of_sum(&self, value: f64, sums: &[f64]) -> f64 {
-        let next = sums.partition_point(|&sum| sum < value).min(sums.len() - 1);
-        if next == 0 {
+        let next_index = sums.partition_point(|&sum| sum < value).min(sums.len() - 1);
+        if next_index == 0 {
             return 0.0;
         }
-        let part = (value - sums[next - 1]) / (sums[next] - sums[next - 1]);
-        (next as f64 - 1.0 + part.clamp(0.0, 1.0)) * self.time_step()
+        let fraction = (value - sums[next_index - 1]) / (sums[next_index] - sums[next_index - 1]);
+        (next_index as f64 - 1.0 + fraction.clamp(0.0, 1.0)) * self.time_step()
     }
 }
 
-/// Largest absolute value.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+/// Largest absolute value, or zero without values.
+fn max_magnitude(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |max_so_far: f64, value| max_so_far.max(value.abs()))
 }

@@ -3,16 +3,14 @@
 //! Layout: National Research Institute for Earth Science and Disaster Resilience, *About K-NET ASCII format* and
 //! *About KiK-net ASCII format* (kyoshin.bosai.go.jp, `man/knetform_en.html`).
 
-use std::io::Read;
-
 use super::column_title::check_acceleration;
 use super::fault::{FaultResult, unclear};
+use super::format::read_one_component;
 use super::header_number::HeaderNumber;
-use super::lines::{
-    LineResult, Lines, Series, push_numbers, required, scaled, to_record, to_records, wrong_count,
-};
-use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::{FileFault, Result};
+use super::lines::{LineResult, Lines, push_numbers, required};
+use super::series::{Series, check_sample_count, multiplied};
+use super::{AccelerationUnit, agreement};
+use crate::error::FileFault;
 use crate::text::decimal::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
@@ -37,32 +35,24 @@ use crate::text::decimal::finite;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KNetFormat;
 
-impl RecordFormat for KNetFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, read(&mut Lines::new(source)))
-    }
+read_one_component!(KNetFormat);
 
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
-    }
-}
-
-/// Entries of the header that are used.
+/// Values of a header that describe its samples.
 #[derive(Default)]
 struct KNetHeader {
     /// Sampling frequency, Hz.
-    frequency: Option<f64>,
+    sampling_frequency: Option<f64>,
     /// Duration, s.
     duration: Option<f64>,
-    /// Gal per count.
-    scale: Option<f64>,
-    /// Peak after the mean was removed, gal.
-    peak: Option<f64>,
+    /// Acceleration of one count of the recorder, gal.
+    gal_per_count: Option<f64>,
+    /// Peak of the record without its mean, gal.
+    peak_in_gal: Option<f64>,
     /// `N-S`, `E-W` and `U-D`, or a channel of KiK-net from 1 to 6.
     direction: String,
 }
 
-/// Reads the component.
+/// Reads the component of a file.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let mut header = KNetHeader::default();
     loop {
@@ -74,48 +64,47 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
         }
         lines.with_line_number(header.read(&line))?;
     }
-    let frequency = required(lines, header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
+    let frequency =
+        required(lines, header.sampling_frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
     let duration = required(lines, header.duration, "duration (`Duration Time(s)`)")?;
-    let scale = required(lines, header.scale, "scale (`Scale Factor`, gal per count)")?;
+    let gal_per_count =
+        required(lines, header.gal_per_count, "scale (`Scale Factor`, gal per count)")?;
 
     let mut counts = Vec::new();
     while let Some(line) = lines.next()? {
         lines.with_line_number(push_numbers(&line, &mut counts))?;
     }
-    let found = counts.len();
-    let needed = (duration * frequency).round();
-    if needed != found as f64 {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        return Err(lines.fault(wrong_count(found, needed as usize)));
-    }
-    if found < 2 {
-        return Err(lines.fault(FileFault::count("samples", found, "at least 2")));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let expected_count = (duration * frequency).round() as usize;
+    check_sample_count(lines, counts.len(), expected_count)?;
+    if counts.len() < 2 {
+        return Err(lines.fault(FileFault::count("samples", counts.len(), "at least 2")));
     }
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
-    let samples = scaled(counts, scale * gal);
-    let peak = header.peak.unwrap_or(0.0) * gal;
+    let samples = multiplied(counts, gal_per_count * gal);
+    let peak = header.peak_in_gal.unwrap_or(0.0) * gal;
     lines.with_line_number(agreement::peak(&samples, peak))?;
-    Ok(Series { name: header.direction, step: 1.0 / frequency, samples })
+    Ok(Series { name: header.direction, time_step: 1.0 / frequency, samples })
 }
 
 impl KNetHeader {
     /// Stores the value of a header line whose key is used.
     fn read(&mut self, line: &str) -> FaultResult<()> {
-        let lower = line.to_ascii_lowercase();
-        if lower.starts_with("sampling freq") {
+        let lower_case_line = line.to_ascii_lowercase();
+        if lower_case_line.starts_with("sampling freq") {
             let frequency = positive_after("(hz)", line, HeaderNumber::Frequency)?;
-            store(&mut self.frequency, frequency, line)
-        } else if lower.starts_with("duration time") {
+            store(&mut self.sampling_frequency, frequency, line)
+        } else if lower_case_line.starts_with("duration time") {
             let duration = positive_after("(s)", line, HeaderNumber::Duration)?;
             store(&mut self.duration, duration, line)
-        } else if lower.starts_with("scale factor") {
+        } else if lower_case_line.starts_with("scale factor") {
             let scale = gal_per_count(line["scale factor".len()..].trim())?;
-            store(&mut self.scale, scale, line)
-        } else if lower.starts_with("max") && lower.contains("acc") {
+            store(&mut self.gal_per_count, scale, line)
+        } else if lower_case_line.starts_with("max") && lower_case_line.contains("acc") {
             check_acceleration(line, AccelerationUnit::Gal)?;
             let peak = positive_after("(gal)", line, HeaderNumber::Peak)?;
-            store(&mut self.peak, peak, line)
-        } else if lower.starts_with("dir.") {
+            store(&mut self.peak_in_gal, peak, line)
+        } else if lower_case_line.starts_with("dir.") {
             line["dir.".len()..].trim().clone_into(&mut self.direction);
             Ok(())
         } else {
@@ -124,7 +113,9 @@ impl KNetHeader {
     }
 }
 
-/// The positive number behind a unit in lower case; `None` without the unit or without such a number.
+/// The positive number that follows a `unit` of a line, if any.
+///
+/// `unit`: in lower case.
 fn positive_after(unit: &str, line: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
     let Some(position) = line.to_ascii_lowercase().find(unit) else {
         return Ok(None);
@@ -133,7 +124,7 @@ fn positive_after(unit: &str, line: &str, quantity: HeaderNumber) -> FaultResult
     Ok(value.filter(|&value| value > 0.0))
 }
 
-/// Stores a value in an entry of the header; an error if a line before had another value.
+/// Stores a value of the header; an error if a previous line had another value.
 fn store(entry: &mut Option<f64>, value: Option<f64>, line: &str) -> FaultResult<()> {
     if entry.is_some() && *entry != value {
         return Err(unclear("repeated line", line));
@@ -142,15 +133,15 @@ fn store(entry: &mut Option<f64>, value: Option<f64>, line: &str) -> FaultResult
     Ok(())
 }
 
-/// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
+/// Gal per count of `3920(gal)/6182761`; `None` for another form or no scale.
 fn gal_per_count(text: &str) -> FaultResult<Option<f64>> {
     let Some(position) = text.to_ascii_lowercase().find("(gal)/") else {
         return Ok(None);
     };
-    let range = finite(text[..position].trim());
-    let range = range.ok_or_else(|| unclear("scale factor", text))?;
+    let gal = finite(text[..position].trim());
+    let gal = gal.ok_or_else(|| unclear("scale factor", text))?;
     let counts = finite(text[position + "(gal)/".len()..].trim());
     let counts = counts.ok_or_else(|| unclear("scale factor", text))?;
-    let scale = range / counts;
-    Ok((scale.is_finite() && scale != 0.0).then_some(scale))
+    let gal_per_count = gal / counts;
+    Ok((gal_per_count.is_finite() && gal_per_count != 0.0).then_some(gal_per_count))
 }

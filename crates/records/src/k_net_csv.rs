@@ -4,26 +4,23 @@
 //! (kyoshin.bosai.go.jp), whose header has the keys of the ASCII files (`man/knetform_en.html`) behind `#`; the last line
 //! of the header names the columns, of which the first is the time of day.
 
-use std::io::Read;
-
 use super::clock::Clock;
 use super::column_title::check_acceleration;
 use super::fault::{FaultResult, not_a_number, not_in_header, unequal_columns, unequal_time_step};
+use super::format::read_components;
 use super::header_number::HeaderNumber;
-use super::lines::{
-    LineResult, Lines, Series, finite_number, select_component, to_record, to_records,
-};
-use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::Result;
+use super::lines::{LineResult, Lines, finite_number};
+use super::series::Series;
+use super::{AccelerationUnit, agreement};
 
 /// Unit of the samples and of their peaks.
 const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::Gal;
 /// Largest difference of a time from equal steps by rounding, in units of the times' last digit.
 ///
-/// Half a unit for this time and half a unit for the first time, but less than both together.
+/// Rounding changes this time and the first one by half a unit each; the sum of both is excluded.
 const TIME_ROUNDING_DIGITS: f64 = 0.99;
 /// Largest difference of an exact time from equal steps, relative to the step.
-const STEP_TOLERANCE: f64 = 0.01;
+const TIME_STEP_TOLERANCE: f64 = 0.01;
 
 /// The CSV files of the Japanese networks K-NET and KiK-net.
 ///
@@ -57,25 +54,17 @@ impl Default for KNetCsvFormat {
     }
 }
 
-impl RecordFormat for KNetCsvFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
-    }
+read_components!(KNetCsvFormat);
 
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)))
-    }
-}
-
-/// Entries of the header that are used.
+/// Values of a header that describe its samples.
 #[derive(Default)]
 struct KNetCsvHeader {
     /// Sampling frequency, Hz.
-    frequency: Option<f64>,
+    sampling_frequency: Option<f64>,
     /// Duration, s.
     duration: Option<f64>,
     /// Peaks, gal.
-    peaks: Vec<f64>,
+    peaks_in_gal: Vec<f64>,
     /// Fields of the last line, which names the columns.
     column_names: Vec<String>,
 }
@@ -87,29 +76,31 @@ impl KNetCsvHeader {
         let value = values.first().copied().unwrap_or("");
         let key = key.trim_start_matches('#').trim_start().to_ascii_lowercase();
         if key.starts_with("sampling freq") {
-            self.frequency = HeaderNumber::Frequency.read(value)?;
+            self.sampling_frequency = HeaderNumber::Frequency.read(value)?;
         } else if key.starts_with("duration time") {
             self.duration = HeaderNumber::Duration.read(value)?;
         } else if key.starts_with("max") && key.contains("acc") {
             check_acceleration(&key, SAMPLE_UNIT)?;
-            self.peaks.clear();
+            self.peaks_in_gal.clear();
             for value in values {
-                self.peaks.extend(HeaderNumber::Peak.read(value)?);
+                self.peaks_in_gal.extend(HeaderNumber::Peak.read(value)?);
             }
         }
         self.column_names = fields.iter().map(|&name| name.to_owned()).collect();
         Ok(())
     }
 
-    /// Peak of a component, counted from 0, gal; zero if there is none.
-    fn peak(&self, component: usize) -> f64 {
-        // A single peak may belong to any component.
-        let has_all_peaks = self.peaks.len() + 1 == self.column_names.len();
-        self.peaks.get(component).copied().filter(|_| has_all_peaks).unwrap_or(0.0)
+    /// Peak of a component, gal; zero if the header states none.
+    ///
+    /// `index`: of the component, from 0.
+    fn peak_in_gal(&self, index: usize) -> f64 {
+        // Fewer peaks than components do not show to which component each belongs.
+        let has_all_peaks = self.peaks_in_gal.len() + 1 == self.column_names.len();
+        self.peaks_in_gal.get(index).copied().filter(|_| has_all_peaks).unwrap_or(0.0)
     }
 }
 
-/// Reads all components.
+/// Reads all components of a file.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut header = KNetCsvHeader::default();
     let mut clock = Clock::default();
@@ -130,12 +121,12 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
             }
             return Err(lines.fault(not_a_number(fields[0])));
         };
-        let needed = header.column_names.len();
+        let column_count = header.column_names.len();
         if columns.is_empty() {
-            columns.resize(needed.saturating_sub(1), Vec::new());
+            columns.resize(column_count.saturating_sub(1), Vec::new());
         }
-        if fields.len() != needed || needed < 2 {
-            return Err(lines.fault(unequal_columns(fields.len(), needed)));
+        if fields.len() != column_count || column_count < 2 {
+            return Err(lines.fault(unequal_columns(fields.len(), column_count)));
         }
         times.push(time);
         for (column, field) in columns.iter_mut().zip(&fields[1..]) {
@@ -146,7 +137,7 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     lines.with_line_number(components(&header, &times, clock.resolution().unwrap_or(0.0), &columns))
 }
 
-/// The components; an error unless header, times and samples agree.
+/// Makes the components; an error unless header, times and samples agree.
 ///
 /// `resolution`: unit of the last digit of the times, s.
 fn components(
@@ -155,26 +146,28 @@ fn components(
     resolution: f64,
     columns: &[Vec<f64>],
 ) -> FaultResult<Vec<Series>> {
-    let frequency = header.frequency.filter(|&frequency| frequency > 0.0);
+    let frequency = header.sampling_frequency.filter(|&frequency| frequency > 0.0);
     let frequency =
         frequency.ok_or_else(|| not_in_header("sampling frequency (`Sampling Freq(Hz)`)"))?;
-    let step = 1.0 / frequency;
-    for (k, &time) in times.iter().enumerate() {
-        let expected = times[0] + k as f64 * step;
-        if (time - expected).abs() > TIME_ROUNDING_DIGITS * resolution + STEP_TOLERANCE * step {
-            return Err(unequal_time_step(time, expected));
+    let time_step = 1.0 / frequency;
+    for (index, &time) in times.iter().enumerate() {
+        let expected_time = times[0] + index as f64 * time_step;
+        if (time - expected_time).abs()
+            > TIME_ROUNDING_DIGITS * resolution + TIME_STEP_TOLERANCE * time_step
+        {
+            return Err(unequal_time_step(time, expected_time));
         }
     }
-    if let Some(stated) = header.duration {
-        agreement::duration(times.len(), step, stated, 0.0)?;
+    if let Some(stated_duration) = header.duration {
+        agreement::duration(times.len(), time_step, stated_duration, 0.0)?;
     }
     let mut components = Vec::new();
-    for (component, samples) in columns.iter().enumerate() {
-        let name = &header.column_names[component + 1];
+    for (index, samples) in columns.iter().enumerate() {
+        let name = &header.column_names[index + 1];
         check_acceleration(name, SAMPLE_UNIT)?;
-        let peak = header.peak(component) * SAMPLE_UNIT.in_metres_per_second_squared();
+        let peak = header.peak_in_gal(index) * SAMPLE_UNIT.in_metres_per_second_squared();
         agreement::peak(samples, peak)?;
-        components.push(Series { name: name.clone(), step, samples: samples.clone() });
+        components.push(Series { name: name.clone(), time_step, samples: samples.clone() });
     }
     Ok(components)
 }

@@ -8,10 +8,12 @@
 extern crate basemat_base;
 
 // For authors of a record format: write a file like `esm.rs` (one sample a line) or `afad.rs` (columns), with
-// `read(lines) -> LineResult<Series>`, and use
+// `read(lines) -> LineResult<Series>` or `LineResult<Vec<Series>>`, and use
 //
 // * `lines`: the lines of a file (`Lines`), their numbers (`push_numbers`, `read_numbers`), `required` values of a
-//   header, and the results `Series`, `to_record` and `to_records`;
+//   header;
+// * `series`: `Series`, the samples of a component, and `check_sample_count`;
+// * `format`: `read_one_component` or `read_components`, which make a `RecordFormat` of `read`;
 // * `fortran_format`: numbers in columns of fixed width, which may touch;
 // * `header_number`: a quantity of a header with its unit; `unit_name`: names of units of acceleration;
 // * `column_title` and `header_line`: titles of columns, and the units that they name;
@@ -47,6 +49,7 @@ mod number_table;
 mod peer;
 mod reader;
 mod record;
+mod series;
 mod slist;
 mod smc;
 mod spectrum;

@@ -1,106 +1,127 @@
 //! Distinguishes the columns of a table from one series along the lines.
 
 /// Largest difference of printed times from equal steps, relative to the step, in a few lines.
-const EVEN_STEP_TOLERANCE: f64 = 0.01;
-/// Number of lines from which times may be rounded to a whole step: a series then has no such column by chance.
-const LINES_WITH_ROUNDED_TIMES: usize = 16;
-/// Number of lines from which steps may be other than whole numbers.
-const LINES_WITH_ANY_STEP: usize = 4;
-/// Number of lines from which differences are compared.
-const LINES_TO_COMPARE: usize = 8;
+const EQUAL_STEP_TOLERANCE: f64 = 0.01;
+/// Number of lines from which times may be rounded by a whole step.
+///
+/// A series along so many lines has no such column by chance.
+const MIN_LINES_WITH_ROUNDED_TIMES: usize = 16;
+/// Number of lines from which equal steps may be fractions; in fewer lines only counts have equal steps.
+const MIN_LINES_WITH_FRACTIONAL_STEPS: usize = 4;
+/// Number of lines from which the mean of the differences is a reliable measure.
+const MIN_LINES_FOR_MEAN: usize = 8;
 /// Ratio of differences below which a series continues from line to line.
 ///
-/// The ratio is the mean square of the differences over line ends, divided by the one down the columns. A smooth series
-/// has at most a quarter, columns of one signal have one.
-const CONTINUATION_RATIO: f64 = 0.5;
-/// Ratio of differences above which columns are different quantities: it is one for numbers at random.
-const JUMP_RATIO: f64 = 4.0;
-/// The same in fewer lines than [`LINES_TO_COMPARE`].
-const JUMP_RATIO_OF_FEW_LINES: f64 = 16.0;
+/// The ratio is the mean square of the differences over line ends, divided by the mean square down the columns. It is at
+/// most a quarter for a smooth series, and one for columns of one signal.
+const MAX_CONTINUATION_RATIO: f64 = 0.5;
+/// Ratio of differences above which columns are different quantities; it is one for random numbers.
+const MIN_JUMP_RATIO: f64 = 4.0;
+/// Ratio of differences above which columns of fewer lines than [`MIN_LINES_FOR_MEAN`] are different quantities.
+const MIN_JUMP_RATIO_OF_FEW_LINES: f64 = 16.0;
 
 /// Numbers of lines with equally many fields each.
 #[derive(Default)]
 pub(super) struct NumberTable {
-    columns: usize,
+    /// Number of columns.
+    column_count: usize,
+    /// Numbers, line by line.
     values: Vec<f64>,
 }
 
 impl NumberTable {
     /// Appends a line; all have as many numbers as the first one.
     pub(super) fn push(&mut self, numbers: &[f64]) {
-        self.columns = numbers.len();
+        self.column_count = numbers.len();
         self.values.extend(numbers);
     }
 
-    /// Mean step of a column, counted from 0, whose steps are equal: a count, a time, or a constant.
+    /// Mean step of a column of counts, times or a constant; `None` for other columns.
+    ///
+    /// `column`: index of the column, from 0.
     fn equal_step(&self, column: usize) -> Option<f64> {
         let values: Vec<f64> =
-            self.values.iter().skip(column).step_by(self.columns).copied().collect();
-        let first = *values.first()?;
-        let last = *values.last()?;
-        let lines = values.len();
-        let step = (last - first) / lines.saturating_sub(1).max(1) as f64;
-        let may_be_rounded = lines >= LINES_WITH_ROUNDED_TIMES;
-        let tolerance = if may_be_rounded { 1.0 } else { EVEN_STEP_TOLERANCE } * step.abs();
-        let has_enough_lines = lines >= LINES_WITH_ANY_STEP || lines > 1 && step.fract() == 0.0;
+            self.values.iter().skip(column).step_by(self.column_count).copied().collect();
+        let first_value = *values.first()?;
+        let last_value = *values.last()?;
+        let line_count = values.len();
+        let step = (last_value - first_value) / line_count.saturating_sub(1).max(1) as f64;
+        let may_have_rounded_times = line_count >= MIN_LINES_WITH_ROUNDED_TIMES;
+        let tolerance =
+            if may_have_rounded_times { 1.0 } else { EQUAL_STEP_TOLERANCE } * step.abs();
+        let has_enough_lines =
+            line_count >= MIN_LINES_WITH_FRACTIONAL_STEPS || line_count > 1 && step.fract() == 0.0;
         if !has_enough_lines || step < 0.0 || step.is_nan() {
             return None;
         }
         let steps_are_equal =
             values.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() <= tolerance);
-        let lies_on_a_line = values
+        let is_linear = values
             .iter()
             .zip(0_u32..)
-            .all(|(value, line)| (value - first - f64::from(line) * step).abs() <= tolerance);
-        (steps_are_equal && lies_on_a_line).then_some(step)
+            .all(|(value, line)| (value - first_value - f64::from(line) * step).abs() <= tolerance);
+        (steps_are_equal && is_linear).then_some(step)
     }
 
-    /// The first column of counts, times or a constant, beside another one that does not have equal steps.
-    pub(super) fn even_column(&self) -> Option<EvenColumn> {
+    /// The first column with equal steps; `None` if no column has them, or all.
+    pub(super) fn equal_step_column(&self) -> Option<EqualStepColumn> {
         let steps: Vec<Option<f64>> =
-            (0..self.columns).map(|column| self.equal_step(column)).collect();
+            (0..self.column_count).map(|column| self.equal_step(column)).collect();
         if steps.iter().all(Option::is_some) {
             return None;
         }
-        let first = steps.iter().position(Option::is_some)?;
-        Some(EvenColumn { number: first + 1, step: steps[first]? })
+        let first_index = steps.iter().position(Option::is_some)?;
+        Some(EqualStepColumn { number: first_index + 1, step: steps[first_index]? })
     }
 
-    /// Mean square of the differences over line ends, relative to the one down the columns.
+    /// Mean square of the differences over line ends, relative to the mean square down the columns.
     fn continuation_ratio(&self) -> f64 {
-        let columns = self.columns;
-        let mut over_line_ends = 0.0;
-        let mut down_columns = 0.0;
-        let line_ends = (columns.max(1) - 1..).step_by(columns.max(1));
-        for (end, line) in line_ends.zip(self.values.chunks(columns.max(1)).skip(1)) {
-            over_line_ends += squared_difference(self.values[end], line[0]);
-            let line_above = &self.values[end + 1 - columns..=end];
-            let down_this_line: f64 =
-                line_above.iter().zip(line).map(|(a, b)| squared_difference(*a, *b)).sum();
-            down_columns += down_this_line / columns as f64;
+        let column_count = self.column_count;
+        let mut line_end_sum = 0.0;
+        let mut column_sum = 0.0;
+        let line_end_indices = (column_count.max(1) - 1..).step_by(column_count.max(1));
+        for (end_index, line) in
+            line_end_indices.zip(self.values.chunks(column_count.max(1)).skip(1))
+        {
+            line_end_sum += squared_difference(self.values[end_index], line[0]);
+            let previous_line = &self.values[end_index + 1 - column_count..=end_index];
+            let line_sum: f64 = previous_line
+                .iter()
+                .zip(line)
+                .map(|(previous, value)| squared_difference(*previous, *value))
+                .sum();
+            column_sum += line_sum / column_count as f64;
         }
-        over_line_ends / down_columns
+        line_end_sum / column_sum
     }
 
-    /// Whether the numbers change less over the line ends than down the columns, as one series along the lines does.
+    /// Whether the numbers are one series along the lines.
+    ///
+    /// Such a series changes less over the line ends than down the columns.
     pub(super) fn continues_along_lines(&self) -> bool {
-        let lines = self.values.len() / self.columns.max(1);
-        self.columns > 1
-            && lines >= LINES_TO_COMPARE
-            && self.continuation_ratio() < CONTINUATION_RATIO
+        let line_count = self.values.len() / self.column_count.max(1);
+        self.column_count > 1
+            && line_count >= MIN_LINES_FOR_MEAN
+            && self.continuation_ratio() < MAX_CONTINUATION_RATIO
     }
 
-    /// Whether the numbers jump over the line ends and change little down the columns, as different quantities do.
+    /// Whether the columns are different quantities.
+    ///
+    /// Such numbers jump over the line ends and change little down the columns.
     pub(super) fn jumps_over_line_ends(&self) -> bool {
-        let lines = self.values.len() / self.columns.max(1);
-        let min_ratio = if lines < LINES_TO_COMPARE { JUMP_RATIO_OF_FEW_LINES } else { JUMP_RATIO };
-        self.columns > 1 && lines > 1 && self.continuation_ratio() > min_ratio
+        let line_count = self.values.len() / self.column_count.max(1);
+        let min_ratio = if line_count < MIN_LINES_FOR_MEAN {
+            MIN_JUMP_RATIO_OF_FEW_LINES
+        } else {
+            MIN_JUMP_RATIO
+        };
+        self.column_count > 1 && line_count > 1 && self.continuation_ratio() > min_ratio
     }
 }
 
 /// A column whose steps are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct EvenColumn {
+pub(super) struct EqualStepColumn {
     /// Number of the column, counted from 1.
     pub(super) number: usize,
     /// Mean step down the column.
@@ -137,16 +158,16 @@ mod tests {
         table(20, value, 2)
     }
 
-    fn even_column(number: usize, step: f64) -> EvenColumn {
-        EvenColumn { number, step }
+    fn equal_step_column(number: usize, step: f64) -> EqualStepColumn {
+        EqualStepColumn { number, step }
     }
 
     #[test]
-    fn a_series_along_lines_is_told_from_columns() {
+    fn a_series_along_lines_is_distinguished_from_columns() {
         for columns in 2..10 {
             let series = table(40, |line, column| wave((line * columns + column) as f64), columns);
             assert!(series.continues_along_lines(), "{columns}");
-            assert_eq!(series.even_column(), None, "{columns}");
+            assert_eq!(series.equal_step_column(), None, "{columns}");
             // The same signal in all columns, and another one in each.
             let same = table(40, |line, _| wave(line as f64), columns);
             assert!(!same.continues_along_lines(), "{columns}");
@@ -162,18 +183,18 @@ mod tests {
     #[test]
     fn counts_times_and_constants_are_found() {
         let quarters = times_and_sine(|line| 0.25 * line);
-        assert_eq!(quarters.even_column(), Some(even_column(1, 0.25)));
+        assert_eq!(quarters.equal_step_column(), Some(equal_step_column(1, 0.25)));
         let zeros = times_and_sine(|line| 0.0 * line);
-        assert_eq!(zeros.even_column(), Some(even_column(1, 0.0)));
+        assert_eq!(zeros.equal_step_column(), Some(equal_step_column(1, 0.0)));
         // 128 a second, printed to 1 ms.
         let rounded = times_and_sine(|line| (line / 0.128).round() * 1e-3);
-        assert_eq!(rounded.even_column().map(|column| column.number), Some(1));
+        assert_eq!(rounded.equal_step_column().map(|column| column.number), Some(1));
         // A ramp has equal steps in all columns.
         let ramp = table(20, |line, column| (8 * line + column) as f64, 8);
-        assert_eq!(ramp.even_column(), None);
+        assert_eq!(ramp.equal_step_column(), None);
         let decimals = table(2, |line, column| [[0.1, 0.5], [0.2, 0.4]][line][column], 2);
-        assert_eq!(decimals.even_column(), None);
+        assert_eq!(decimals.equal_step_column(), None);
         let constant = table(2, |line, column| [[9.0, 0.5], [9.0, 0.4]][line][column], 2);
-        assert_eq!(constant.even_column(), Some(even_column(1, 0.0)));
+        assert_eq!(constant.equal_step_column(), Some(equal_step_column(1, 0.0)));
     }
 }

@@ -8,10 +8,8 @@ use std::io::Read;
 
 use super::fault::{FaultResult, not_acceleration, not_in_header, unclear};
 use super::header_number::{HeaderNumber, clause_end};
-use super::lines::{
-    LineResult, Lines, Series, end_of_numbers, read_numbers, required, sample_count, scaled,
-    to_record,
-};
+use super::lines::{LineResult, Lines, check_end_of_numbers, read_numbers, required};
+use super::series::{Series, multiplied, to_record, whole_sample_count};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::Result;
 use crate::text::decimal::finite;
@@ -55,27 +53,31 @@ impl RecordFormat for PeerFormat {
     }
 }
 
-/// Reads the component.
+/// Reads the component of a file.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let header = read_header(lines)?;
     let factor = SAMPLE_UNIT.in_metres_per_second_squared();
-    let values = read_numbers(lines, header.points, None)?;
-    end_of_numbers(lines, header.points)?;
-    Ok(Series { name: String::new(), step: header.step, samples: scaled(values, factor) })
+    let values = read_numbers(lines, header.sample_count, None)?;
+    check_end_of_numbers(lines, header.sample_count)?;
+    Ok(Series {
+        name: String::new(),
+        time_step: header.time_step,
+        samples: multiplied(values, factor),
+    })
 }
 
 /// Quantities in the last line of the header.
 struct PeerHeader {
     /// Number of samples.
-    points: usize,
+    sample_count: usize,
     /// Time step, s.
-    step: f64,
+    time_step: f64,
 }
 
 /// Reads the lines of the header; an error unless they state that the accelerations are in g.
 fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
     let quantities = "number of points and time step (NPTS, DT)";
-    let mut is_in_g = false;
+    let mut states_unit = false;
     loop {
         let line = match lines.next()? {
             Some(line) if lines.number <= MAX_HEADER_LINES => line.to_ascii_uppercase(),
@@ -83,13 +85,13 @@ fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
         };
         match acceleration_in_g(&line) {
             Some(false) => return Err(lines.fault(not_acceleration(&line))),
-            Some(true) => is_in_g = true,
+            Some(true) => states_unit = true,
             None => {}
         }
         if has_word(&line, "NPTS") && has_word(&line, "DT") {
-            let header = lines.with_line_number(points_and_step(&line))?;
+            let header = lines.with_line_number(count_and_time_step(&line))?;
             let header = required(lines, header, quantities)?;
-            if is_in_g {
+            if states_unit {
                 return Ok(header);
             }
             return Err(lines.fault(not_in_header("unit (UNITS OF G)")));
@@ -99,27 +101,27 @@ fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
 
 /// A unit in a line of the header, with the text around it.
 struct StatedUnit<'a> {
-    before: &'a str,
+    text_before: &'a str,
     name: &'a str,
-    after: &'a str,
+    text_after: &'a str,
 }
 
-/// The unit behind a key: `UNITS OF G`, `UNITS ARE (G)`.
-fn unit_behind<'a>(key: &str, line: &'a str) -> Option<StatedUnit<'a>> {
-    let (before, rest) = line.split_once(key)?;
-    let rest = rest.trim_start().trim_start_matches('(').trim_start();
-    let end = rest.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(rest.len());
-    Some(StatedUnit { before, name: &rest[..end], after: &rest[end..] })
+/// The unit after a key: `UNITS OF G`, `UNITS ARE (G)`.
+fn unit_after_key<'a>(key: &str, line: &'a str) -> Option<StatedUnit<'a>> {
+    let (text_before, text) = line.split_once(key)?;
+    let text = text.trim_start().trim_start_matches('(').trim_start();
+    let end = text.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(text.len());
+    Some(StatedUnit { text_before, name: &text[..end], text_after: &text[end..] })
 }
 
-/// Whether a line of the header, in upper case, states accelerations in g, or another quantity.
+/// Whether a line in upper case states accelerations in g (`true`) or another quantity (`false`).
 ///
-/// `None` if it states neither.
+/// `None` for a line that states neither.
 fn acceleration_in_g(line: &str) -> Option<bool> {
     let keys = ["UNITS OF", "UNITS ARE", "UNITS=", "UNITS =", "UNITS:"];
-    let mut unit = keys.into_iter().find_map(|key| unit_behind(key, line));
+    let mut unit = keys.into_iter().find_map(|key| unit_after_key(key, line));
     if unit.is_none() && line.contains("ACCELERATION") {
-        unit = unit_behind(" IN ", line).or_else(|| unit_behind("(", line));
+        unit = unit_after_key(" IN ", line).or_else(|| unit_after_key("(", line));
         unit = unit.filter(|unit| may_be_unit(unit.name));
     }
     if line.contains("VELOCITY") || line.contains("DISPLACEMENT") {
@@ -127,28 +129,27 @@ fn acceleration_in_g(line: &str) -> Option<bool> {
         return (unit.is_some() || line.contains("TIME")).then_some(false);
     }
     let unit = unit?;
-    let is_multiple = mentions_factor(unit.before) || has_factor(unit.after);
-    Some(AccelerationUnit::named(unit.name) == Some(SAMPLE_UNIT) && !is_multiple)
+    let states_multiple = mentions_factor(unit.text_before) || has_factor(unit.text_after);
+    Some(AccelerationUnit::named(unit.name) == Some(SAMPLE_UNIT) && !states_multiple)
 }
 
-/// Whether the text behind a unit may state that numbers are a multiple of it.
+/// Whether the text after a unit may state a factor of the numbers.
 ///
-/// By a number, by a word, or without a separator. Numbers of a filter, and gravity itself in brackets, do not
-/// count.
-fn has_factor(rest: &str) -> bool {
-    let rest = rest.split_once("FILTER").map_or(rest, |(before, _)| before).trim();
-    let in_brackets = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
-    if let Some((text, rest)) = in_brackets {
-        let value = text.split_whitespace().next().and_then(finite);
-        return !value.is_some_and(is_gravity) || has_factor(rest);
+/// A number, a word or a missing separator may state one. Numbers of a filter do not, nor does gravity in brackets.
+fn has_factor(text: &str) -> bool {
+    let text = text.split_once("FILTER").map_or(text, |(before, _)| before).trim();
+    let bracket = text.strip_prefix('(').and_then(|inner| inner.split_once(')'));
+    if let Some((bracketed_text, text_after)) = bracket {
+        let value = bracketed_text.split_whitespace().next().and_then(finite);
+        return !value.is_some_and(is_gravity) || has_factor(text_after);
     }
-    let is_separate = rest.is_empty() || rest.starts_with(['.', ',', ';', ')']);
+    let is_separate = text.is_empty() || text.starts_with(['.', ',', ';', ')']);
     // The number of points is read elsewhere.
-    let rest = rest.split_once("NPTS").map_or(rest, |(before, _)| before);
+    let text = text.split_once("NPTS").map_or(text, |(before, _)| before);
     !is_separate
-        || rest.contains(|sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*'))
-        || mentions_factor(rest)
-        || has_word(rest, "SCALE")
+        || text.contains(|sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*'))
+        || mentions_factor(text)
+        || has_word(text, "SCALE")
 }
 
 /// Whether a value is gravity, in m/s² or in cm/s².
@@ -158,7 +159,7 @@ fn is_gravity(value: f64) -> bool {
         .any(|unit| (value * unit / STANDARD_GRAVITY - 1.0).abs() < GRAVITY_TOLERANCE)
 }
 
-/// Whether a word after ACCELERATION may be meant as its unit.
+/// Whether a word after `ACCELERATION` may be its unit.
 fn may_be_unit(word: &str) -> bool {
     AccelerationUnit::named(word).is_some() || word.contains("/S")
 }
@@ -170,17 +171,17 @@ fn mentions_factor(text: &str) -> bool {
         return true;
     }
     for (position, _) in text.match_indices('*') {
-        let before = text[..position].trim_end();
-        let after = text[position + 1..].trim_start();
-        if before.ends_with(|sign: char| sign.is_ascii_digit())
-            || after.starts_with(|sign: char| sign.is_ascii_digit())
+        let text_before = text[..position].trim_end();
+        let text_after = text[position + 1..].trim_start();
+        if text_before.ends_with(|sign: char| sign.is_ascii_digit())
+            || text_after.starts_with(|sign: char| sign.is_ascii_digit())
         {
             return true;
         }
     }
     let mut pairs = text.split_whitespace().zip(text.split_whitespace().skip(1));
-    pairs.any(|(first, second)| {
-        finite(first).is_some() && second == "X" || first == "X" && finite(second).is_some()
+    pairs.any(|(word, next_word)| {
+        finite(word).is_some() && next_word == "X" || word == "X" && finite(next_word).is_some()
     })
 }
 
@@ -189,47 +190,50 @@ fn has_word(line: &str, word: &str) -> bool {
     line.split(|character: char| !character.is_alphanumeric()).any(|found| found == word)
 }
 
-/// Number of points and time step in the last line of the header.
-fn points_and_step(line: &str) -> FaultResult<Option<PeerHeader>> {
-    let (points, step) = if line.contains(['=', ':']) {
-        let points = assigned_value(line, "NPTS", HeaderNumber::Points)?;
-        (points, assigned_value(line, "DT", HeaderNumber::TimeStep)?)
+/// Number of samples and time step in the last line of a header.
+fn count_and_time_step(line: &str) -> FaultResult<Option<PeerHeader>> {
+    let (sample_count, time_step) = if line.contains(['=', ':']) {
+        let sample_count = assigned_value(line, "NPTS", HeaderNumber::Points)?;
+        (sample_count, assigned_value(line, "DT", HeaderNumber::TimeStep)?)
     } else {
         listed_values(line)?
     };
     if mentions_factor(line) || has_word(line, "SCALE") {
         return Err(unclear("scale of the numbers", line));
     }
-    let header = points.and_then(sample_count).zip(step.filter(|&step| step > 0.0));
-    Ok(header.map(|(points, step)| PeerHeader { points, step }))
+    let header = sample_count
+        .and_then(whole_sample_count)
+        .zip(time_step.filter(|&time_step| time_step > 0.0));
+    Ok(header.map(|(sample_count, time_step)| PeerHeader { sample_count, time_step }))
 }
 
 /// The value of a key in `NPTS= 4, DT= .01 SEC`; `ORIGINAL DT` is another key than `DT`.
 fn assigned_value(line: &str, key: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
     let mut pieces = line.split(['=', ':']).peekable();
-    let mut found = None;
+    let mut stored_value = None;
     // The key at the end of the previous piece.
-    let mut name = pieces.next().map_or("", last_clause);
+    let mut piece_key = pieces.next().map_or("", last_clause);
     while let Some(piece) = pieces.next() {
-        let clause = clause_end(piece);
+        let value_end = clause_end(piece);
         let is_last = pieces.peek().is_none();
-        let (value, next_name) = if is_last {
-            (&piece[..clause], "")
-        } else if clause < piece.len() {
-            (&piece[..clause], last_clause(piece))
+        let (value_text, next_key) = if is_last {
+            (&piece[..value_end], "")
+        } else if value_end < piece.len() {
+            (&piece[..value_end], last_clause(piece))
         } else {
-            // Without a separator the last word is the next key.
+            // Without a separator the last word of the piece is the next key.
             piece.trim_end().rsplit_once([' ', '\t']).unwrap_or((piece, ""))
         };
-        if name == key
-            && let Some(value) = quantity.read(value)?
-            && let Some(other) = found.replace(value).filter(|&previous| previous != value)
+        if piece_key == key
+            && let Some(value) = quantity.read(value_text)?
+            && let Some(previous_value) =
+                stored_value.replace(value).filter(|&previous| previous != value)
         {
-            return Err(unclear(quantity.name(), &format!("{other} and {value}")));
+            return Err(unclear(quantity.name(), &format!("{previous_value} and {value}")));
         }
-        name = next_name;
+        piece_key = next_key;
     }
-    Ok(found)
+    Ok(stored_value)
 }
 
 /// The last of several clauses.
@@ -237,17 +241,20 @@ fn last_clause(text: &str) -> &str {
     text.rsplit([',', ';']).next().unwrap_or(text).trim()
 }
 
-/// Points and step of `4  .01  NPTS, DT`, perhaps with the unit of time at the end.
+/// Number of samples and time step of `4  .01  NPTS, DT`, in this order.
+///
+/// A unit of time may follow the keys.
 fn listed_values(line: &str) -> FaultResult<(Option<f64>, Option<f64>)> {
     let separators = [' ', '\t', ','];
-    let (values, keys) = line.split_once("NPTS").unwrap_or((line, ""));
-    let values = values.trim_matches(separators);
-    let (points, step) = values.split_once(separators).unwrap_or((values, ""));
-    let unit = keys.trim_matches(separators).strip_prefix("DT");
-    let unit = unit.ok_or_else(|| unclear("order of number of points and time step", line))?;
-    let step = step.trim_start_matches(separators);
-    let step = format!("{step} {}", unit.trim_matches(separators));
-    Ok((HeaderNumber::Points.read(points)?, HeaderNumber::TimeStep.read(&step)?))
+    let (value_text, key_text) = line.split_once("NPTS").unwrap_or((line, ""));
+    let value_text = value_text.trim_matches(separators);
+    let (count_text, step_text) = value_text.split_once(separators).unwrap_or((value_text, ""));
+    let unit_text = key_text.trim_matches(separators).strip_prefix("DT");
+    let unit_text =
+        unit_text.ok_or_else(|| unclear("order of number of points and time step", line))?;
+    let step_text = step_text.trim_start_matches(separators);
+    let step_text = format!("{step_text} {}", unit_text.trim_matches(separators));
+    Ok((HeaderNumber::Points.read(count_text)?, HeaderNumber::TimeStep.read(&step_text)?))
 }
 
 #[cfg(test)]

@@ -5,13 +5,16 @@
 use std::io::Read;
 
 use super::clock::TimeColumn;
-use super::fault::{FaultResult, may_be_one_series, unequal_columns, unexpected_header_line};
+use super::fault::{
+    FaultResult, may_be_one_series, unequal_columns, unexpected_header_line, wrong_sample_count,
+};
 use super::header_line::HeaderLines;
 use super::lines::{
-    LineFields, LineResult, Lines, Series, first_word, has_spreadsheet_error, is_header,
-    line_or_header_fault, select_component, to_record, to_records, wrong_count,
+    LineFields, LineResult, Lines, first_word, has_spreadsheet_error, is_header,
+    line_or_header_fault,
 };
 use super::number_table::NumberTable;
+use super::series::{Series, select_component, to_record, to_records};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
 
@@ -37,10 +40,11 @@ use crate::error::{FileFault, Result};
 /// samples a second to 1 ms, set `time_step`. A title that names another unit, such as `time (ms)` or `a (cm/s2)`
 /// in a file that is read in g, is an error. Every line before the numbers that has as many titles as there are
 /// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
+///
 /// [`equally_spaced`](Self::equally_spaced) reads files without a time column. All their lines must have equally many
-/// columns. Without titles they may be one series along the lines: then one of them must count, have times or be
-/// constant, or the numbers must jump from line to line, or `samples` be known. A file cut within its last number looks
-/// like a complete one: set `samples` where their number is known.
+/// columns. Without titles the lines may be one series along the lines. To be read as columns, one column must then have
+/// counts, times or a constant, or the numbers must jump from line to line, or `samples` must be set. A file that was cut
+/// within its last number looks like a complete one: set `samples` if you know their number.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -65,7 +69,7 @@ pub struct ColumnFormat {
     pub time_step: Option<f64>,
     /// Column of accelerations, counted from 1; `None` if there is no other column.
     pub acceleration_column: Option<usize>,
-    /// Number of samples of the file, if known; another number is an error.
+    /// Number of samples of the file, if you know it; another number is an error.
     pub samples: Option<usize>,
     /// Number of lines at the beginning that are skipped; the last one may have titles.
     ///
@@ -115,57 +119,70 @@ impl ColumnFormat {
 
 impl RecordFormat for ColumnFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        let columns = read(&mut Lines::new(source), self, false);
+        let columns = read(&mut Lines::new(source), self, ColumnSelection::OfFormat);
         to_record(name, select_component(1, columns))
     }
 
     /// All columns except the times, whatever `acceleration_column` is.
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source), self, true))
+        to_records(name, read(&mut Lines::new(source), self, ColumnSelection::All))
     }
 }
 
-/// Reads the columns of accelerations: all, or the one of the format.
-fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Vec<Series>> {
-    let table = ColumnTable::read(lines, format, all)?;
-    let last_line = table.lines.last().copied().unwrap_or(0);
-    let found = table.lines.len();
-    if found < 2 {
-        return Err((last_line, FileFault::count("samples", found, "at least 2")));
+/// Reads the selected columns of accelerations.
+fn read(
+    lines: &mut Lines,
+    format: &ColumnFormat,
+    selection: ColumnSelection,
+) -> LineResult<Vec<Series>> {
+    let table = ColumnTable::read(lines, format, selection)?;
+    let last_line_number = table.line_numbers.last().copied().unwrap_or(0);
+    let sample_count = table.line_numbers.len();
+    if sample_count < 2 {
+        return Err((last_line_number, FileFault::count("samples", sample_count, "at least 2")));
     }
-    if let Some(needed) = format.samples.filter(|&needed| needed != found) {
-        return Err((last_line, wrong_count(found, needed)));
+    if let Some(expected_count) = format.samples.filter(|&count| count != sample_count) {
+        return Err((last_line_number, wrong_sample_count(sample_count, expected_count)));
     }
-    let step = match format.time_step {
-        Some(step) => {
-            // A known number of samples confirms the columns.
-            if format.samples.is_none() && table.is_one_series(all) {
-                return Err((table.lines[0], may_be_one_series(table.width)));
+    let time_step = match format.time_step {
+        Some(time_step) => {
+            // A stated number of samples confirms the columns.
+            if format.samples.is_none() && table.is_one_series(selection) {
+                return Err((table.line_numbers[0], may_be_one_series(table.field_count)));
             }
-            step
+            time_step
         }
-        None => table.times.equal_step(&table.lines)?,
+        None => table.times.equal_step(&table.line_numbers)?,
     };
-    let columns = table.names.into_iter().zip(table.columns);
-    Ok(columns.map(|(name, samples)| Series { name, step, samples }).collect())
+    let components = table.names.into_iter().zip(table.samples);
+    Ok(components.map(|(name, samples)| Series { name, time_step, samples }).collect())
+}
+
+/// Columns of accelerations that are read.
+#[derive(Clone, Copy, PartialEq)]
+enum ColumnSelection {
+    /// All columns but the times.
+    All,
+    /// The column that the format names.
+    OfFormat,
 }
 
 /// Lines of numbers, column by column.
 #[derive(Default)]
 struct ColumnTable {
     /// Number of each line in the file.
-    lines: Vec<usize>,
+    line_numbers: Vec<usize>,
     times: TimeColumn,
     /// Numbers of the columns of accelerations, counted from 1.
-    chosen: Vec<usize>,
-    /// Names of the chosen columns.
+    column_numbers: Vec<usize>,
+    /// Names of these columns.
     names: Vec<String>,
-    /// Accelerations in the chosen columns, m/s².
-    columns: Vec<Vec<f64>>,
+    /// Accelerations in these columns, m/s².
+    samples: Vec<Vec<f64>>,
     /// Number of fields in the first line, without the empty ones at its end.
-    width: usize,
+    field_count: usize,
     /// Number of fields that all lines must have.
-    expected_fields: Option<usize>,
+    expected_field_count: Option<usize>,
     /// Whether titles or words in the lines show that the columns differ.
     has_words: bool,
     /// All numbers of lines without times.
@@ -173,30 +190,35 @@ struct ColumnTable {
 }
 
 impl ColumnTable {
-    /// Whether lines without times may hold one series, of which a column would be a small part.
+    /// Whether lines without times may be one series, of which a column is a small part.
     ///
-    /// Columns are accepted if they have titles, if one of them counts, has times or a constant, or if the numbers jump
-    /// over the line ends, unless they continue there. If `all` columns are read, no number is lost.
-    fn is_one_series(&self, all: bool) -> bool {
+    /// Lines have columns if titles name them, if a column has counts, times or a constant, or if the numbers jump over
+    /// the line ends. Numbers that continue over the line ends are one series. A selection of all columns omits no
+    /// number.
+    fn is_one_series(&self, selection: ColumnSelection) -> bool {
         let numbers = &self.numbers;
-        let are_columns = all
+        let has_columns = selection == ColumnSelection::All
             || self.has_words
-            || numbers.even_column().is_some()
+            || numbers.equal_step_column().is_some()
             || numbers.jumps_over_line_ends();
-        self.width > 1 && (!are_columns || numbers.continues_along_lines())
+        self.field_count > 1 && (!has_columns || numbers.continues_along_lines())
     }
 
     /// Reads all lines.
-    fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Self> {
+    fn read(
+        lines: &mut Lines,
+        format: &ColumnFormat,
+        selection: ColumnSelection,
+    ) -> LineResult<Self> {
         let mut table = Self::default();
         let mut header = HeaderLines::default();
         let mut title_may_come = true;
         while let Some(text) = lines.next()? {
             let is_skipped = lines.number <= format.header_lines;
             let is_comment = text.starts_with('#') && !has_spreadsheet_error(&text);
-            let is_first = table.expected_fields.is_none();
+            let is_first_line = table.expected_field_count.is_none();
             if text.is_empty() || is_skipped || is_comment {
-                if is_first {
+                if is_first_line {
                     header.add(&text);
                 }
                 continue;
@@ -208,28 +230,28 @@ impl ColumnTable {
                 header.add(&text);
                 continue;
             }
-            // Without times, only this check distinguishes `Station 7` from a sample.
-            if is_first
+            // Without times, only the first word distinguishes `Station 7` from a sample.
+            if is_first_line
                 && format.time_step.is_some()
                 && let Some(word) = first_word(&fields)
             {
                 return Err(lines.fault(unexpected_header_line(word)));
             }
-            let read = table.read_values(&fields, format, all);
+            let result = table.read_values(&fields, format, selection);
             lines.with_line_number(
-                read.map_err(|fault| line_or_header_fault(fault, &fields, is_first)),
+                result.map_err(|fault| line_or_header_fault(fault, &fields, is_first_line)),
             )?;
-            if is_first {
+            if is_first_line {
                 let titles = header.titles(&(fields.filled_count()..=fields.texts.len()));
                 if format.time_step.is_none() {
                     lines.with_line_number(titles.check_time(format.time_column))?;
                 }
-                let names = titles.acceleration_names(&table.chosen, format.unit);
+                let names = titles.acceleration_names(&table.column_numbers, format.unit);
                 table.names = lines.with_line_number(names)?;
                 table.has_words = titles.name_all_columns();
             }
-            lines.with_line_number(table.check_fields(&fields, format, all))?;
-            table.lines.push(lines.number);
+            lines.with_line_number(table.check_fields(&fields, format, selection))?;
+            table.line_numbers.push(lines.number);
         }
         Ok(table)
     }
@@ -239,50 +261,57 @@ impl ColumnTable {
         &mut self,
         fields: &LineFields,
         format: &ColumnFormat,
-        all: bool,
+        selection: ColumnSelection,
     ) -> FaultResult<()> {
-        let filled = fields.filled_count();
-        if self.expected_fields.is_none() {
-            self.width = filled;
-            self.chosen = acceleration_columns(format, all, filled);
-            self.columns = vec![Vec::new(); self.chosen.len()];
+        let filled_count = fields.filled_count();
+        if self.expected_field_count.is_none() {
+            self.field_count = filled_count;
+            self.column_numbers = acceleration_columns(format, selection, filled_count);
+            self.samples = vec![Vec::new(); self.column_numbers.len()];
         }
         if format.time_step.is_none() {
             let time = fields.time(format.time_column, &mut self.times.clock)?;
             self.times.push(time);
         }
-        if !all && format.acceleration_column.is_none() && filled > 1 {
+        if selection == ColumnSelection::OfFormat
+            && format.acceleration_column.is_none()
+            && filled_count > 1
+        {
             let needed = "1 (name the column of the acceleration, or read the values along the lines: \
                  `AlongLinesFormat`, in Python `along_lines`)";
-            return Err(FileFault::count("columns", filled, needed));
+            return Err(FileFault::count("columns", filled_count, needed));
         }
         let factor = format.unit.in_metres_per_second_squared();
-        for (samples, &column) in self.columns.iter_mut().zip(&self.chosen) {
-            samples.push(fields.number(column)? * factor);
+        for (samples, &column_number) in self.samples.iter_mut().zip(&self.column_numbers) {
+            samples.push(fields.number(column_number)? * factor);
         }
         Ok(())
     }
 
-    /// Error if a line has another number of fields than the first one, where that may shift its columns.
+    /// Error if a line has another number of fields than the first one, which may shift its columns.
     ///
-    /// In a file without times it also collects the numbers of the line.
+    /// In a file without times, this function also stores all numbers of the line.
     fn check_fields(
         &mut self,
         fields: &LineFields,
         format: &ColumnFormat,
-        all: bool,
+        selection: ColumnSelection,
     ) -> FaultResult<()> {
         let has_times = format.time_step.is_none();
         // The cells behind the last comma may be empty in all lines.
-        let found = if all { fields.filled_count() } else { fields.texts.len() };
-        let expected = *self.expected_fields.get_or_insert(found);
-        let must_agree = all || !has_times || fields.may_be_shifted();
-        if found != expected && must_agree {
-            return Err(unequal_columns(found, expected));
+        let field_count = if selection == ColumnSelection::All {
+            fields.filled_count()
+        } else {
+            fields.texts.len()
+        };
+        let expected_count = *self.expected_field_count.get_or_insert(field_count);
+        let must_agree = selection == ColumnSelection::All || !has_times || fields.may_be_shifted();
+        if field_count != expected_count && must_agree {
+            return Err(unequal_columns(field_count, expected_count));
         }
         if !has_times {
             let numbers: FaultResult<Vec<f64>> =
-                (1..=self.width).map(|column| fields.number(column)).collect();
+                (1..=self.field_count).map(|column| fields.number(column)).collect();
             match numbers {
                 Ok(numbers) => self.numbers.push(&numbers),
                 Err(_) => self.has_words = true,
@@ -292,16 +321,20 @@ impl ColumnTable {
     }
 }
 
-/// Numbers of the columns of accelerations among the `found` ones of the first line.
-fn acceleration_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> {
-    if !all {
+/// Numbers, from 1, of the selected columns of accelerations.
+fn acceleration_columns(
+    format: &ColumnFormat,
+    selection: ColumnSelection,
+    column_count: usize,
+) -> Vec<usize> {
+    if selection == ColumnSelection::OfFormat {
         return vec![format.acceleration_column.unwrap_or(1)];
     }
     let time_column = format.time_step.is_none().then_some(format.time_column);
-    (1..=found).filter(|&column| time_column != Some(column)).collect()
+    (1..=column_count).filter(|&column| time_column != Some(column)).collect()
 }
 
-/// Record of El Centro, with times in s and accelerations in g.
+/// Table of the El Centro record, with times in s and accelerations in g.
 const EL_CENTRO_CSV: &str = include_str!("../data/elcentro1940_NS_peknold_0319g.csv");
 
 /// El Centro 1940-05-18, component North–South, in the version of textbooks.

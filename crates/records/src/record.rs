@@ -6,9 +6,12 @@ use crate::error::{MemoryError, Result, all_finite, at_least, finite, memory, po
 use crate::text::column::{NumberCell, cell_line};
 use crate::text::csv::Csv;
 
+/// Bytes of a sample: the acceleration, its two integrals, and two temporary copies.
+const BYTES_PER_SAMPLE: f64 = 40.0;
+
 /// Error for more samples than fit into memory, with their two integrals.
-pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {
-    memory::check("samples of the record", count, 40.0 * count)
+pub(super) fn check_sample_memory(sample_count: f64) -> std::result::Result<(), MemoryError> {
+    memory::check("samples of the record", sample_count, BYTES_PER_SAMPLE * sample_count)
 }
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
@@ -90,12 +93,12 @@ impl Record {
     ) -> Result<Self> {
         positive("time step of the record", time_step)?;
         positive("duration of the record", duration)?;
-        let steps = (duration / time_step).round();
+        let step_ratio = (duration / time_step).round();
         // Infinity is an error as well.
-        check_samples(steps)?;
+        check_sample_memory(step_ratio)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let steps = steps as usize;
-        Self::new(time_step, (0..=steps).map(|k| acceleration(k as f64 * time_step)).collect())
+        let step_count = step_ratio as usize;
+        Self::new(time_step, (0..=step_count).map(|k| acceleration(k as f64 * time_step)).collect())
     }
 
     /// Time step, s.
@@ -150,14 +153,14 @@ impl Record {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
         // A step that divides the duration up to rounding adds no interval.
-        let intervals = (duration / time_step - 1e-9).ceil().max(1.0);
-        check_samples(intervals)?;
+        let interval_ratio = (duration / time_step - INTERVAL_ROUNDING).ceil().max(1.0);
+        check_sample_memory(interval_ratio)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-        let count = intervals as usize;
-        let mut samples = Vec::with_capacity(count + 1);
-        for k in 0..=count {
+        let interval_count = interval_ratio as usize;
+        let mut samples = Vec::with_capacity(interval_count + 1);
+        for k in 0..=interval_count {
             let time = k as f64 * time_step;
-            let is_within = time - duration < 1e-8 * time_step;
+            let is_within = time - duration < END_ROUNDING * time_step;
             samples.push(self.at(if is_within { time.min(duration) } else { time }).acceleration);
         }
         Self::new(time_step, samples)
@@ -184,8 +187,8 @@ impl Record {
     /// [`Error::Input`](crate::Error::Input) unless `peak` is positive and the record is not zero throughout.
     pub fn scaled_to_peak(&self, peak: f64) -> Result<Self> {
         positive("wanted peak acceleration", peak)?;
-        let present_peak = positive("peak acceleration of the record", self.peak_acceleration())?;
-        self.scaled(peak / present_peak)
+        let original_peak = positive("peak acceleration of the record", self.peak_acceleration())?;
+        self.scaled(peak / original_peak)
     }
 
     /// Record with its baseline treated.
@@ -210,18 +213,18 @@ impl Record {
     /// Between samples the acceleration is linear. After the last sample it is zero, the velocity constant and the
     /// displacement linear in time. Before t = 0 all are zero.
     pub fn at(&self, time: f64) -> Motion {
-        let last = self.len() - 1;
+        let last_index = self.len() - 1;
         if time.is_nan() || time <= 0.0 {
             let acceleration = if time == 0.0 { self.acceleration[0] } else { 0.0 };
             return Motion { acceleration, velocity: 0.0, displacement: 0.0 };
         }
         let duration = self.duration();
         if time > duration {
-            let end = Motion { acceleration: 0.0, ..self.sample(last) };
+            let end = Motion { acceleration: 0.0, ..self.sample(last_index) };
             return end.after(time - duration, 0.0);
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
-        let index = ((time / self.step) as usize).min(last - 1);
+        let index = ((time / self.step) as usize).min(last_index - 1);
         self.sample(index).after(time - index as f64 * self.step, self.jerk(index))
     }
 
@@ -234,12 +237,16 @@ impl Record {
         }
     }
 
-    /// Rate of the acceleration in the interval after a sample.
+    /// Rate of the acceleration (m/s³) in the interval after a sample.
     pub(super) fn jerk(&self, index: usize) -> f64 {
         (self.acceleration[index + 1] - self.acceleration[index]) / self.step
     }
 }
 
+/// Excess of the duration over whole intervals, in intervals, that is rounding.
+const INTERVAL_ROUNDING: f64 = 1e-9;
+/// Time after the last sample, in time steps, that is rounding; larger than [`INTERVAL_ROUNDING`].
+const END_ROUNDING: f64 = 1e-8;
 /// Largest distance of a time from a sample, in steps, that counts as rounding.
 const SAMPLE_TIME_TOLERANCE: f64 = 1e-6;
 
@@ -264,19 +271,19 @@ impl Record {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `start` < `end` and `end` is not after the last sample.
     pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
-        let step = self.time_step();
-        let last = self.len() - 1;
+        let time_step = self.time_step();
+        let last_index = self.len() - 1;
         let needed = "from zero to before the last sample";
         require("start of the part", start, start >= 0.0 && start < self.duration(), needed)?;
-        let is_inside = end > start && end / step <= last as f64 + SAMPLE_TIME_TOLERANCE;
+        let is_inside = end > start && end / time_step <= last_index as f64 + SAMPLE_TIME_TOLERANCE;
         require("end of the part", end, is_inside, "after its start, not after the last sample")?;
-        let first = (start / step + SAMPLE_TIME_TOLERANCE).floor();
-        let end = (end / step - SAMPLE_TIME_TOLERANCE).ceil().max(0.0);
+        let first_position = (start / time_step + SAMPLE_TIME_TOLERANCE).floor();
+        let end_position = (end / time_step - SAMPLE_TIME_TOLERANCE).ceil().max(0.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
-        let first = (first as usize).min(last - 1);
+        let first_index = (first_position as usize).min(last_index - 1);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
-        let end = (end as usize).clamp(first + 1, last);
-        Self::new(step, self.accelerations()[first..=end].to_vec())
+        let end_index = (end_position as usize).clamp(first_index + 1, last_index);
+        Self::new(time_step, self.accelerations()[first_index..=end_index].to_vec())
     }
 }
 

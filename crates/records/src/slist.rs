@@ -8,9 +8,10 @@ use std::io::Read;
 
 use super::block::is_raw_unit;
 use super::fault::{FaultResult, not_acceleration, not_in_header, unprocessed};
-use super::lines::{
-    LineResult, Lines, Series, push_numbers, sample_count, scaled, select_component, to_record,
-    to_records, wrong_count,
+use super::lines::{LineResult, Lines, push_numbers};
+use super::series::{
+    Series, check_sample_count, multiplied, select_component, to_record, to_records,
+    whole_sample_count,
 };
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
@@ -57,42 +58,47 @@ impl RecordFormat for SlistFormat {
     }
 }
 
-/// The line before the samples of a series.
+/// What the line before the samples of a series states.
 struct SlistHeader {
     name: String,
     /// Number of samples.
-    samples: usize,
+    sample_count: usize,
     /// Time step, s.
-    step: f64,
+    time_step: f64,
     unit: AccelerationUnit,
 }
 
 impl SlistHeader {
-    /// Reads a line; `expected` is the unit if the line names none, and the only one it may name.
-    fn read(line: &str, expected: Option<AccelerationUnit>) -> FaultResult<Self> {
+    /// Reads the line `TIMESERIES …`.
+    ///
+    /// `expected_unit`: unit of a line that names none, and the only unit that a line may name.
+    fn read(line: &str, expected_unit: Option<AccelerationUnit>) -> FaultResult<Self> {
         let fields: Vec<&str> = line.split(',').map(str::trim).collect();
         let name = fields[0].strip_prefix("TIMESERIES").map(str::trim);
         let name = name.ok_or_else(|| FileFault::format(quoted(line), "a line `TIMESERIES …`"))?;
-        let samples = number_before("samples", fields.get(1)).and_then(sample_count);
-        let samples = samples.ok_or_else(|| not_in_header("number of samples"))?;
-        let rate = number_before("sps", fields.get(2)).filter(|&rate| rate > 0.0);
-        let rate = rate.ok_or_else(|| not_in_header("number of samples a second (sps)"))?;
+        let sample_count = number_before("samples", fields.get(1)).and_then(whole_sample_count);
+        let sample_count = sample_count.ok_or_else(|| not_in_header("number of samples"))?;
+        let sampling_rate =
+            number_before("sps", fields.get(2)).filter(|&sampling_rate| sampling_rate > 0.0);
+        let sampling_rate =
+            sampling_rate.ok_or_else(|| not_in_header("number of samples a second (sps)"))?;
         let layout = fields.get(4).copied().unwrap_or("");
         if layout != "SLIST" {
             return Err(FileFault::format(quoted(layout), "SLIST, samples along the lines"));
         }
         let unit = match fields.get(6).copied().unwrap_or("") {
-            "" => expected.ok_or_else(|| not_in_header("unit"))?,
+            "" => expected_unit.ok_or_else(|| not_in_header("unit"))?,
             name if is_raw_unit(&name.to_lowercase()) => {
                 return Err(unprocessed(line, "counts of a recorder"));
             }
             name => {
                 let unit = AccelerationUnit::named(name);
-                let unit = unit.filter(|unit| expected.is_none_or(|expected| expected == *unit));
+                let unit =
+                    unit.filter(|unit| expected_unit.is_none_or(|expected| expected == *unit));
                 unit.ok_or_else(|| not_acceleration(name))?
             }
         };
-        Ok(Self { name: name.to_owned(), samples, step: 1.0 / rate, unit })
+        Ok(Self { name: name.to_owned(), sample_count, time_step: 1.0 / sampling_rate, unit })
     }
 }
 
@@ -101,8 +107,10 @@ fn number_before(word: &str, field: Option<&&str>) -> Option<f64> {
     finite(field?.strip_suffix(word)?.trim_end())
 }
 
-/// Reads all series; `expected` is the unit of headers that name none.
-fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec<Series>> {
+/// Reads all series of a file.
+///
+/// `expected_unit`: unit of headers that name none.
+fn read(lines: &mut Lines, expected_unit: Option<AccelerationUnit>) -> LineResult<Vec<Series>> {
     let mut all_series: Vec<Series> = Vec::new();
     let mut next_line = lines.next()?;
     while let Some(line) = next_line {
@@ -110,7 +118,7 @@ fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec
             next_line = lines.next()?;
             continue;
         }
-        let header = lines.with_line_number(SlistHeader::read(&line, expected))?;
+        let header = lines.with_line_number(SlistHeader::read(&line, expected_unit))?;
         if all_series.iter().any(|series| series.name == header.name) {
             let found = format!("second piece of {}", quoted(&header.name));
             let needed = "series without gaps: one piece of each";
@@ -122,11 +130,9 @@ fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec
             lines.with_line_number(push_numbers(&line, &mut values))?;
             next_line = lines.next()?;
         }
-        if values.len() != header.samples {
-            return Err(lines.fault(wrong_count(values.len(), header.samples)));
-        }
-        let samples = scaled(values, header.unit.in_metres_per_second_squared());
-        all_series.push(Series { name: header.name, step: header.step, samples });
+        check_sample_count(lines, values.len(), header.sample_count)?;
+        let samples = multiplied(values, header.unit.in_metres_per_second_squared());
+        all_series.push(Series { name: header.name, time_step: header.time_step, samples });
     }
     Ok(all_series)
 }

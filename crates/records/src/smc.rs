@@ -4,17 +4,14 @@
 //! `smcfmt.txt`): 11 lines of text, 48 integers as `8I10`, 50 reals as `5E15.7`, comments behind `|`, and the time
 //! series as `8(1PE10.4E1)`.
 
-use std::io::Read;
-
+use super::AccelerationUnit;
 use super::agreement;
 use super::fault::{not_acceleration, unprocessed};
+use super::format::read_one_component;
 use super::fortran_format::FortranFormat;
-use super::lines::{
-    LineResult, Lines, Series, line_after_block, read_numbers, required, sample_count, scaled,
-    to_record, to_records,
-};
-use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{FileFault, Result};
+use super::lines::{LineResult, Lines, line_after_block, read_numbers, required};
+use super::series::{Series, multiplied, whole_sample_count};
+use crate::error::FileFault;
 
 /// The `.smc` files of the U.S. Geological Survey, one component a file, in cm/s².
 ///
@@ -31,66 +28,74 @@ use crate::error::{FileFault, Result};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SmcFormat;
 
-impl RecordFormat for SmcFormat {
-    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        to_record(name, read(&mut Lines::new(source)))
-    }
-
-    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        to_records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
-    }
-}
+read_one_component!(SmcFormat);
 
 /// Number of lines of text at the beginning.
-const TEXT_LINES: usize = 11;
+const TEXT_LINE_COUNT: usize = 11;
+/// Number of whole numbers after the text.
+const INTEGER_COUNT: usize = 48;
+/// Number of real numbers after the whole ones.
+const REAL_COUNT: usize = 50;
+/// Index, from 0, of the number of comment lines in the whole numbers.
+const COMMENT_COUNT_INDEX: usize = 15;
+/// Index, from 0, of the number of samples in the whole numbers.
+const SAMPLE_COUNT_INDEX: usize = 16;
+/// Index, from 0, of the number of samples a second in the real numbers.
+const SAMPLING_RATE_INDEX: usize = 1;
+/// Largest number of comment lines that are skipped; a larger number is not plausible.
+const MAX_COMMENT_COUNT: u32 = 10_000;
+/// Columns of the whole numbers.
 const INTEGER_FORMAT: FortranFormat = FortranFormat { repeat: 8, width: 10, decimals: 0, scale: 0 };
+/// Columns of the real numbers.
 const REAL_FORMAT: FortranFormat = FortranFormat { repeat: 5, width: 15, decimals: 7, scale: 0 };
+/// Columns of the samples.
 const SAMPLE_FORMAT: FortranFormat = FortranFormat { repeat: 8, width: 10, decimals: 4, scale: 0 };
 /// Upper limit of a recorder's sampling rate, samples a second.
 const MAX_SAMPLING_RATE: f64 = 1e5;
 /// Indices, from 0, of the times of maximum and minimum in the reals; the values follow the times.
 const EXTREME_TIME_INDICES: [usize; 2] = [28, 30];
 
-/// Reads the component.
+/// Reads the component of a file.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let name = read_text(lines)?;
-    let integers = read_numbers(lines, 48, Some(INTEGER_FORMAT))?;
-    let reals = read_numbers(lines, 50, Some(REAL_FORMAT))?;
-    let rate = stated_real(&reals, 1).filter(|&rate| rate > 0.0 && rate < MAX_SAMPLING_RATE);
-    let Some(rate) = rate else {
-        let kind = "no number of samples a second is stated";
-        return Err(lines.fault(unprocessed("data in unequal steps", kind)));
+    let integers = read_numbers(lines, INTEGER_COUNT, Some(INTEGER_FORMAT))?;
+    let reals = read_numbers(lines, REAL_COUNT, Some(REAL_FORMAT))?;
+    let sampling_rate = stated_real(&reals, SAMPLING_RATE_INDEX)
+        .filter(|&sampling_rate| sampling_rate > 0.0 && sampling_rate < MAX_SAMPLING_RATE);
+    let Some(sampling_rate) = sampling_rate else {
+        let reason = "no number of samples a second is stated";
+        return Err(lines.fault(unprocessed("data in unequal steps", reason)));
     };
-    let needed = sample_count(integers[16]);
-    let needed = required(lines, needed, "number of samples (17th integer)")?;
-    // A whole number from 0.
-    let comment_count = (0..=10_000).find(|&number| f64::from(number) == integers[15]);
+    let sample_count = whole_sample_count(integers[SAMPLE_COUNT_INDEX]);
+    let sample_count = required(lines, sample_count, "number of samples (17th integer)")?;
+    let comment_count =
+        (0..=MAX_COMMENT_COUNT).find(|&number| f64::from(number) == integers[COMMENT_COUNT_INDEX]);
     for _ in 0..comment_count.unwrap_or(0) {
         lines.next()?;
     }
-    let step = 1.0 / rate;
+    let time_step = 1.0 / sampling_rate;
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
-    let samples = scaled(read_numbers(lines, needed, Some(SAMPLE_FORMAT))?, gal);
-    line_after_block(lines, needed)?;
+    let samples = multiplied(read_numbers(lines, sample_count, Some(SAMPLE_FORMAT))?, gal);
+    line_after_block(lines, sample_count)?;
     for index in EXTREME_TIME_INDICES {
         if let Some(time) = stated_real(&reals, index)
             && let Some(value) = stated_real(&reals, index + 1)
         {
-            lines.with_line_number(agreement::extreme(&samples, step, time, value * gal))?;
+            lines.with_line_number(agreement::extreme(&samples, time_step, time, value * gal))?;
         }
     }
-    Ok(Series { name, step, samples })
+    Ok(Series { name, time_step, samples })
 }
 
 /// Reads the lines of text; returns the name of the component.
 fn read_text(lines: &mut Lines) -> LineResult<String> {
     let mut name = String::new();
     let mut line_count = 0;
-    while line_count < TEXT_LINES {
+    while line_count < TEXT_LINE_COUNT {
         let Some(line) = lines.next()? else {
             return Err(lines.fault(FileFault::missing("header of 11 lines")));
         };
-        // Blank lines before the first one.
+        // Blank lines before the first line of text do not count.
         if line_count == 0 && line.is_empty() {
             continue;
         }

@@ -10,14 +10,14 @@
 use std::fmt;
 
 use super::Record;
-use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
+use crate::error::{Observer, ProgressReporter, Result, damping_ratio, positive, require};
 
-/// Smallest number of substeps in a period.
-const SUBSTEPS_PER_PERIOD: f64 = 40.0;
-/// Largest number of substeps in all; shorter periods are an error.
+/// Smallest number of substeps in a period: peaks between substeps are then found to 2e-6.
+const MIN_SUBSTEPS_PER_PERIOD: f64 = 40.0;
+/// Largest number of substeps for one period, some seconds of work; shorter periods are an error.
 const MAX_SUBSTEPS: f64 = 1e9;
 
-/// Number of substeps between two calls of an observer.
+/// Number of substeps between two reports of progress, some milliseconds of work.
 const SUBSTEPS_PER_REPORT: usize = 1 << 20;
 
 /// Largest response of one oscillator during a record and one period after it.
@@ -38,7 +38,12 @@ pub struct SpectralOrdinate {
 }
 
 /// Smallest number of a record's time steps in a period of its spectrum.
-const SAMPLES_PER_PERIOD: f64 = 10.0;
+///
+/// Linear interpolation reduces a harmonic of ten time steps by 3 %.
+const MIN_STEPS_PER_PERIOD: f64 = 10.0;
+
+/// Relative excess of a number of time steps that is rounding of the period.
+const PERIOD_ROUNDING: f64 = 1e-9;
 
 /// Warning: a period of a response spectrum has fewer than ten time steps.
 ///
@@ -57,7 +62,7 @@ pub struct CoarseSpectrum {
 impl fmt::Display for CoarseSpectrum {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { period, time_step } = self;
-        let min_period = SAMPLES_PER_PERIOD * time_step;
+        let min_period = MIN_STEPS_PER_PERIOD * time_step;
         write!(
             f,
             "below a period of {min_period:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
@@ -81,7 +86,7 @@ impl Record {
     pub fn coarse_spectrum(&self, periods: &[f64]) -> Option<CoarseSpectrum> {
         let period = periods.iter().copied().reduce(f64::min)?;
         let time_step = self.time_step();
-        let is_coarse = period < SAMPLES_PER_PERIOD * time_step * (1.0 - 1e-9);
+        let is_coarse = period < MIN_STEPS_PER_PERIOD * time_step * (1.0 - PERIOD_ROUNDING);
         is_coarse.then_some(CoarseSpectrum { period, time_step })
     }
 
@@ -111,21 +116,21 @@ impl Record {
         damping: f64,
         observer: &mut Observer<'_>,
     ) -> Result<Vec<SpectralOrdinate>> {
-        let total = self.len().saturating_mul(periods.len());
-        let progress = &mut Watch::new("response spectrum", total, observer);
+        let part_count = self.len().saturating_mul(periods.len());
+        let progress = &mut ProgressReporter::new("response spectrum", part_count, observer);
         damping_ratio("damping ratio of a response spectrum", damping)?;
         let mut spectrum = Vec::with_capacity(periods.len());
-        for (number, &period) in periods.iter().enumerate() {
-            let mut report = |sample: usize| progress.reach(self.len() * number + sample);
+        for (period_index, &period) in periods.iter().enumerate() {
+            let mut report = |sample: usize| progress.reach(self.len() * period_index + sample);
             spectrum.push(self.spectral_ordinate(period, damping, &mut report)?);
             report(self.len())?;
         }
         Ok(spectrum)
     }
 
-    /// Response of one oscillator.
+    /// Largest responses of one oscillator.
     ///
-    /// After each block of substeps it calls `report` with the number of samples done.
+    /// `report` is called after each block of substeps with the number of samples done.
     fn spectral_ordinate(
         &self,
         period: f64,
@@ -133,28 +138,32 @@ impl Record {
         report: &mut dyn FnMut(usize) -> Result<()>,
     ) -> Result<SpectralOrdinate> {
         positive("period of a response spectrum", period)?;
-        let substeps = (SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
+        let substep_ratio = (MIN_SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
         let frequency = std::f64::consts::TAU / period;
-        let total = substeps * (self.len() as f64 + period / self.time_step());
-        let is_possible = total < MAX_SUBSTEPS && (frequency * frequency).is_finite();
-        let needed = "neither so short nor so long that 1e9 substeps would not do";
-        require("period of a response spectrum", period, is_possible, needed)?;
+        let total_substeps = substep_ratio * (self.len() as f64 + period / self.time_step());
+        let is_computable = total_substeps < MAX_SUBSTEPS && (frequency * frequency).is_finite();
+        let needed = "a period that needs at most 1e9 substeps: neither too short nor too long";
+        require("period of a response spectrum", period, is_computable, needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
-        let substeps = substeps as usize;
+        let substeps_per_step = substep_ratio as usize;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
-        let free_steps = (period / self.time_step()).ceil() as usize;
+        let free_step_count = (period / self.time_step()).ceil() as usize;
         let mut march = OscillatorMarch {
-            oscillator: Oscillator::new(frequency, damping, self.time_step() / substeps as f64),
-            substeps,
+            oscillator: Oscillator::new(
+                frequency,
+                damping,
+                self.time_step() / substeps_per_step as f64,
+            ),
+            substeps_per_step,
             substeps_done: 0,
             motion: RelativeMotion { displacement: 0.0, velocity: 0.0 },
             max_displacement: 0.0,
             max_acceleration: 0.0,
         };
-        for (sample, pair) in self.accelerations().windows(2).enumerate() {
-            march.step(pair[0], pair[1] - pair[0], &mut || report(sample))?;
+        for (index, pair) in self.accelerations().windows(2).enumerate() {
+            march.step(pair[0], pair[1] - pair[0], &mut || report(index))?;
         }
-        for _ in 0..free_steps {
+        for _ in 0..free_step_count {
             march.step(0.0, 0.0, &mut || report(self.len()))?;
         }
         let displacement = march.max_displacement;
@@ -172,15 +181,20 @@ impl Record {
 struct OscillatorMarch {
     oscillator: Oscillator,
     /// Number of substeps in a time step of the record.
-    substeps: usize,
+    substeps_per_step: usize,
+    /// Number of substeps so far.
     substeps_done: usize,
     motion: RelativeMotion,
+    /// Largest relative displacement so far, m.
     max_displacement: f64,
+    /// Largest total acceleration so far, m/s².
     max_acceleration: f64,
 }
 
 impl OscillatorMarch {
-    /// Advances by one time step, in which the ground's acceleration grows from `ground` by `growth`.
+    /// Advances by one time step of the record.
+    ///
+    /// The ground's acceleration (m/s²) is `ground` at its beginning and grows linearly by `growth`.
     fn step(
         &mut self,
         ground: f64,
@@ -188,24 +202,24 @@ impl OscillatorMarch {
         report: &mut dyn FnMut() -> Result<()>,
     ) -> Result<()> {
         let oscillator = &self.oscillator;
-        let substep_growth = growth / self.substeps as f64;
-        for k in 0..self.substeps {
+        let substep_growth = growth / self.substeps_per_step as f64;
+        for k in 0..self.substeps_per_step {
             self.substeps_done += 1;
             if self.substeps_done.is_multiple_of(SUBSTEPS_PER_REPORT) {
                 report()?;
             }
-            let ground_at_start = ground + growth * (k as f64 / self.substeps as f64);
+            let ground_at_start = ground + growth * (k as f64 / self.substeps_per_step as f64);
             let ground_at_end = ground_at_start + substep_growth;
-            let next = oscillator.next(self.motion, ground_at_start, substep_growth);
-            let displacements = [self.motion, next]
+            let next_motion = oscillator.next(self.motion, ground_at_start, substep_growth);
+            let displacements = [self.motion, next_motion]
                 .map(|motion| [motion.displacement, oscillator.step * motion.velocity]);
             let accelerations = [
                 oscillator.total_acceleration(self.motion, ground_at_start),
-                oscillator.total_acceleration(next, ground_at_end),
+                oscillator.total_acceleration(next_motion, ground_at_end),
             ];
             self.max_displacement = self.max_displacement.max(max_of_cubic(displacements));
             self.max_acceleration = self.max_acceleration.max(max_of_cubic(accelerations));
-            self.motion = next;
+            self.motion = next_motion;
         }
         Ok(())
     }
@@ -214,13 +228,17 @@ impl OscillatorMarch {
 /// Motion of an oscillator relative to the ground.
 #[derive(Clone, Copy)]
 struct RelativeMotion {
+    /// u, m.
     displacement: f64,
+    /// v, m/s.
     velocity: f64,
 }
 
-/// Exact recurrence over one substep.
+/// Oscillator with the exact recurrence of its motion over one substep.
 struct Oscillator {
+    /// ω, rad/s.
     frequency: f64,
+    /// ζ.
     damping: f64,
     /// Substep h, s.
     step: f64,
@@ -231,37 +249,45 @@ struct Oscillator {
 }
 
 impl Oscillator {
+    /// Oscillator of natural circular frequency (rad/s), damping ratio and substep (s).
     fn new(frequency: f64, damping: f64, step: f64) -> Self {
-        let damped = frequency * (1.0 - damping * damping).sqrt();
+        let damped_frequency = frequency * (1.0 - damping * damping).sqrt();
         let decay = (-damping * frequency * step).exp();
-        let cosine = decay * (damped * step).cos();
-        let sine = decay * (damped * step).sin() / damped;
+        let cosine = decay * (damped_frequency * step).cos();
+        let sine = decay * (damped_frequency * step).sin() / damped_frequency;
         Self { frequency, damping, step, cosine, sine }
     }
 
-    /// Motion a substep later; the ground's acceleration is `ground` now and grows by `growth`.
+    /// Motion one substep later.
+    ///
+    /// The ground's acceleration (m/s²) is `ground` at its beginning and grows linearly by `growth`.
     fn next(&self, motion: RelativeMotion, ground: f64, growth: f64) -> RelativeMotion {
         let Self { frequency, damping, step, cosine, sine } = *self;
-        let square = frequency * frequency;
-        let half_width = damping * frequency;
+        let squared_frequency = frequency * frequency;
+        let decay_rate = damping * frequency;
         // Particular solution u = p + q t of the linear load, and the vibration about it.
-        let q = -growth / step / square;
-        let p = -ground / square - 2.0 * damping * q / frequency;
+        let q = -growth / step / squared_frequency;
+        let p = -ground / squared_frequency - 2.0 * damping * q / frequency;
         let u = motion.displacement - p;
         let v = motion.velocity - q;
-        let damped_velocity = v + half_width * u;
+        let damped_velocity = v + decay_rate * u;
         let displacement = cosine * u + sine * damped_velocity;
-        let velocity = cosine * v - sine * (half_width * v + square * u);
+        let velocity = cosine * v - sine * (decay_rate * v + squared_frequency * u);
         RelativeMotion { displacement: displacement + p + q * step, velocity: velocity + q }
     }
 
     /// Total acceleration, and its rate times the substep.
     fn total_acceleration(&self, motion: RelativeMotion, ground: f64) -> [f64; 2] {
         let RelativeMotion { displacement: u, velocity: v } = motion;
-        let square = self.frequency * self.frequency;
-        let total = -square * u - 2.0 * self.damping * self.frequency * v;
-        let relative = total - ground;
-        [total, -self.step * (square * v + 2.0 * self.damping * self.frequency * relative)]
+        let squared_frequency = self.frequency * self.frequency;
+        let total_acceleration = -squared_frequency * u - 2.0 * self.damping * self.frequency * v;
+        let relative_acceleration = total_acceleration - ground;
+        [
+            total_acceleration,
+            -self.step
+                * (squared_frequency * v
+                    + 2.0 * self.damping * self.frequency * relative_acceleration),
+        ]
     }
 }
 
@@ -274,7 +300,7 @@ fn max_of_cubic(ends: [[f64; 2]; 2]) -> f64 {
     if s0 * s1 >= 0.0 {
         return at_ends;
     }
-    // f = f0 + s0 x + b x² + c x³; one root of f' lies between.
+    // f = f0 + s0 x + b x² + c x³ has an extreme between the ends, since its slopes there differ in sign.
     let b = 3.0 * (f1 - f0) - 2.0 * s0 - s1;
     let c = 2.0 * (f0 - f1) + s0 + s1;
     super::quadratic_roots_within(s0, 2.0 * b, 3.0 * c, 1.0)

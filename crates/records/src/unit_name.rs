@@ -10,7 +10,7 @@ use crate::text::words::unknown;
 /// Names of the second, in lower case.
 pub(super) const SECOND_NAMES: [&str; 5] = ["s", "sec", "secs", "second", "seconds"];
 
-/// Names of the lengths in units of acceleration, in lower case.
+/// Names of lengths, in lower case, and the units of acceleration with these lengths.
 const LENGTH_NAMES: [(&str, AccelerationUnit); 14] = [
     ("m", AccelerationUnit::MetrePerSecondSquared),
     ("meter", AccelerationUnit::MetrePerSecondSquared),
@@ -28,7 +28,7 @@ const LENGTH_NAMES: [(&str, AccelerationUnit); 14] = [
     ("inches", AccelerationUnit::InchPerSecondSquared),
 ];
 
-/// Units of other quantities than acceleration, and multiples of g and gal, in lower case, between strokes.
+/// Names, in lower case and separated by `|`, of units of other quantities and of multiples of g and gal.
 const OTHER_UNIT_NAMES: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|milliseconds|µs|μs|min|mins|minute|\
     minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
     milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
@@ -69,15 +69,21 @@ impl FromStr for AccelerationUnit {
     }
 }
 
-/// Whether a text is the name of a unit, of acceleration or another one; a letter alone only in lower case.
+/// Whether a text is the name of a unit, of any quantity.
+///
+/// A single letter is a unit of another quantity only in lower case.
 pub(super) fn is_unit(text: &str) -> bool {
     let text = text.trim().trim_end_matches('.');
     if text.len() > MAX_UNIT_NAME_BYTES {
         return false;
     }
-    let lower = text.to_lowercase();
-    let is_other = is_other_unit(&lower) && (text.len() > 1 || lower == text);
-    is_other || AccelerationUnit::named(text).is_some() || is_ratio(text) || is_multiple(text)
+    let lower_case_text = text.to_lowercase();
+    let is_other_quantity =
+        is_other_unit(&lower_case_text) && (text.len() > 1 || lower_case_text == text);
+    is_other_quantity
+        || AccelerationUnit::named(text).is_some()
+        || is_ratio_of_units(text)
+        || is_multiple(text)
 }
 
 /// Whether a name in lower case is among [`OTHER_UNIT_NAMES`].
@@ -86,12 +92,13 @@ fn is_other_unit(name: &str) -> bool {
 }
 
 /// Whether a text is a ratio of units: `cm/s`, `m/s3`, `rad/s2`, `V/g`.
-pub(super) fn is_ratio(text: &str) -> bool {
+pub(super) fn is_ratio_of_units(text: &str) -> bool {
     if text.len() > MAX_UNIT_NAME_BYTES {
         return false;
     }
-    let lower = text.to_lowercase();
-    length_per_time(text).is_some() || lower.contains('/') && lower.split('/').all(is_unit_power)
+    let lower_case_text = text.to_lowercase();
+    length_per_time(text).is_some()
+        || lower_case_text.contains('/') && lower_case_text.split('/').all(is_unit_power)
 }
 
 /// Whether a text in lower case is a unit or its square or cube.
@@ -101,35 +108,38 @@ fn is_unit_power(text: &str) -> bool {
     unit != "h" && (is_other_unit(unit) || ["g", "gal", "rad", "deg"].contains(&unit))
 }
 
-/// A length over a power of the second: the unit of acceleration with this length, and the power.
+/// Reads a length over a power of the second.
+///
+/// Returns the unit of acceleration with this length, and the power.
 fn length_per_time(name: &str) -> Option<(AccelerationUnit, u32)> {
     let name = name.trim().trim_end_matches('.');
-    let mut compact = String::new();
-    let spelled = name.to_lowercase().replace("**", "");
-    let spelled = ["_per_", " per "].iter().fold(spelled, |text, per| text.replace(per, "/"));
+    let mut compact_name = String::new();
+    let spelled_name = name.to_lowercase().replace("**", "");
+    let spelled_name =
+        ["_per_", " per "].iter().fold(spelled_name, |text, word| text.replace(word, "/"));
     let mut has_separator = false;
-    for character in spelled.chars() {
+    for character in spelled_name.chars() {
         match character {
             // A `²` that is not in UTF-8 is read as U+FFFD.
-            '²' | '\u{fffd}' => compact.push('2'),
-            '³' => compact.push('3'),
-            '¹' => compact.push('1'),
-            '⁻' | '−' => compact.push('-'),
+            '²' | '\u{fffd}' => compact_name.push('2'),
+            '³' => compact_name.push('3'),
+            '¹' => compact_name.push('1'),
+            '⁻' | '−' => compact_name.push('-'),
             ' ' | '\t' | '_' | '.' | '·' | '⋅' | '*' => has_separator = true,
             '^' | '(' | ')' | '{' | '}' | '$' => {}
-            other => compact.push(other),
+            other => compact_name.push(other),
         }
     }
     // `MS-2` is a channel, `ms-2` a unit.
-    let is_lower_case = spelled == name;
+    let is_lower_case = spelled_name == name;
     LENGTH_NAMES.iter().find_map(|&(length, unit)| {
-        let rest = compact.strip_prefix(length)?;
-        let power = match rest.strip_prefix('/') {
-            Some(rest) => power_of_divisor(rest),
-            None => match rest.strip_prefix('p').filter(|_| is_lower_case) {
-                Some(rest) => power_of_divisor(rest),
+        let divisor = compact_name.strip_prefix(length)?;
+        let power = match divisor.strip_prefix('/') {
+            Some(time) => power_of_divisor(time),
+            None => match divisor.strip_prefix('p').filter(|_| is_lower_case) {
+                Some(time) => power_of_divisor(time),
                 None if has_separator || is_lower_case && length.len() <= 2 && length != "in" => {
-                    negative_power(rest)
+                    negative_power(divisor)
                 }
                 None => None,
             },
@@ -144,7 +154,7 @@ fn power_of_divisor(text: &str) -> Option<u32> {
         "" => Some(1),
         "2" | "-2" => Some(2),
         "3" | "-3" => Some(3),
-        rest => SECOND_NAMES.contains(&rest.trim_start_matches('/')).then_some(2),
+        product => SECOND_NAMES.contains(&product.trim_start_matches('/')).then_some(2),
     })
 }
 
@@ -160,25 +170,25 @@ fn negative_power(text: &str) -> Option<u32> {
 
 /// Whether a text is a unit of acceleration with a factor: `10^-3 g`, `g/1000`, `m/s2 x 100`, `% of g`.
 fn is_multiple(text: &str) -> bool {
-    let lower = text.to_lowercase();
+    let lower_case_text = text.to_lowercase();
     for word in ["%", "percent", "per cent", "milli"] {
-        if let Some(rest) = lower.strip_prefix(word) {
-            let rest = rest.trim_start();
-            let unit = rest.strip_prefix("of ").unwrap_or(rest);
+        if let Some(text_after_word) = lower_case_text.strip_prefix(word) {
+            let text_after_word = text_after_word.trim_start();
+            let unit = text_after_word.strip_prefix("of ").unwrap_or(text_after_word);
             if AccelerationUnit::named(unit).is_some() {
                 return true;
             }
         }
     }
-    lower.char_indices().skip(1).any(|(position, _)| {
-        let head = &lower[..position];
-        let tail = &lower[position..];
-        // `50g` is the level of a centrifuge.
-        let is_small = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
-        let has_factor_before = is_small || is_factor(head, &[]);
-        let has_factor_behind = is_factor(tail, &['/', '*', 'x', '×', '·']);
+    lower_case_text.char_indices().skip(1).any(|(position, _)| {
+        let head = &lower_case_text[..position];
+        let tail = &lower_case_text[position..];
+        // A large number before `g`, as in `50g`, is the acceleration level of a centrifuge test.
+        let is_small_factor = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
+        let has_factor_before = is_small_factor || is_factor(head, &[]);
+        let has_factor_after = is_factor(tail, &['/', '*', 'x', '×', '·']);
         AccelerationUnit::named(tail).is_some() && has_factor_before
-            || AccelerationUnit::named(head).is_some() && has_factor_behind
+            || AccelerationUnit::named(head).is_some() && has_factor_after
     })
 }
 
@@ -195,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn accelerations_are_known_by_all_their_names() {
+    fn names_of_accelerations_are_read() {
         use AccelerationUnit::{
             FootPerSecondSquared, Gal, InchPerSecondSquared, MetrePerSecondSquared,
             MillimetrePerSecondSquared, StandardGravity,
@@ -224,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_told_from_other_text() {
+    fn units_are_distinguished_from_other_text() {
         let units = "mg|%g|% g|% of g|percent g|milli-g|mgal|10^-3 g|1e-3 g|0.001 g|0.01g|.1 gal|g/1000|g*1000|\
             g x 1000|cm/s2 x 10|cm/s|m/s3|m s-1|rad/s2|V/g|counts|ms|MS|sec.|µs|samples|mps";
         for text in units.split('|') {
