@@ -9,7 +9,7 @@ use super::iteration::{
 };
 use super::soil_column::SoilColumn;
 use super::transform::PartProgress;
-use crate::error::{Observer, Result, Watch};
+use crate::error::{Observer, ProgressReporter, Result};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
 use crate::soil::{
@@ -116,7 +116,7 @@ impl SoilColumn {
             .most_iterations
             .saturating_add(1)
             .saturating_mul(PartProgress::STEPS_PER_PART);
-        let mut watch = Watch::new("equivalent-linear response", total, observer);
+        let mut watch = ProgressReporter::new("equivalent-linear response", total, observer);
         let mut iteration = Iteration::new(self, motion, curves, options)?;
         let Converged { properties, strains, iterations, last_change } =
             iteration.converged(&mut watch)?;

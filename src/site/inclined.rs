@@ -8,7 +8,9 @@ use super::site_motion::SiteMotion;
 use super::slowness::IncidentWave;
 use super::transform::PartProgress;
 use super::transform::{Contour, ContourPoint};
-use crate::error::{Error, Observer, Result, SoilError, Watch, finite, not_negative, positive};
+use crate::error::{
+    Error, Observer, ProgressReporter, Result, SoilError, finite, not_negative, positive,
+};
 use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, Triaxial, check_prescribed};
 use crate::soil::{Bedrock, Soil, SoilProfile};
@@ -160,8 +162,11 @@ impl InclinedWave {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<[SiteMotion; 2]> {
-        let watch =
-            &mut Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
+        let watch = &mut ProgressReporter::new(
+            "motion of the surface",
+            PartProgress::STEPS_PER_PART,
+            observer,
+        );
         let mut found = self.filtered(control, time_step, motion, watch)?;
         for found in &mut found {
             found.cut(motion.len());
@@ -175,7 +180,7 @@ impl InclinedWave {
         control: InclinedControl,
         time_step: f64,
         motion: &[f64],
-        watch: &mut Watch<'_>,
+        watch: &mut ProgressReporter<'_>,
     ) -> Result<[SiteMotion; 2]> {
         positive("time step of a motion", time_step)?;
         self.check(control)?;
@@ -204,7 +209,7 @@ impl InclinedWave {
         record: &Record,
         origin: f64,
     ) -> Result<TravellingWave> {
-        let surface = self.surface(control, record, &mut Watch::nobody())?;
+        let surface = self.surface(control, record, &mut ProgressReporter::unobserved())?;
         TravellingWave::new(surface, self.apparent_velocity(), origin)
     }
 
@@ -220,7 +225,8 @@ impl InclinedWave {
         record: &Record,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let mut watch = Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
+        let mut watch =
+            ProgressReporter::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
         self.surface(control, record, &mut watch)
     }
 
@@ -228,7 +234,7 @@ impl InclinedWave {
         &self,
         control: InclinedControl,
         record: &Record,
-        watch: &mut Watch<'_>,
+        watch: &mut ProgressReporter<'_>,
     ) -> Result<Triaxial> {
         let step = record.time_step();
         let [mut horizontal, mut vertical] =

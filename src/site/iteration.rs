@@ -7,7 +7,7 @@ use super::soil_column::SoilColumn;
 use super::transform::PartProgress;
 use super::transform::Transform;
 use super::vertical::{ColumnQuantity, ControlPoint, VerticalWave};
-use crate::error::{Error, Result, Watch, positive, require, require_part, same_length};
+use crate::error::{Error, ProgressReporter, Result, positive, require, require_part, same_length};
 use crate::motion::Record;
 use crate::soil::{
     Bedrock, GeneralizedMaxwell, Hysteretic, Relaxation, ResolvedCurves, Soil, SoilLayer,
@@ -265,7 +265,7 @@ impl<'a> Iteration<'a> {
     }
 
     /// Iterates moduli and damping ratios, starting at small strain.
-    pub(super) fn converged(&mut self, watch: &mut Watch<'_>) -> Result<Converged> {
+    pub(super) fn converged(&mut self, watch: &mut ProgressReporter<'_>) -> Result<Converged> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;
         let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];

@@ -7,7 +7,7 @@ use super::site_motion::SiteMotion;
 use super::transform::PartProgress;
 use super::transform::{Contour, ContourPoint, Transform};
 use super::vertical::{ColumnFunctions, ColumnQuantity, ControlPoint, VerticalWave};
-use crate::error::{Observer, Result, Watch, not_negative};
+use crate::error::{Observer, ProgressReporter, Result, not_negative};
 use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
 use crate::soil::SoilProfile;
@@ -93,7 +93,7 @@ impl SoilColumn {
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<Complex>> {
-        let mut watch = Watch::new("transfer function", frequencies.len(), observer);
+        let mut watch = ProgressReporter::new("transfer function", frequencies.len(), observer);
         let functions =
             ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
         let mut found = Vec::with_capacity(frequencies.len());
@@ -131,7 +131,8 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch = Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
+        let mut watch =
+            ProgressReporter::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
         self.filtered(control, time_step, motion, upwards, &mut watch)
     }
 
@@ -172,7 +173,8 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch = Watch::new("motion at depth", PartProgress::STEPS_PER_PART, observer);
+        let mut watch =
+            ProgressReporter::new("motion at depth", PartProgress::STEPS_PER_PART, observer);
         self.filtered(control, time_step, motion, downwards, &mut watch)
     }
 
@@ -212,7 +214,7 @@ impl SoilColumn {
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
         let steps = 3 * PartProgress::STEPS_PER_PART;
-        let watch = &mut Watch::new("motion of the surface", steps, observer);
+        let watch = &mut ProgressReporter::new("motion of the surface", steps, observer);
         let mut surface_record = |part, wave, record: Option<&Record>| {
             let mut progress = PartProgress::part(watch, part);
             Self::surface_record(profile, wave, control, record, &mut progress)
@@ -251,7 +253,7 @@ impl SoilColumn {
         time_step: f64,
         motion: &[f64],
         filter: Filter,
-        watch: &mut Watch<'_>,
+        watch: &mut ProgressReporter<'_>,
     ) -> Result<SiteMotion> {
         let mut found =
             self.whole(control, time_step, motion, filter, &mut PartProgress::whole(watch))?;

@@ -12,7 +12,9 @@ use basemat_fourier::num_complex::Complex64;
 use basemat_fourier::{ComplexToReal, RealPlanner};
 
 use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
-use crate::error::{Error, Result, Watch, finite, memory, positive, require, same_length};
+use crate::error::{
+    Error, ProgressReporter, Result, finite, memory, positive, require, same_length,
+};
 use crate::linalg::{Complex, largest};
 
 /// ηT: wrap-around is reduced to e^(−24).
@@ -358,7 +360,7 @@ impl SpectrumSums {
 
 /// One of the equal parts of a call through a site, for its observer.
 pub(super) struct PartProgress<'p, 'w> {
-    watch: &'p mut Watch<'w>,
+    watch: &'p mut ProgressReporter<'w>,
     begin: usize,
 }
 
@@ -367,12 +369,12 @@ impl<'p, 'w> PartProgress<'p, 'w> {
     pub(super) const STEPS_PER_PART: usize = 1000;
 
     /// A call of one part.
-    pub(super) fn whole(watch: &'p mut Watch<'w>) -> Self {
+    pub(super) fn whole(watch: &'p mut ProgressReporter<'w>) -> Self {
         Self::part(watch, 0)
     }
 
     /// The part with this number, from 0.
-    pub(super) fn part(watch: &'p mut Watch<'w>, number: usize) -> Self {
+    pub(super) fn part(watch: &'p mut ProgressReporter<'w>, number: usize) -> Self {
         Self { watch, begin: number.saturating_mul(Self::STEPS_PER_PART) }
     }
 

@@ -4,7 +4,7 @@ use super::transform::PartProgress;
 use super::trench_waves::{LevelRecords, SurfaceRecords, TrenchWaves, VALUE_COUNT};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
-use crate::error::{Observer, Result, Watch};
+use crate::error::{Observer, ProgressReporter, Result};
 use crate::linalg::gauss;
 use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 
@@ -85,8 +85,11 @@ impl TrenchMotion {
         let waves = TrenchWaves::new(ground, 0.0)?;
         let components_of_surface = [&surface.horizontal, &surface.vertical];
         let count = components_of_surface.iter().filter(|record| record.is_some()).count();
-        let mut watch =
-            Watch::new("motion at depth", count * PartProgress::STEPS_PER_PART, observer);
+        let mut watch = ProgressReporter::new(
+            "motion at depth",
+            count * PartProgress::STEPS_PER_PART,
+            observer,
+        );
         let mut components = vec![];
         for (kind, record) in components_of_surface.into_iter().enumerate() {
             let Some(record) = record else { continue };
@@ -151,7 +154,8 @@ impl TrenchMotion {
     ) -> Result<Self> {
         let [slowness, origin] = wave.along()?;
         let waves = TrenchWaves::new(ground, slowness)?;
-        let mut watch = Watch::new("motion at depth", 2 * PartProgress::STEPS_PER_PART, observer);
+        let mut watch =
+            ProgressReporter::new("motion at depth", 2 * PartProgress::STEPS_PER_PART, observer);
         let SurfaceRecords { lead, records } = waves.surface(wave, origin)?;
         let mut components = vec![];
         for (kind, record) in records.iter().enumerate() {

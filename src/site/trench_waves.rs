@@ -10,7 +10,7 @@ use super::transform::PartProgress;
 use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};
-use crate::error::{Result, Watch, memory, require, require_part};
+use crate::error::{ProgressReporter, Result, memory, require, require_part};
 use crate::linalg::{Complex, gauss};
 use crate::motion::{FreeField, Record, TravellingWave};
 use crate::soil::SoilProfile;
@@ -238,7 +238,7 @@ impl<'a> TrenchWaves<'a> {
 /// Record of the acceleration whose sum by the trapezoidal rule is the velocity.
 fn differentiated(velocity: &[f64], step: f64) -> Result<Record> {
     let contour = Contour::new(step, velocity.len(), 0.0)?;
-    let mut watch = Watch::nobody();
+    let mut watch = ProgressReporter::unobserved();
     let mut progress = PartProgress::whole(&mut watch);
     let [mut acceleration] = contour.filtered(velocity, &mut progress, |places, filters| {
         for (filter, place) in filters.iter_mut().zip(places) {

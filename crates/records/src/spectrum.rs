@@ -10,7 +10,7 @@
 use std::fmt;
 
 use super::Record;
-use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
+use crate::error::{Observer, ProgressReporter, Result, damping_ratio, positive, require};
 
 /// Smallest number of substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
@@ -112,7 +112,7 @@ impl Record {
         observer: &mut Observer<'_>,
     ) -> Result<Vec<SpectralOrdinate>> {
         let total = self.len().saturating_mul(periods.len());
-        let progress = &mut Watch::new("response spectrum", total, observer);
+        let progress = &mut ProgressReporter::new("response spectrum", total, observer);
         damping_ratio("damping ratio of a response spectrum", damping)?;
         let mut spectrum = Vec::with_capacity(periods.len());
         for (number, &period) in periods.iter().enumerate() {

@@ -22,7 +22,7 @@ use std::time::Duration;
 
 use super::block_file::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use super::block_file::{read, write};
-use crate::error::{Error, Result, Watch, require, same_length};
+use crate::error::{Error, ProgressReporter, Result, require, same_length};
 
 /// Time between two checks whether another thread has finished.
 const LOCK_POLL_INTERVAL: Duration = Duration::from_millis(20);
@@ -54,8 +54,8 @@ impl BlockStore {
     pub(crate) fn block(
         &self,
         number: usize,
-        watch: &mut Watch,
-        compute: impl FnOnce(&mut Watch) -> Result<LagBlock>,
+        watch: &mut ProgressReporter,
+        compute: impl FnOnce(&mut ProgressReporter) -> Result<LagBlock>,
     ) -> Result<&LagBlock> {
         self.once(&self.blocks[number], watch, compute)
     }
@@ -74,8 +74,8 @@ impl BlockStore {
     /// Fingerprint from `check`, which runs once; afterwards the blocks of the file are stored.
     pub(crate) fn fingerprint(
         &self,
-        watch: &mut Watch,
-        check: impl FnOnce(&mut Watch) -> Result<u64>,
+        watch: &mut ProgressReporter,
+        check: impl FnOnce(&mut ProgressReporter) -> Result<u64>,
     ) -> Result<u64> {
         let outcome = self.once(&self.fingerprint, watch, |watch| {
             let fingerprint = check(watch)?;
@@ -103,8 +103,8 @@ impl BlockStore {
     pub(crate) fn once<'a, T>(
         &self,
         place: &'a OnceLock<Result<T>>,
-        watch: &mut Watch,
-        compute: impl FnOnce(&mut Watch) -> Result<T>,
+        watch: &mut ProgressReporter,
+        compute: impl FnOnce(&mut ProgressReporter) -> Result<T>,
     ) -> Result<&'a T> {
         if let Some(stored) = place.get() {
             return stored.as_ref().map_err(Clone::clone);
@@ -121,7 +121,7 @@ impl BlockStore {
     }
 
     /// Waits for the lock; returns early if the observer stops the run.
-    fn lock(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
+    fn lock(&self, watch: &mut ProgressReporter) -> Result<MutexGuard<'_, ()>> {
         while watch.has_observer() {
             match self.computing.try_lock() {
                 Ok(guard) => return Ok(guard),

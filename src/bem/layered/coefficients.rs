@@ -31,7 +31,7 @@ use super::panel_evaluation::evaluate;
 use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
-use crate::error::{Error, Result, Watch};
+use crate::error::{Error, ProgressReporter, Result};
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -45,7 +45,7 @@ pub(super) const SAMPLING_TOLERANCE_FACTOR: f64 = 100.0;
 
 /// Progress of a block's samples, reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
-    watch: &'w mut Watch<'a>,
+    watch: &'w mut ProgressReporter<'a>,
     /// Expected numbers of samples up to the beginning of this block, and up to its end.
     expected: Range<usize>,
     /// Number of samples of this block made so far.
@@ -54,7 +54,7 @@ pub(crate) struct Samples<'w, 'a> {
 
 impl<'w, 'a> Samples<'w, 'a> {
     /// No samples yet of a block with these `expected` numbers.
-    pub(crate) fn new(watch: &'w mut Watch<'a>, expected: Range<usize>) -> Self {
+    pub(crate) fn new(watch: &'w mut ProgressReporter<'a>, expected: Range<usize>) -> Self {
         Self { watch, expected, done: 0 }
     }
 

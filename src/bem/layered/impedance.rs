@@ -12,7 +12,7 @@ use basemat_fourier::num_complex::Complex64;
 use super::passivity::assembled;
 use super::static_compliance;
 use super::wavenumber::{Compliances, StripWorkspace, Wavenumbers, unresolved};
-use crate::error::{Error, Observer, Result, Watch, not_negative, require};
+use crate::error::{Error, Observer, ProgressReporter, Result, not_negative, require};
 use crate::geometry::ContactElement;
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
@@ -89,8 +89,8 @@ const EXTRAPOLATION_TOLERANCE: f64 = 1e-3;
 pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
     observer: &'a mut Observer<'_>,
-) -> Watch<'a> {
-    Watch::new("impedances", POINTS_PER_FREQUENCY * frequencies.len(), observer)
+) -> ProgressReporter<'a> {
+    ProgressReporter::new("impedances", POINTS_PER_FREQUENCY * frequencies.len(), observer)
 }
 
 /// Dynamic stiffness of all `elements` on `profile` as one rigid body, at each of `frequencies` (Hz).
@@ -99,7 +99,7 @@ pub(in crate::bem) fn strip_impedances(
     elements: &[ContactElement],
     frequencies: &[f64],
     contact: StripContact,
-    watch: &mut Watch,
+    watch: &mut ProgressReporter,
 ) -> Result<Vec<StripImpedance>> {
     let strip = RigidStripSystem::new(profile, elements, contact)?;
     let mut variables = Vec::with_capacity(frequencies.len());
@@ -156,7 +156,7 @@ pub(in crate::bem) fn laplace_variables(
 pub(in crate::bem) fn extrapolated_stiffnesses<const N: usize>(
     variables: &[Vec<Complex>],
     checked_entries: &[usize],
-    watch: &mut Watch,
+    watch: &mut ProgressReporter,
     mut stiffness: impl FnMut(Complex) -> Result<[Complex; N]>,
 ) -> Result<Vec<[Complex; N]>> {
     let mut stiffnesses = Vec::with_capacity(variables.len());

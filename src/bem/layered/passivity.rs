@@ -5,7 +5,7 @@ use basemat_fourier::num_complex::Complex64;
 use super::coefficients::Quadrature;
 use super::threads::{on_threads, threads};
 use super::wavenumber::Compliances;
-use crate::error::{Error, Result, Watch};
+use crate::error::{Error, ProgressReporter, Result};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
@@ -33,7 +33,7 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     quadrature: &Quadrature<I, KINDS>,
     classes: &PairClasses,
     mesh: &[f64],
-    watch: &mut Watch,
+    watch: &mut ProgressReporter,
 ) -> Result<u64> {
     let order = classes.layout().len();
     let allowed = -quadrature.tolerance * order as f64;

@@ -16,7 +16,7 @@ use super::form_factors::{
     FormFactors, LEGENDRE_DEGREES, PAIR_LANES, PANEL_POINTS, Panel, Sums, accumulate, legendre,
 };
 use super::tail::{TAIL_START_RATIO, TAIL_TERMS, Tails, on_grid, surface_series};
-use crate::error::{Error, GroundError, Result, Watch};
+use crate::error::{Error, GroundError, ProgressReporter, Result};
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -45,7 +45,7 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
-    fn make_ready(&self, _watch: &mut Watch) -> Result<()> {
+    fn make_ready(&self, _watch: &mut ProgressReporter) -> Result<()> {
         Ok(())
     }
 

@@ -10,7 +10,7 @@ use super::passivity;
 use super::runge_kutta::Stages;
 use super::threads::threads;
 use super::wavenumber::{Compliances, Wavenumbers};
-use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
+use crate::error::{Observer, ProgressReporter, Result, in_bounds, memory, positive};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, PairClasses, STRIP_KINDS, SharedSpectra, by_kind};
 use crate::soil::SoilProfile;
@@ -71,14 +71,19 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     }
 
     /// Block `number`; computed now if it is not stored.
-    fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&LagBlock> {
+    fn block(
+        &self,
+        number: usize,
+        watch: &mut ProgressReporter,
+        expected: Range<usize>,
+    ) -> Result<&LagBlock> {
         self.blocks.block(number, watch, |watch| {
             self.quadrature.block(number, threads(), Samples::new(watch, expected))
         })
     }
 
     /// Checks passivity once, and returns the fingerprint of the weights.
-    pub(in crate::bem) fn check_passivity(&self, watch: &mut Watch) -> Result<u64> {
+    pub(in crate::bem) fn check_passivity(&self, watch: &mut ProgressReporter) -> Result<u64> {
         self.blocks.fingerprint(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
             let checked = self.sample.as_ref().unwrap_or(&self.classes);
@@ -106,7 +111,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
             sample_counts[number] = self.quadrature.max_samples(number);
         }
         let total = I::PASSIVITY_POINTS + sample_counts.iter().sum::<usize>();
-        let mut watch = Watch::new("convolution weights of layered ground", total, observer);
+        let mut watch =
+            ProgressReporter::new("convolution weights of layered ground", total, observer);
         let fingerprint = self.check_passivity(&mut watch)?;
         let is_complete = self.blocks.missing(0..last + 1).is_empty();
         let mut done = I::PASSIVITY_POINTS;
@@ -140,9 +146,9 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         copy_lags(class, first_lag, values, |number| {
             if !self.blocks.has(number) {
                 self.check_memory(&(number..number + 1))?;
-                self.check_passivity(&mut Watch::nobody())?;
+                self.check_passivity(&mut ProgressReporter::unobserved())?;
             }
-            self.block(number, &mut Watch::nobody(), 0..0)
+            self.block(number, &mut ProgressReporter::unobserved(), 0..0)
         })
     }
 

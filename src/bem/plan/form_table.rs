@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 use super::corner_waves::{CornerWaves, WaveBuffers};
 use super::forms::{AngularMeans, FORM_COUNT, integrals};
 use crate::bem::layered::{LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, threads};
-use crate::error::{GroundError, Result, Watch, memory};
+use crate::error::{GroundError, ProgressReporter, Result, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
@@ -238,7 +238,7 @@ impl FormTable {
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
-    pub(super) fn tabulate(&self, progress: &mut Watch) -> Result<()> {
+    pub(super) fn tabulate(&self, progress: &mut ProgressReporter) -> Result<()> {
         if self.tabulated.get().is_some() {
             return Ok(());
         }
@@ -302,7 +302,7 @@ impl FormTable {
     /// Calls `take` with each panel up to K*, from the last to the first, and its forms at all points.
     fn for_each_panel_backwards(
         &self,
-        progress: &mut Watch,
+        progress: &mut ProgressReporter,
         mut take: impl FnMut(usize, &[f64]),
     ) -> Result<()> {
         let panels: Vec<_> = (0..self.panel_count).rev().collect();

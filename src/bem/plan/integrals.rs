@@ -22,7 +22,7 @@ use crate::bem::layered::{
     ROUNDING_FLOOR_FACTOR, SurfaceCompliance, by_halves, deep, last_coefficients, legendre, median,
     surface_outlook, surface_series, unresolved,
 };
-use crate::error::{GroundError, Result, Watch};
+use crate::error::{GroundError, ProgressReporter, Result};
 use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -110,7 +110,7 @@ impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
     /// to 1e-10, and up to 32 768 lags.
     const LATE_ERROR_FACTOR: f64 = 5.0;
 
-    fn make_ready(&self, progress: &mut Watch) -> Result<()> {
+    fn make_ready(&self, progress: &mut ProgressReporter) -> Result<()> {
         self.table.tabulate(progress)
     }
 
@@ -162,7 +162,7 @@ impl CellIntegrals {
         profile: &SoilProfile,
         variables: impl IntoIterator<Item = Complex>,
         tolerance: f64,
-        progress: &mut Watch,
+        progress: &mut ProgressReporter,
     ) -> Result<Self> {
         let integrals = Self::untabulated(lattice, profile, variables, tolerance)?;
         integrals.table.tabulate(progress)?;

@@ -9,7 +9,7 @@ use crate::bem::layered::{
     CirclePoint, Compliances, INTEGRAL_TOLERANCE_FACTOR, Quadrature, QuadratureWeights, Stages,
     on_circle,
 };
-use crate::error::{Result, Watch, positive, same_length};
+use crate::error::{ProgressReporter, Result, positive, same_length};
 use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
@@ -39,7 +39,7 @@ pub(in crate::bem) fn static_compliance(
     let classes = plan.classes()?;
     same_length("static compliance", matrix.len(), classes.layout().square())?;
     let s = Complex::default();
-    let mut progress = Watch::nobody();
+    let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(&plan.lattice, profile, [s], tolerance, &mut progress)?;
     let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; classes.count()];
     integrals.compliance(profile, s, &mut CellWorkspace::default(), &mut values)?;

@@ -291,7 +291,7 @@ mod tests {
     use super::*;
     use crate::bem::layered::Compliances;
     use crate::bem::plan::integrals::{CellIntegrals, CellWorkspace};
-    use crate::error::Watch;
+    use crate::error::ProgressReporter;
     use crate::soil::{Soil, SoilProfile};
 
     /// Symmetry changes no result: even and odd numbers of cells, one axis, a rotation by 180°, none.
@@ -324,7 +324,7 @@ mod tests {
         let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
         for (plan, order) in plans {
             let s = Complex::new(0.1, 0.8);
-            let mut progress = Watch::nobody();
+            let mut progress = ProgressReporter::unobserved();
             let integrals =
                 CellIntegrals::new(&plan.lattice, &profile, [s], 1e-9, &mut progress).unwrap();
             let mut work = CellWorkspace::default();

@@ -16,7 +16,7 @@ use super::convolution_weights::{ConvolutionWeights, LateWeights};
 use super::relaxed_fft::{HistoryBlocks, LEAF_STEPS, bounded, bytes_of_blocks};
 use super::shared_spectra::{SharedSpectra, lock};
 use crate::error::{
-    CheckpointError, Error, MemoryError, Observer, Result, Watch, require, same_length,
+    CheckpointError, Error, MemoryError, Observer, ProgressReporter, Result, require, same_length,
 };
 
 /// Longest window, lags.
@@ -303,7 +303,7 @@ impl ConvolutionHistory for ExponentialHistory {
 
     /// Does nothing: memory does not grow.
     fn prepare(&mut self, _steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        Watch::new("history by exponentials", 1, observer).reach(1)
+        ProgressReporter::new("history by exponentials", 1, observer).reach(1)
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {

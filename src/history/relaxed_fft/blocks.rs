@@ -1,6 +1,6 @@
 //! Blocks of inputs and outputs, over pairs of elements or over wavenumbers.
 
-use crate::error::{Result, Watch};
+use crate::error::{ProgressReporter, Result};
 use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Number of parts in which the computation of spectra is observed.
@@ -23,7 +23,7 @@ pub(crate) trait HistoryBlocks: Send {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()>;
 
     /// Makes the blocks ready for any number of steps, in memory that does not grow.
@@ -35,7 +35,7 @@ pub(crate) trait HistoryBlocks: Send {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         last_delay: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()>;
 
     /// Adds the effect of the last input, so that the output of `now` is complete.

@@ -27,7 +27,8 @@ use super::convolution::{ConvolutionHistory, check_inputs};
 use super::convolution_weights::ConvolutionWeights;
 use super::last_lag::LastLag;
 use crate::error::{
-    Error, MemoryError, Observer, Progress, Result, Watch, memory_limit, same_length, unobserved,
+    Error, MemoryError, Observer, Progress, ProgressReporter, Result, memory_limit, same_length,
+    unobserved,
 };
 pub(crate) use crate::history::relaxed_fft::blocks::HistoryBlocks;
 use crate::history::relaxed_fft::blocks::SPECTRA_PROGRESS_PARTS;
@@ -177,7 +178,11 @@ impl RelaxedFftHistory {
     }
 
     /// Makes blocks ready for at least `steps` steps, and returns them.
-    fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn HistoryBlocks> {
+    fn grow(
+        &mut self,
+        steps: usize,
+        watch: &mut ProgressReporter,
+    ) -> Result<&mut dyn HistoryBlocks> {
         if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity())
             && self.last_lag.is_none()
         {
@@ -229,9 +234,9 @@ impl RelaxedFftHistory {
     fn complete_output(&mut self) -> Result<&mut dyn HistoryBlocks> {
         let now = self.steps;
         let pending = self.pending;
-        self.grow(now.saturating_add(1), &mut Watch::nobody())?;
+        self.grow(now.saturating_add(1), &mut ProgressReporter::unobserved())?;
         self.pending = false;
-        let blocks = self.grow(0, &mut Watch::nobody())?;
+        let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         if pending {
             blocks.add_effects(now);
         }
@@ -267,7 +272,8 @@ impl ConvolutionHistory for RelaxedFftHistory {
                 progress.done = weights_units + spectra_units * part.done / SPECTRA_PROGRESS_PARTS;
                 observer(progress)
             };
-            let mut watch = Watch::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report_spectra);
+            let mut watch =
+                ProgressReporter::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report_spectra);
             self.grow(steps, &mut watch)?;
             watch.reach(SPECTRA_PROGRESS_PARTS)
         });
@@ -340,11 +346,11 @@ impl ConvolutionHistory for RelaxedFftHistory {
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
-        let width = self.grow(1, &mut Watch::nobody())?.width();
+        let width = self.grow(1, &mut ProgressReporter::unobserved())?.width();
         let saved = SavedState::new(values, self.neglected.is_some())?;
         let first_saved = Self::first_needed(saved.last_lag, steps);
         check_inputs(steps - first_saved, width, saved.inputs)?;
-        self.grow(steps, &mut Watch::nobody())?;
+        self.grow(steps, &mut ProgressReporter::unobserved())?;
         // The last lag may not be found yet, in this history or in the saved one.
         let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
         let first = Self::first_needed(last_lag, steps);
@@ -352,7 +358,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if lags_differ || first < first_saved {
             return Err(SavedState::CORRUPT_STATE.into());
         }
-        let blocks = self.grow(0, &mut Watch::nobody())?;
+        let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         blocks.clear();
         replay_inputs(blocks, first, &saved.inputs[(first - first_saved) * width..]);
         self.largest = saved.largest;
@@ -377,7 +383,7 @@ pub(super) fn bounded(
         Some(lattice) => Box::new(WaveBlocks::new(lattice, kernel)?),
         None => Box::new(PairBlocks::bounded(kernel)?),
     };
-    blocks.bound(kernel, reach, &mut Watch::nobody())?;
+    blocks.bound(kernel, reach, &mut ProgressReporter::unobserved())?;
     Ok(blocks)
 }
 

@@ -11,7 +11,7 @@ use super::level::{BlockRows, Components, PairLevel, TransformScratch};
 use super::ring::{LEAF_STEPS, Ring, widened};
 use super::tables::{ClassCoefficients, ShortLagTables};
 use super::wave_level::Levels;
-use crate::error::{Result, Watch, unobserved};
+use crate::error::{ProgressReporter, Result, unobserved};
 use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
@@ -91,7 +91,7 @@ impl PairBlocks {
         kernel: &dyn ConvolutionWeights,
         numbers: Range<usize>,
         short_lags: &mut Option<Arc<ShortLagTables>>,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<Vec<Arc<PairLevel>>> {
         let count = self.elements();
         let classes = self.coefficients.classes.count();
@@ -140,7 +140,7 @@ impl PairBlocks {
         kernel: &dyn ConvolutionWeights,
         level_count: usize,
         lags: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         let count = self.elements();
         // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
@@ -181,7 +181,7 @@ impl HistoryBlocks for PairBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         let capacity = steps.div_ceil(LEAF_STEPS).next_power_of_two() * LEAF_STEPS;
         if capacity <= self.capacity {
@@ -203,7 +203,7 @@ impl HistoryBlocks for PairBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         last_delay: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         self.take_levels(
             kernel,

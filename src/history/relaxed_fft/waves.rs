@@ -13,7 +13,7 @@ use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::Components;
 use super::ring::{LEAF_STEPS, Ring, widened};
 use super::wave_level::{COUPLING_KIND, LeafCoefficients, Levels, WaveLevel};
-use crate::error::{Result, Watch, unobserved};
+use crate::error::{ProgressReporter, Result, unobserved};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
@@ -87,7 +87,7 @@ impl WaveBlocks {
         kernel: &dyn ConvolutionWeights,
         numbers: Range<usize>,
         leaf: &mut Option<Arc<LeafCoefficients>>,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<Vec<Arc<WaveLevel>>> {
         let waves = self.lattice.waves();
         let mut levels = Vec::with_capacity(numbers.len());
@@ -108,7 +108,7 @@ impl WaveBlocks {
         kernel: &dyn ConvolutionWeights,
         levels: &mut [WaveLevel],
         with_leaf: bool,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<LeafCoefficients> {
         let waves = self.lattice.waves().with_spectra;
         let kinds = self.lattice.kinds();
@@ -209,7 +209,7 @@ impl WaveBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         level_count: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
         let lags = LEAF_STEPS << level_count;
@@ -260,7 +260,7 @@ impl HistoryBlocks for WaveBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
@@ -282,7 +282,7 @@ impl HistoryBlocks for WaveBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         reach: usize,
-        watch: &mut Watch,
+        watch: &mut ProgressReporter,
     ) -> Result<()> {
         self.last_lag = Some(reach);
         self.take_levels(kernel, (reach / LEAF_STEPS).ilog2() as usize + 1, watch)?;

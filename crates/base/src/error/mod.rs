@@ -20,8 +20,7 @@ pub use ground::{GroundError, PlanError, SoilError};
 #[allow(deprecated, reason = "the path stays for one release")]
 pub use memory::set_memory_limit;
 pub use memory::{MemoryError, memory_limit};
-pub use progress::Watch;
-pub use progress::{Observer, Progress, unobserved};
+pub use progress::{Observer, Progress, ProgressReporter, unobserved};
 pub use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, in_brackets, names, not_finite,
     not_negative, positive, require, require_part, same_length, short,

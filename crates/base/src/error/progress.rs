@@ -22,6 +22,7 @@ pub struct Progress {
 
 impl Progress {
     /// Progress of one of the library's own computations.
+    /// Reporter for a computation of `total` parts, called `task` in its progress.
     #[doc(hidden)]
     pub fn new(task: &'static str, done: usize, total: usize) -> Self {
         Self { task, done, total }
@@ -111,18 +112,19 @@ pub fn unobserved(_: Progress) -> ControlFlow<()> {
 }
 
 /// Reports the progress of a call to its observer, if any.
-pub struct Watch<'a> {
+pub struct ProgressReporter<'a> {
     observer: Option<&'a mut Observer<'a>>,
     progress: Progress,
 }
 
-impl<'a> Watch<'a> {
-    /// A reporter without an observer.
+impl<'a> ProgressReporter<'a> {
+    /// Reporter for a call that nobody observes.
     #[doc(hidden)]
-    pub fn nobody() -> Self {
+    pub fn unobserved() -> Self {
         Self { observer: None, progress: Progress { task: "", done: 0, total: 0 } }
     }
 
+    /// Reporter for a computation of `total` parts, called `task` in its progress.
     #[doc(hidden)]
     pub fn new(task: &'static str, total: usize, observer: &'a mut Observer<'_>) -> Self {
         Self { observer: Some(observer), progress: Progress { task, done: 0, total } }

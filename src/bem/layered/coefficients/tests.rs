@@ -14,7 +14,9 @@ fn quadrature(profile: SoilProfile, stages: Stages) -> Quadrature {
 }
 
 fn block(quadrature: &Quadrature, number: usize, threads: usize) -> LagBlock {
-    quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
+    quadrature
+        .block(number, threads, Samples::new(&mut ProgressReporter::unobserved(), 0..0))
+        .unwrap()
 }
 
 /// Panels give the same values as points, at every seventh point of circles.
@@ -38,7 +40,7 @@ fn panels_and_points_give_equal_values() {
             let mut covered = 0;
             for number in [0, 2, 4] {
                 let circle = LagBlock::circle(number, 1e-10);
-                let mut watch = Watch::nobody();
+                let mut watch = ProgressReporter::unobserved();
                 let mut samples = Samples::new(&mut watch, 0..0);
                 let spectra = quadrature.spectra(circle, 1, &mut samples).unwrap();
                 covered += (stages.count() * circle.points()).saturating_sub(samples.done);
@@ -74,7 +76,7 @@ fn panels_take_fewer_samples_than_points() {
             let mut points = 0;
             for number in 0..2 {
                 let circle = LagBlock::circle(number, 1e-10);
-                let mut watch = Watch::nobody();
+                let mut watch = ProgressReporter::unobserved();
                 let mut samples = Samples::new(&mut watch, 0..0);
                 quadrature.spectra(circle, 1, &mut samples).unwrap();
                 taken += samples.done;

@@ -81,7 +81,7 @@ fn tables_profiles_pass_for_all_steps() {
                 &quadrature(profile.clone(), &classes, time_step),
                 &classes,
                 &[],
-                &mut Watch::nobody(),
+                &mut ProgressReporter::unobserved(),
             )
             .unwrap();
         }
@@ -102,8 +102,12 @@ impl Relaxation for Active {
 fn active_damping_is_an_error() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let found =
-        check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes, &[], &mut Watch::nobody());
+    let found = check(
+        &quadrature(p1(Active, Elastic), &classes, 0.1),
+        &classes,
+        &[],
+        &mut ProgressReporter::unobserved(),
+    );
     assert!(
         matches!(found, Err(Error::Soil(SoilError::Modulus { layer: 1, quantity: "Re(mu/s)/|mu/s|", value, .. })) if value < 0.0),
         "{found:?}"
@@ -170,7 +174,7 @@ fn the_check_reports_the_smallest_eigenvalue() {
     values[0][0] = Complex::real(f64::NAN);
     assert!(margin(&classes, &values).is_nan());
     let strict = Quadrature { tolerance: -0.25, ..quadrature };
-    let found = check(&strict, &classes, &[], &mut Watch::nobody());
+    let found = check(&strict, &classes, &[], &mut ProgressReporter::unobserved());
     let Err(Error::NotPassive { margin, allowed, radius, .. }) = found else {
         panic!("{found:?}");
     };

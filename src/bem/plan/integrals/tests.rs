@@ -24,7 +24,7 @@ fn compliances(
     s: Complex,
     tolerance: f64,
 ) -> CellCompliances {
-    let mut progress = Watch::nobody();
+    let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(lattice, profile, [s], tolerance, &mut progress).unwrap();
     let mut work = CellWorkspace::default();
     let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];

@@ -233,7 +233,8 @@ fn bits_on_threads(threads: usize) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
         let kernel = kernel(half_space(), &square(), Stages::Two);
-        let fingerprint = kernel.check_passivity(&mut crate::error::Watch::nobody()).unwrap();
+        let fingerprint =
+            kernel.check_passivity(&mut crate::error::ProgressReporter::unobserved()).unwrap();
         let weights = weights(&kernel, 200).into_iter().flatten().flatten();
         weights.map(f64::to_bits).chain([fingerprint]).collect()
     })
