@@ -1,6 +1,6 @@
 //! Dynamic stiffness of the strips of an elastic ground.
 
-use super::layered::{StripContact, StripImpedance, impedance_watch, strip_impedances};
+use super::layered::{StripContact, StripImpedance, impedance_progress, strip_impedances};
 use super::{ElasticGround, Ground};
 use crate::error::{Error, Observer, Result};
 use crate::geometry::ContactLayout;
@@ -54,7 +54,7 @@ impl ElasticGround {
                 needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
             });
         }
-        let progress = &mut impedance_watch(frequencies, observer);
+        let progress = &mut impedance_progress(frequencies, observer);
         strip_impedances(self.profile(), self.elements(), frequencies, contact, progress)
     }
 }

@@ -30,7 +30,7 @@ use super::contour::{
 use super::panel_evaluation::evaluate;
 use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
-use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
+use super::wavenumber::{Compliances, SURROGATE_COMPONENTS, Wavenumbers};
 use crate::error::{Error, ProgressReporter, Result};
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
@@ -288,18 +288,23 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             let inverse_factor = panel_factor(node, point).inverse();
             let Some(node) = self.nodes(point).nth(node) else { continue };
             let first = values.len();
-            self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
+            self.integrals.append_surrogate(
+                &self.profile,
+                self.variable(node),
+                work,
+                &mut values,
+            )?;
             let weight = node.weight * inverse_factor;
             for value in &mut values[first..] {
                 *value = *value * weight;
             }
         }
-        let count = values.len() / (CHEBYSHEV_POINTS * OUTLOOK_COMPONENTS);
+        let count = values.len() / (CHEBYSHEV_POINTS * SURROGATE_COMPONENTS);
         // Each function is compared with itself.
         let self_pairs: Vec<_> = (0..count).map(|function| [function; 2]).collect();
         let tolerance = factor * self.tolerance;
         let polynomials =
-            PanelPolynomials::through::<OUTLOOK_COMPONENTS>(&values, &self_pairs, tolerance);
+            PanelPolynomials::through::<SURROGATE_COMPONENTS>(&values, &self_pairs, tolerance);
         Ok(polynomials.is_some())
     }
 

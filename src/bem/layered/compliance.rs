@@ -232,8 +232,10 @@ impl LayeredCompliance {
         SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
 
-    /// `C_tt` = 1/Z: displacement per shear across the wavenumber of the last evaluation, m/Pa.
-    pub(crate) fn across(&self) -> Complex {
+    /// Transverse compliance `C_tt` = 1/Z at the wavenumber of the last evaluation, m/Pa.
+    ///
+    /// It is the displacement due to shear, both normal to the direction of the wavenumber.
+    pub(crate) fn transverse(&self) -> Complex {
         // Below the last layer that affects the surface any base is valid, so it starts as rigid.
         let mut impedance = None;
         for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {

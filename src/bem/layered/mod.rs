@@ -40,7 +40,7 @@ pub(super) use halving::{
 };
 pub use impedance::{StripContact, StripImpedance};
 pub(super) use impedance::{
-    extrapolated_stiffnesses, impedance_watch, laplace_variables, strip_impedances,
+    extrapolated_stiffnesses, impedance_progress, laplace_variables, strip_impedances,
 };
 #[cfg(test)]
 pub(super) use passivity::margin;
@@ -49,5 +49,7 @@ pub(super) use runge_kutta::{CirclePoint, on_circle};
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{on_grid, surface_series};
 pub(super) use threads::{on_threads, threads};
-pub(super) use wavenumber::{Compliances, deep, surface_outlook, unresolved};
+pub(super) use wavenumber::{
+    Compliances, append_surface_surrogate, top_layer_wavenumber, unresolved,
+};
 pub(super) use weights::{QuadratureWeights, StripWeights};

@@ -185,7 +185,7 @@ fn across(profile: &SoilProfile, s: Complex, k: f64) -> Complex {
     let mut ground = LayeredCompliance::default();
     ground.set(profile, s).unwrap();
     ground.at(k);
-    ground.across()
+    ground.transverse()
 }
 
 fn damped() -> GeneralizedMaxwell {
@@ -237,7 +237,7 @@ fn long_waves_are_those_along_the_wavenumber() {
             ground.set(&profile, s).unwrap();
             let k = 1e-8;
             let wanted = ground.at(k).xx;
-            let found = ground.across();
+            let found = ground.transverse();
             let error = (found - wanted).abs() / wanted.abs();
             assert!(error < 1e-13, "{s:?} {error:e}");
         }
