@@ -139,8 +139,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
 
     /// Eigenvalues and weights at a z.
     pub(crate) fn nodes(&self, log_z: [f64; 2]) -> impl Iterator<Item = Node> {
-        let CirclePoint { z, rest } = on_circle(log_z[0], log_z[1]);
-        self.stages.nodes(z, rest)
+        let CirclePoint { z, one_less_z } = on_circle(log_z[0], log_z[1]);
+        self.stages.nodes(z, one_less_z)
     }
 
     /// Adds the contribution of one sample to the mobility.
@@ -179,7 +179,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let spectra = self.spectra(circle, threads, &mut samples)?;
         // Factor 1/(1−z) from the mobility to the transform of Gⁿ.
         let inverse_rest: Vec<_> = (0..circle.points())
-            .map(|point| on_circle(logarithm, circle.angle(point)).rest.inverse())
+            .map(|point| on_circle(logarithm, circle.angle(point)).one_less_z.inverse())
             .collect();
         let transform = RealPlanner::new().plan_fft_inverse(length);
         // r⁻ⁿ/L.

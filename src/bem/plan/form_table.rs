@@ -15,7 +15,9 @@ use std::sync::OnceLock;
 
 use super::corner_waves::{CornerWaves, WaveBuffers};
 use super::forms::{AngularMeans, FORM_COUNT, integrals};
-use crate::bem::layered::{LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, threads};
+use crate::bem::layered::{
+    LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, thread_count,
+};
 use crate::error::{GroundError, ProgressReporter, Result, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
@@ -342,7 +344,7 @@ impl FormTable {
                 Ok(())
             };
             let jobs = batch.iter().zip(&mut batch_values);
-            on_threads(threads(), jobs, fill, |_| progress.reach(0))?;
+            on_threads(thread_count(), jobs, fill, |_| progress.reach(0))?;
             for (panel, values) in batch.iter().zip(&batch_values) {
                 use_panel(*panel, values);
             }

@@ -226,7 +226,7 @@ mod tests {
             let mut means = AngularMeans::new(&lattice);
             let a = lattice.pitch[0];
             let b = lattice.pitch[1];
-            let area_squared = (a * b).powi(2);
+            let area_squared: f64 = (a * b).powi(2);
             for k in [1e-7, 0.3, 4.0, 31.0, 250.0] {
                 let mut sums = vec![0.0; FORM_COUNT * classes.len()];
                 let point_count = 6000;
@@ -269,8 +269,8 @@ mod tests {
     /// For cells apart, closed forms agree with Gauss integrals over the distance, weighted by the cells' overlap.
     #[test]
     fn closed_forms_are_the_integrals() {
-        let rule = gauss::max_integral();
-        let pitch = [0.7, 0.4];
+        let rule = gauss::largest();
+        let pitch = [0.7_f64, 0.4];
         for offset in [[2, 0], [0, 3], [2, 2], [5, 3], [9, 2]] {
             let mut sums = [0.0; FORM_COUNT];
             for (u, x_weight) in rule.points_on_unit_interval() {
@@ -305,7 +305,7 @@ mod tests {
         }
     }
 
-    /// Integrals over quarter cells sum up to the cell's; 1/r = x²/r³ + y²/r³; a unit_square square has the textbook's value.
+    /// Integrals over quarter cells sum up to the cell's; 1/r = x²/r³ + y²/r³; a unit square has the textbook's value.
     #[test]
     fn integrals_of_a_cell_are_sums_of_parts() {
         let pitch = [0.7, 0.4];

@@ -109,8 +109,8 @@ impl LatticeKernel {
         let mut variables = vec![];
         for point in 0..=CIRCLE_POINT_COUNT {
             let angle = std::f64::consts::PI * point as f64 / CIRCLE_POINT_COUNT as f64;
-            let CirclePoint { z, rest } = on_circle(0.0, angle);
-            let nodes = stages.nodes(z, rest);
+            let CirclePoint { z, one_less_z } = on_circle(0.0, angle);
+            let nodes = stages.nodes(z, one_less_z);
             variables
                 .extend(nodes.map(|node| node.lambda.scale(LAPLACE_RADIUS_MARGIN / time_step)));
         }

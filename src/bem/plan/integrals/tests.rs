@@ -171,7 +171,7 @@ fn add_products(
     sums[5] += zr.scale(-g_s);
 }
 
-/// Compliances of slow_values motions tend to the static compliances.
+/// Compliances of slow motions tend to the static compliances.
 #[test]
 fn statics_are_the_limit_of_slow_motions() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [5, 3] };

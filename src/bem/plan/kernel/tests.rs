@@ -61,7 +61,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         for point in 0..20 {
             let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
             quadrature.mobility([-1e-3, angle], &mut work, &mut scratch, &mut values).unwrap();
-            let margin = crate::bem::is_layered::margin(&kernel.classes, &values);
+            let margin = crate::bem::layered::margin(&kernel.classes, &values);
             assert!(margin > 0.0, "{angle} {margin:e}");
         }
         let computed = weights(&kernel, 256);
@@ -120,7 +120,7 @@ fn largest_sum_error(
     max_error / static_values[0][1].re
 }
 
-/// Weights are equal on a larger lattice and with another order of blocks, for oblong cells, with large_weights and three stages.
+/// Weights are equal on a larger lattice and with another order of blocks, for oblong cells, with two and three stages.
 #[test]
 fn weights_depend_on_the_offset_alone() {
     for stages in [Stages::Two, Stages::Three] {
