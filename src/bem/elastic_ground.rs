@@ -1,4 +1,4 @@
-//! Elastic or viscoelastic soil under strips.
+//! Elastic or viscoelastic soil under strips and mats.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,15 +16,15 @@ use crate::motion::FreeField;
 use crate::soil::SoilProfile;
 use crate::structure::Structure;
 
-/// Elastic half-plane, or horizontal layers with or without damping, under one or several strips.
+/// Elastic half-plane or damped layers under strips or mats.
 ///
 /// A [`Soil`](crate::Soil) makes a homogeneous half-plane. Its operator follows the energetic space–time Galerkin
 /// method: element means of the displacement at step ends due to tractions constant over element and step, from the
 /// closed-form half-plane kernel ([`PatchKernel`](super::PatchKernel)). Radiation is exact.
 ///
-/// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
-/// mobility (Radau IIA), with the same tractions. The number of stages follows [`Stages::for_profile`] and is reported
-/// by [`Ground::description`].
+/// The weights of a [`SoilProfile`] with layers or damping come from Runge–Kutta convolution quadrature of its mobility
+/// (Radau IIA), with the same tractions. [`Stages::for_profile`] chooses the number of stages, and
+/// [`Ground::description`] reports it.
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The free field is the
 /// motion of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion at depth in the same
@@ -38,8 +38,8 @@ use crate::structure::Structure;
 /// ground.prepare(1.0e-4, None, &mut basemat::unobserved)?;
 /// let mut matrix = vec![0.0; 40 * 40];
 /// ground.step_compliance(&mut matrix)?;
-/// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
-/// // leaves all but the outer few percent of an element of 0.8 m, at the middle, in that state.
+/// // Before waves reach the edges of an element, a pressure displaces its surface by p·t/(ρ c₁). After a step of
+/// // 0.1 ms this still holds for all but the outer few percent of an element of 0.8 m.
 /// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
 /// assert!((matrix[10 * 40 + 10] / plane_wave - 1.0).abs() < 0.05);
 /// # Ok::<(), basemat::Error>(())
@@ -113,7 +113,7 @@ impl ElasticGround {
     /// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
     /// let mut matrix = vec![0.0; 48 * 48];
     /// ground.step_compliance(&mut matrix)?;
-    /// // Before waves reach the next cell, a pressure moves the surface by p·t/(ρ c₁), but for the edges.
+    /// // Before waves reach the next cell, a pressure displaces the surface by p·t/(ρ c₁), except near the edges.
     /// let plane_wave = 1.0e-3 / (1900.0 * soil.pressure_wave_speed());
     /// assert!((matrix[0] / plane_wave - 1.0).abs() < 0.5);
     /// # Ok::<(), basemat::Error>(())
@@ -142,20 +142,21 @@ impl ElasticGround {
     /// [`Plan::on_faces`].
     ///
     /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base:
-    /// all of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The
+    /// all of it under a stiff base, nothing under a soft base, which settles with the soil beyond its edge. The
     /// fraction is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h. D is the bending stiffness (N·m) in the
     /// structure's stiffness matrix, G the shear modulus at the surface, and h the side of a cell. The fraction is zero
     /// below x = 0.28 and half at x = 1. Edges oblique to the cells extend by twice as much, at most by 0.12 of a cell,
     /// and at most by 0.03 + 0.15/√n + 0.06/(1 + d/0.15) with n cells along the shorter side and d = D/(G R³) on a base of
     /// the area π R².
     ///
-    /// Moments of round bases under loads on the edge need more cells than moments of square ones. In a circular plate
-    /// with D/(G R³) = 0.02 their errors are 38, 16 and 7 % of the largest moment on 8, 13 and 21 cells across, and 6, 3
-    /// and 2 % under an even load.
+    /// Under loads on the edge, moments of round bases need more cells than moments of square bases. In a circular plate
+    /// with D/(G R³) = 0.02 their errors are 38, 16 and 7 % of the largest moment with 8, 13 and 21 cells along the
+    /// diameter, and 6, 3 and 2 % under a uniform load.
     ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
-    /// triangles count as one). Elements receive only means of its displacement, and only the structure resists shapes
-    /// in between. Strips or a plan of your own may have fewer elements; `build` then checks that they are enough.
+    /// triangles count as one). The soil acts on means of the displacement over elements, so that only the structure
+    /// resists shapes within an element. Strips or a plan of your own may have fewer elements; `build` then checks that
+    /// they are enough.
     ///
     /// # Errors
     /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`]; for a
@@ -172,14 +173,14 @@ impl ElasticGround {
         }
     }
 
-    /// The ground after a change of its source.
+    /// Replaces the source by a changed copy, for the `with_…` methods.
     fn with_changed_source(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
         change(&mut self.source);
         let ground = self.ground.with_source(self.source.clone());
         Self { ground, prepared_stages: None, ..self }
     }
 
-    /// Sets the number of Runge–Kutta stages, in place of the rule and of the closed form.
+    /// Sets the number of Runge–Kutta stages, in place of the automatic choice and of the closed form.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         self.with_changed_source(|source| source.stages = Some(stages))
@@ -187,23 +188,23 @@ impl ElasticGround {
 
     /// Sets the relative `tolerance` (1e-13 to 1e-4) of element compliances in the Laplace domain.
     ///
-    /// The default is 1e-10. The error of a coefficient is about the tolerance to the power 2/3 at the last lag of a
-    /// block, and smaller before. The closed form is exact.
+    /// The default is 1e-10. The relative error of a weight is about the tolerance to the power 2/3 at the last lag of a
+    /// block, and smaller at earlier lags. The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
-        let fits = (1e-13..=1e-4).contains(&tolerance);
-        require("tolerance of a layered ground", tolerance, fits, "from 1e-13 to 1e-4")?;
+        let is_in_range = (1e-13..=1e-4).contains(&tolerance);
+        require("tolerance of a layered ground", tolerance, is_in_range, "from 1e-13 to 1e-4")?;
         Ok(self.with_changed_source(|source| source.tolerance = tolerance))
     }
 
     /// Reads convolution weights from the file `path`, and adds missing weights to it.
     ///
-    /// The closed form of the half-plane needs no file; a half-space in plan has weights as layers have. In plan a table of
-    /// form factors and the check of passivity are computed again.
+    /// The closed form of the half-plane needs no file; a half-space in plan has weights as layers have. In plan the table
+    /// of form factors and the passivity check are computed again.
     ///
-    /// Weights from a file equal computed ones to the last bit. A file of another profile, mesh, step, accuracy,
+    /// Weights from a file equal computed weights to the last bit. A file of another profile, mesh, step, accuracy,
     /// machine or format is replaced. A damaged file, or a file with other content, stays unchanged and causes an
     /// error.
     ///
@@ -222,13 +223,15 @@ impl ElasticGround {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// Coefficients may then also fail with [`Error::File`](crate::Error::File).
+    /// The weights' methods then also return [`Error::File`](crate::Error::File).
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         self.with_changed_source(|source| source.file = Some(path.into()))
     }
 
-    /// Replaces the options of the ground's history, or its method alone; only the closed form has exponentials.
+    /// Sets the options of the ground's history, or its method alone.
+    ///
+    /// Only the closed form has exponentials.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -245,7 +248,7 @@ impl ElasticGround {
         Self { ground: self.ground.with_own_history(make), ..self }
     }
 
-    /// Takes weights from a store shared with other grounds: see [`WeightsGround::with_shared_kernels`].
+    /// Uses weights from a store shared with other grounds: see [`WeightsGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
@@ -253,8 +256,8 @@ impl ElasticGround {
 
     /// Convolution weights for steps of `time_step` seconds, not yet computed.
     ///
-    /// They are the weights that the ground's history sums, of its contact elements or of the cells of its plan,
-    /// without shared kernels.
+    /// The ground's history uses the same weights, of its contact elements or of the cells of its plan. Shared kernels
+    /// are not used here.
     ///
     /// ```
     /// use basemat::Soil;
@@ -274,7 +277,7 @@ impl ElasticGround {
     ///
     /// In layered ground [`prepare`](ConvolutionWeights::prepare) computes the blocks of lags up to the requested lag,
     /// after a check of passivity: the smallest eigenvalue of Herm[(1−z) Ĝ(z)] on |z| = 0.99. The observer counts
-    /// samples of the mobility, out of the expected number.
+    /// samples of the mobility, with their expected number as the total.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step,
@@ -287,7 +290,7 @@ impl ElasticGround {
         self.source.kernel(self.elements(), time_step)
     }
 
-    /// The profile.
+    /// Soil profile of the ground.
     pub fn profile(&self) -> &SoilProfile {
         &self.source.profile
     }
@@ -324,13 +327,13 @@ impl Ground for ElasticGround {
             return self.ground.finer_compliance();
         };
         let ElasticSource { profile, tolerance, .. } = &self.source;
-        let plan = plan.quartered();
+        let quarter_plan = plan.quartered();
         let mut matrix = vec![0.0; (4 * COMPONENTS_IN_SPACE * self.elements().len()).pow(2)];
-        match plan.unions(profile, *tolerance)? {
+        match quarter_plan.unions(profile, *tolerance)? {
             Some(unions) => unions.reduce(&mut matrix, 1.0, |cells| {
-                static_compliance(profile, &plan, *tolerance, cells)
+                static_compliance(profile, &quarter_plan, *tolerance, cells)
             })?,
-            None => static_compliance(profile, &plan, *tolerance, &mut matrix)?,
+            None => static_compliance(profile, &quarter_plan, *tolerance, &mut matrix)?,
         }
         Ok(Some(matrix))
     }

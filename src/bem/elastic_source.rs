@@ -11,7 +11,7 @@ use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 use crate::soil::{Bedrock, SoilProfile};
 
-/// Relative tolerance of the wavenumber integrals unless the user sets another.
+/// Relative tolerance of the wavenumber integrals by default.
 const DEFAULT_INTEGRAL_TOLERANCE: f64 = 1e-10;
 
 /// Soil profile, with the accuracy of its convolution weights.
@@ -20,8 +20,11 @@ pub(super) struct ElasticSource {
     pub(super) profile: SoilProfile,
     /// Cells under mats; `None` for strips.
     pub(super) plan: Option<Plan>,
+    /// Runge–Kutta stages set by the user; `None` for the automatic choice.
     pub(super) stages: Option<Stages>,
+    /// Relative tolerance of the wavenumber integrals.
     pub(super) tolerance: f64,
+    /// File of convolution weights.
     pub(super) file: Option<PathBuf>,
 }
 
@@ -43,7 +46,7 @@ impl ElasticSource {
     }
 
     /// Convolution weights of cells in plan.
-    pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
+    pub(super) fn plan_weights(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
         let profile = self.profile.clone();
         let file = self.file.clone();
@@ -51,7 +54,7 @@ impl ElasticSource {
     }
 
     /// Convolution weights of strips by convolution quadrature.
-    pub(super) fn layered(
+    pub(super) fn strip_weights(
         &self,
         elements: &[ContactElement],
         time_step: f64,
@@ -70,14 +73,14 @@ impl WeightsSource for ElasticSource {
         time_step: f64,
     ) -> Result<Arc<dyn ConvolutionWeights>> {
         if let Some(plan) = &self.plan {
-            return Ok(Arc::new(self.in_plan(plan, time_step)?));
+            return Ok(Arc::new(self.plan_weights(plan, time_step)?));
         }
         match (self.stages(time_step), self.profile.bedrock()) {
             (None, Bedrock::HalfPlane { soil, .. }) => {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
             }
             (stages, _) => {
-                Ok(Arc::new(self.layered(elements, time_step, stages.unwrap_or_default())?))
+                Ok(Arc::new(self.strip_weights(elements, time_step, stages.unwrap_or_default())?))
             }
         }
     }
@@ -99,12 +102,12 @@ impl WeightsSource for ElasticSource {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        let mut numbers = vec![stages, self.tolerance];
-        // A ground with a file does not share its kernel with a ground without a file.
-        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
-        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
-        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        let stage_count = self.stages.map_or(0.0, |stages| stages.count() as f64);
+        let mut numbers = vec![stage_count, self.tolerance];
+        // Grounds with different files, or without a file, have different kernels.
+        let path_bytes = self.file.as_ref().map(|path| path.as_os_str().as_encoded_bytes());
+        numbers.push(path_bytes.map_or(-1.0, |bytes| bytes.len() as f64));
+        numbers.extend(path_bytes.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
         numbers.extend(self.plan.iter().flat_map(Plan::identity));
         numbers.extend(self.profile.identity()?);
         Some(numbers)

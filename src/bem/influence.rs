@@ -7,8 +7,8 @@
 //! * A(τ) = ∫ w(x) dx over t₀/τ < x < t₁/τ
 //!
 //! with l the length of the receiver, f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7;
-//! Kausel 2006) and w the length of overlap of the two elements shifted by x. For separate elements every term of A is
-//! positive, so no digits are lost; differences of the closed-form double primitive lose up to fourteen digits here.
+//! Kausel 2006) and w the overlap length of the two elements shifted by x. For separate elements every term of A is
+//! positive, so no digits are lost. Differences of the closed-form double primitive would lose up to fourteen digits.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -44,14 +44,18 @@ pub struct InfluenceKernel {
     pub(super) branches: Branches,
     /// `c_k` of zz and xx: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
     pub(super) late_series: [[f64; LATE_SERIES_TERMS]; 2],
-    /// Way of a shear wave in a step, `c_S` Δt, m.
+    /// Distance that a shear wave travels in a step, `c_S` Δt, m.
     pub(super) travel_per_step: f64,
     /// μ, Pa.
     shear_modulus: f64,
 }
 
-/// Smallest t₀/x, in Rayleigh arrivals, from which the series at late times is used.
+/// Smallest t₀/x, relative to the Rayleigh wave's arrival, for the late-time series: it converges fast from there on.
 const LATE_SERIES_ARRIVALS: f64 = 3.0;
+/// Terms of the late-time series below this fraction of the first term do not change a sum in double precision.
+const NEGLIGIBLE_TERM_FRACTION: f64 = 1e-17;
+/// Largest number of τ at which A(τ) changes: more than two for each of five nodes, and two limits.
+const MAX_BREAK_COUNT: usize = 18;
 
 impl InfluenceKernel {
     /// Kernel for a soil and a time step in seconds.
@@ -71,8 +75,8 @@ impl InfluenceKernel {
         })
     }
 
-    /// Unit of the coefficients, 1/(πμ), 1/Pa.
-    pub(super) fn unit(&self) -> f64 {
+    /// Common factor 1/(πμ) of the coefficients, 1/Pa.
+    pub(super) fn compliance_factor(&self) -> f64 {
         1.0 / (std::f64::consts::PI * self.shear_modulus)
     }
 
@@ -86,21 +90,22 @@ impl InfluenceKernel {
         source: ContactElement,
     ) -> Result<PairInfluence<'_>> {
         let overlap = Overlap::new(receiver, source)?;
-        let far = overlap.farthest();
+        let max_offset = overlap.max_offset();
+        let w = &overlap.even_overlaps;
         let mut moments = [0.0; LATE_SERIES_TERMS];
         let rule = gauss::largest();
         for i in 1..overlap.nodes.len() {
-            let low = overlap.nodes[i - 1];
-            let high = overlap.nodes[i];
-            let slope = (overlap.even[i] - overlap.even[i - 1]) / (high - low);
+            let x0 = overlap.nodes[i - 1];
+            let x1 = overlap.nodes[i];
+            let slope = (w[i] - w[i - 1]) / (x1 - x0);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                let inside = 0.5 * (high - low) * (1.0 + node);
-                let width = overlap.even[i - 1] + slope * inside;
-                let ratio = ((low + inside) / far).powi(2);
-                let mut term = 0.5 * (high - low) * weight * width / overlap.length;
+                let distance = 0.5 * (x1 - x0) * (1.0 + node);
+                let overlap_length = w[i - 1] + slope * distance;
+                let relative_offset_squared = ((x0 + distance) / max_offset).powi(2);
+                let mut term = 0.5 * (x1 - x0) * weight * overlap_length / overlap.receiver_length;
                 for moment in &mut moments {
                     *moment += term;
-                    term *= ratio;
+                    term *= relative_offset_squared;
                 }
             }
         }
@@ -137,28 +142,32 @@ impl PairInfluence<'_> {
     /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
     fn coefficients(&self, lag: usize) -> Surface {
         let travel_per_step = self.kernel.travel_per_step;
-        let begin = (lag - 1) as f64 * travel_per_step;
-        let end = lag as f64 * travel_per_step;
+        let t0 = (lag - 1) as f64 * travel_per_step;
+        let t1 = lag as f64 * travel_per_step;
         let rayleigh_arrival = self.kernel.branches.rayleigh_arrival;
-        if begin >= LATE_SERIES_ARRIVALS * rayleigh_arrival * self.overlap.farthest() {
-            self.by_late_series(begin, end)
+        if t0 >= LATE_SERIES_ARRIVALS * rayleigh_arrival * self.overlap.max_offset() {
+            self.by_late_series(t0, t1)
         } else {
-            self.by_quadrature(begin, end)
+            self.by_quadrature(t0, t1)
         }
     }
 
-    /// Overwrites the slices with lags `first`, `first + 1`, … of zz, xx and zx.
+    /// Overwrites the slices with lags `first_lag`, `first_lag + 1`, … of zz, xx and zx.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input)
-    /// if `first` is 0.
-    pub(super) fn fill(&self, first: usize, values: &mut [&mut [f64]; STRIP_KINDS]) -> Result<()> {
+    /// if `first_lag` is 0.
+    pub(super) fn fill(
+        &self,
+        first_lag: usize,
+        values: &mut [&mut [f64]; STRIP_KINDS],
+    ) -> Result<()> {
         let [zz, xx, zx] = values;
-        require("first lag", first as f64, first > 0, "at least 1")?;
+        require("first lag", first_lag as f64, first_lag > 0, "at least 1")?;
         same_length("xx coefficients", xx.len(), zz.len())?;
         same_length("zx coefficients", zx.len(), zz.len())?;
         for (i, ((zz, xx), zx)) in zz.iter_mut().zip(&mut **xx).zip(&mut **zx).enumerate() {
-            let influence = self.coefficients(first.saturating_add(i));
+            let influence = self.coefficients(first_lag.saturating_add(i));
             *zz = influence.zz;
             *xx = influence.xx;
             *zx = influence.zx;
@@ -168,112 +177,119 @@ impl PairInfluence<'_> {
 
     /// The first lag from which zx is exactly zero: the Rayleigh wave has crossed the pair.
     pub(super) fn coupling_end(&self) -> usize {
-        if !self.overlap.one_sided {
+        if !self.overlap.is_one_sided {
             return 1;
         }
         let InfluenceKernel { branches, travel_per_step, .. } = self.kernel;
-        let crossing = branches.rayleigh_arrival * self.overlap.farthest() / travel_per_step;
+        let crossing = branches.rayleigh_arrival * self.overlap.max_offset() / travel_per_step;
         let mut lag = lag_from(crossing.floor());
-        // A lag too large for an integer stays at the largest integer.
-        while lag < usize::MAX && self.couples((lag.saturating_sub(1)) as f64 * travel_per_step) {
+        // A lag beyond the largest integer stays at the largest integer.
+        while lag < usize::MAX
+            && self.has_coupling((lag.saturating_sub(1)) as f64 * travel_per_step)
+        {
             lag += 1;
         }
         lag.max(1)
     }
 
-    /// Whether zx may differ from zero in a step that begins at `begin`.
-    fn couples(&self, begin: f64) -> bool {
+    /// Whether zx may differ from zero in a step from t₀ on.
+    fn has_coupling(&self, t0: f64) -> bool {
         let branches = &self.kernel.branches;
-        self.overlap.one_sided && begin < branches.rayleigh_arrival * self.overlap.farthest()
+        self.overlap.is_one_sided && t0 < branches.rayleigh_arrival * self.overlap.max_offset()
     }
 
-    /// Σ `c_k` `M_k` ∫ t^(−2k−1) dt, each factor computed without cancellation.
-    fn by_late_series(&self, begin: f64, end: f64) -> Surface {
+    /// Displacements from t₀ to t₁ by the late-time series Σ `c_k` `M_k` ∫ t^(−2k−1) dt, without cancellation.
+    fn by_late_series(&self, t0: f64, t1: f64) -> Surface {
         let kernel = self.kernel;
         let zz = &kernel.late_series[0];
         let xx = &kernel.late_series[1];
-        let ratio = (begin / end).powi(2);
-        let relative_distance = (self.overlap.farthest() / begin).powi(2);
-        let first = self.moments[0] * (kernel.travel_per_step / begin).ln_1p();
-        let mut sum = [zz[0] * first, xx[0] * first];
+        let time_ratio_squared = (t0 / t1).powi(2);
+        let relative_distance_squared = (self.overlap.max_offset() / t0).powi(2);
+        let first_term = self.moments[0] * (kernel.travel_per_step / t0).ln_1p();
+        let mut sums = [zz[0] * first_term, xx[0] * first_term];
         // ∫ t^(−2k−1) dt = t₀^(−2k) (1 − r)(1 + r + … + r^(k−1))/(2k), r = (t₀/t₁)².
-        let mut scale = relative_distance * kernel.travel_per_step * (begin + end) / (end * end);
+        let mut scale = relative_distance_squared * kernel.travel_per_step * (t0 + t1) / (t1 * t1);
         let mut series = 1.0;
-        let mut power = ratio;
-        let negligible = 1e-17 * first;
+        let mut power = time_ratio_squared;
+        let negligible = NEGLIGIBLE_TERM_FRACTION * first_term;
         for k in 1..LATE_SERIES_TERMS {
             let term = scale * series / (2 * k) as f64;
-            sum[0] += zz[k] * self.moments[k] * term;
-            sum[1] += xx[k] * self.moments[k] * term;
+            sums[0] += zz[k] * self.moments[k] * term;
+            sums[1] += xx[k] * self.moments[k] * term;
             if (zz[k].abs() + xx[k].abs()) * self.moments[k] * term < negligible {
                 break;
             }
-            scale *= relative_distance;
+            scale *= relative_distance_squared;
             series += power;
-            power *= ratio;
+            power *= time_ratio_squared;
         }
-        let unit = kernel.unit();
-        Surface { zz: sum[0] * unit, xx: sum[1] * unit, zx: 0.0 }
+        let factor = kernel.compliance_factor();
+        Surface { zz: sums[0] * factor, xx: sums[1] * factor, zx: 0.0 }
     }
 
-    /// 1/(π μ l) ∫ f(τ) A(τ) dτ, between the τ at which the polynomial A changes.
-    fn by_quadrature(&self, begin: f64, end: f64) -> Surface {
+    /// Displacements from t₀ to t₁: 1/(π μ l) ∫ f(τ) A(τ) dτ, integrated between the τ at which the polynomial A changes.
+    fn by_quadrature(&self, t0: f64, t1: f64) -> Surface {
         let branches = &self.kernel.branches;
         let overlap = &self.overlap;
-        let near = overlap.nearest();
-        let far = overlap.farthest();
-        let latest = if near > 0.0 { end / near } else { f64::INFINITY };
-        let earliest = (begin / far).max(branches.pressure_arrival);
-        if latest <= earliest {
+        let min_offset = overlap.min_offset();
+        let max_tau = if min_offset > 0.0 { t1 / min_offset } else { f64::INFINITY };
+        let min_tau = (t0 / overlap.max_offset()).max(branches.pressure_arrival);
+        if max_tau <= min_tau {
             return Surface::default();
         }
-        let mut breaks = [f64::INFINITY; 18];
-        breaks[0] = earliest;
-        let mut count = 1;
+        let mut breaks = [f64::INFINITY; MAX_BREAK_COUNT];
+        breaks[0] = min_tau;
+        let mut break_count = 1;
         for &x in overlap.nodes.iter().filter(|&&x| x > 0.0) {
-            for tau in [begin / x, end / x] {
-                if tau > earliest && tau < latest {
-                    breaks[count] = tau;
-                    count += 1;
+            for tau in [t0 / x, t1 / x] {
+                if tau > min_tau && tau < max_tau {
+                    breaks[break_count] = tau;
+                    break_count += 1;
                 }
             }
         }
-        breaks[..count].sort_unstable_by(f64::total_cmp);
-        breaks[count] = latest;
-        let couples = self.couples(begin);
-        let duration = self.kernel.travel_per_step;
+        breaks[..break_count].sort_unstable_by(f64::total_cmp);
+        breaks[break_count] = max_tau;
+        let has_coupling = self.has_coupling(t0);
+        let travel_per_step = self.kernel.travel_per_step;
         // zz and xx are even in x; zx is odd.
-        let mut even = [0.0; 2];
-        let mut odd = [0.0; 2];
-        for piece in breaks[..=count].windows(2) {
+        let mut even_integrals = [0.0; 2];
+        let mut odd_integrals = [0.0; 2];
+        for piece in breaks[..=break_count].windows(2) {
             let start = piece[0];
             let stop = piece[1];
             if stop <= start {
                 continue;
             }
-            let middle = 0.5 / start + 0.5 / stop;
-            let passed = overlap.passed_overlap([begin, end], duration, middle, false);
+            let speed = 0.5 / start + 0.5 / stop;
+            let even_overlap = overlap.passed_overlap([t0, t1], travel_per_step, speed, false);
             for branch in [Branch::Pressure, Branch::Shear, Branch::Tail] {
-                branches.add_integral(branch, start, stop, &passed, &mut even);
+                branches.add_integral(branch, start, stop, &even_overlap, &mut even_integrals);
             }
-            if couples && start <= branches.rayleigh_arrival {
-                let passed = overlap.passed_overlap([begin, end], duration, middle, true);
-                branches.add_integral(Branch::OddLow, start, stop, &passed, &mut odd);
-                branches.add_integral(Branch::OddHigh, start, stop, &passed, &mut odd);
+            if has_coupling && start <= branches.rayleigh_arrival {
+                let odd_overlap = overlap.passed_overlap([t0, t1], travel_per_step, speed, true);
+                for branch in [Branch::OddLow, Branch::OddHigh] {
+                    branches.add_integral(branch, start, stop, &odd_overlap, &mut odd_integrals);
+                }
                 if stop > branches.rayleigh_arrival {
-                    let pulse_overlap = passed.value(1.0 / branches.rayleigh_arrival);
-                    odd[0] += branches.rayleigh_pulse * pulse_overlap;
+                    let pulse_overlap = odd_overlap.value(1.0 / branches.rayleigh_arrival);
+                    odd_integrals[0] += branches.rayleigh_pulse * pulse_overlap;
                 }
             }
         }
-        let unit = 1.0 / (std::f64::consts::PI * self.kernel.shear_modulus * overlap.length);
-        Surface { zz: even[0] * unit, xx: even[1] * unit, zx: odd[0] * unit }
+        let factor =
+            1.0 / (std::f64::consts::PI * self.kernel.shear_modulus * overlap.receiver_length);
+        Surface {
+            zz: even_integrals[0] * factor,
+            xx: even_integrals[1] * factor,
+            zx: odd_integrals[0] * factor,
+        }
     }
 }
 
-/// Converts a count to a lag; a count that is too large becomes the largest integer.
+/// Converts a number of steps to a lag; too large a number becomes the largest integer.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-fn lag_from(count: f64) -> usize {
+fn lag_from(step_count: f64) -> usize {
     // Float to integer casts saturate.
-    count.max(1.0) as usize
+    step_count.max(1.0) as usize
 }

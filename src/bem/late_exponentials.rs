@@ -8,9 +8,9 @@
 //!   Φ(y) = Σ `c_k` y^(2k)/(2k)!
 //!
 //! The integral over u = ln s decays at both ends and is analytic in a strip, so that the trapezoidal rule converges
-//! exponentially in the reciprocal of its step (Beylkin & Monzón 2010, Appl. Comput. Harmon. Anal. 28, 131–149); its
-//! error is relative at every t and for every k. Φ is entire: a few Legendre polynomials over the patch represent it,
-//! fewer for a smaller s.
+//! exponentially in the reciprocal of its step (Beylkin & Monzón 2010, Appl. Comput. Harmon. Anal. 28, 131–149). Its
+//! error is relative at every t and for every k. Φ is an entire function, which a few Legendre polynomials over the
+//! patch represent. The number of polynomials decreases with s.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -27,18 +27,22 @@ use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, PairClasses, TailProduct};
 use crate::linalg::gauss;
 
-/// Exponentials begin when the Rayleigh wave has crossed the patch this many times. After three, the coefficients
-/// themselves are summed from the same series.
+/// Crossings of the patch by the Rayleigh wave before the exponentials begin.
+///
+/// From three crossings on, the weights themselves are sums of the same series.
 const WINDOW_CROSSINGS: f64 = 3.0;
-/// Largest number of poles; no accepted tolerance needs so many.
+/// Largest number of poles; sums for the accepted tolerances have fewer.
 const MAX_POLE_COUNT: f64 = 1e4;
-/// Largest number of polynomials of a pole.
-const MAX_DEGREES: usize = 24;
+/// Largest number of Legendre polynomials of a pole; neglected terms of the fastest pole are below all tolerances.
+const MAX_POLYNOMIAL_COUNT: usize = 24;
 /// Fraction of the tolerance reserved for neglected polynomials.
 const NEGLECTED_TOLERANCE_FRACTION: f64 = 0.05;
-/// Largest energy that neglected polynomials take from slow motions, relative to the energy that a step radiates at
-/// once. It is far below the passivity margin.
+/// Largest energy error of neglected polynomials in slow motions, relative to the energy radiated within one step.
+///
+/// It is far below the passivity margin.
 const NEGLECTED_ENERGY_FRACTION: f64 = 1e-4;
+/// Rounding error of a Legendre coefficient of degree 0, relative to the largest coefficient.
+const COEFFICIENT_ROUNDING: f64 = 1e-15;
 
 impl LateWeights for PatchKernel {
     /// Number of lags until the Rayleigh wave has crossed the patch three times.
@@ -74,62 +78,71 @@ fn exponential_sum(
     // Rayleigh wave.
     let h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
     let InfluenceKernel { late_series, travel_per_step, .. } = kernel;
-    let unit = kernel.unit();
+    let compliance_factor = kernel.compliance_factor();
     let half_span = 0.5 * classes.span();
-    let begin = window as f64 * travel_per_step;
-    let fastest = (1.5 * (5.0 - tolerance.ln()) / begin).ln();
-    let slowest =
+    let window_length = window as f64 * travel_per_step;
+    let max_log_rate = (1.5 * (5.0 - tolerance.ln()) / window_length).ln();
+    let min_log_rate =
         (NEGLECTED_TOLERANCE_FRACTION * tolerance / (horizon as f64 * travel_per_step)).ln();
-    let count = ((fastest - slowest) / h).ceil();
-    // The count is infinite where the horizon exceeds the largest number.
+    let pole_count = ((max_log_rate - min_log_rate) / h).ceil();
+    // The count is infinite if the length of the horizon is beyond the largest floating-point number.
     require(
         "number of exponentials",
-        count,
-        count < MAX_POLE_COUNT,
+        pole_count,
+        pole_count < MAX_POLE_COUNT,
         "below 10000: the time step is too long",
     )?;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
-    let count = count as usize;
+    let pole_count = pole_count as usize;
     let difference_powers = legendre_of_difference_powers();
-    let mut poles: Vec<Pole> = Vec::with_capacity(count);
-    for k in 0..count {
-        let s = (fastest - k as f64 * h).exp();
-        let weight = -unit * h * (-s * travel_per_step).exp_m1() * (-s * begin).exp();
+    let mut poles: Vec<Pole> = Vec::with_capacity(pole_count);
+    for k in 0..pole_count {
+        let s = (max_log_rate - k as f64 * h).exp();
+        let weight =
+            -compliance_factor * h * (-s * travel_per_step).exp_m1() * (-s * window_length).exp();
         let mut pole = Pole::new(late_series, &difference_powers, s, s * half_span, weight);
-        // Largest contribution of this pole to the coefficient of a time in the sum.
-        let contribution = if s * begin > 1.0 { s * begin * (1.0 - s * begin).exp() } else { 1.0 };
-        let energy = h * (-s * begin).exp() / (s * travel_per_step);
+        // Largest contribution of this pole to the sum at any time.
+        let relative_window = s * window_length;
+        let contribution = if relative_window > 1.0 {
+            relative_window * (1.0 - relative_window).exp()
+        } else {
+            1.0
+        };
+        let energy = h * (-s * window_length).exp() / (s * travel_per_step);
         let max_error = NEGLECTED_TOLERANCE_FRACTION * tolerance / contribution;
-        pole.reduce_degrees(late_series, max_error.min(NEGLECTED_ENERGY_FRACTION / energy));
+        pole.reduce_polynomials(late_series, max_error.min(NEGLECTED_ENERGY_FRACTION / energy));
         poles.push(pole);
     }
-    // A pole has all the degrees of slower poles, so that each degree has the first few poles.
+    // A pole has all polynomials of slower poles, so that the poles of each polynomial are the first few.
     for k in (1..poles.len()).rev() {
-        poles[k - 1].degrees = poles[k - 1].degrees.max(poles[k].degrees);
+        poles[k - 1].polynomial_count =
+            poles[k - 1].polynomial_count.max(poles[k].polynomial_count);
     }
-    let degrees = poles.first().map_or(1, |pole| pole.degrees);
+    let polynomial_count = poles.first().map_or(1, |pole| pole.polynomial_count);
     let mut products = Vec::new();
-    for i in 0..degrees {
-        for j in (i..degrees).step_by(2) {
+    for i in 0..polynomial_count {
+        for j in (i..polynomial_count).step_by(2) {
             let mut normal = vec![];
             let mut tangential = vec![];
-            for pole in poles.iter().take_while(|pole| pole.degrees > j) {
-                normal.push(pole.weight * pole.legendre[0][i * MAX_DEGREES + j]);
-                tangential.push(pole.weight * pole.legendre[1][i * MAX_DEGREES + j]);
+            for pole in poles.iter().take_while(|pole| pole.polynomial_count > j) {
+                normal.push(pole.weight * pole.legendre[0][i * MAX_POLYNOMIAL_COUNT + j]);
+                tangential.push(pole.weight * pole.legendre[1][i * MAX_POLYNOMIAL_COUNT + j]);
             }
             products.push(TailProduct { functions: [i, j], normal, tangential });
         }
     }
     let rates = poles.iter().map(|pole| pole.s * travel_per_step).collect();
-    ExponentialSum::new(rates, legendre_means(classes.elements(), degrees), products)
+    ExponentialSum::new(rates, legendre_means(classes.elements(), polynomial_count), products)
 }
 
-/// A rate, and the Legendre coefficients of Φ for it.
+/// Exponential of the sum, with the Legendre coefficients of Φ for its rate.
 struct Pole {
+    /// Rate, 1/m.
     s: f64,
+    /// Weight in the trapezoidal rule, 1/Pa.
     weight: f64,
-    degrees: usize,
-    /// `β_ij` of zz and xx, `MAX_DEGREES` × `MAX_DEGREES`.
+    polynomial_count: usize,
+    /// `β_ij` of zz and xx, `MAX_POLYNOMIAL_COUNT` × `MAX_POLYNOMIAL_COUNT`.
     legendre: [Vec<f64>; 2],
 }
 
@@ -144,54 +157,57 @@ impl Pole {
     ) -> Self {
         let legendre = late_series
             .map(|series| legendre_of_kernel(series, difference_powers, scaled_half_span));
-        Self { s, weight, degrees: MAX_DEGREES, legendre }
+        Self { s, weight, polynomial_count: MAX_POLYNOMIAL_COUNT, legendre }
     }
 
-    /// Reduces the degrees to the fewest whose neglected terms, relative to t⁻¹ alone, are below `limit`.
-    fn reduce_degrees(&mut self, late_series: &[[f64; LATE_SERIES_TERMS]; 2], limit: f64) {
-        let mut neglected = [0.0; 2];
-        while self.degrees > 1 {
-            let last = self.degrees - 1;
-            for (component, neglected) in neglected.iter_mut().enumerate() {
+    /// Drops polynomials while the sum of all neglected terms, relative to the term t⁻¹, is at most `max_error`.
+    fn reduce_polynomials(&mut self, late_series: &[[f64; LATE_SERIES_TERMS]; 2], max_error: f64) {
+        let mut neglected_sums = [0.0; 2];
+        while self.polynomial_count > 1 {
+            let last = self.polynomial_count - 1;
+            for (component, neglected_sum) in neglected_sums.iter_mut().enumerate() {
                 let legendre = &self.legendre[component];
-                let mut added = 0.0;
+                let mut dropped_sum = 0.0;
                 for i in 0..last {
-                    added += legendre[i * MAX_DEGREES + last].abs()
-                        + legendre[last * MAX_DEGREES + i].abs();
+                    dropped_sum += legendre[i * MAX_POLYNOMIAL_COUNT + last].abs()
+                        + legendre[last * MAX_POLYNOMIAL_COUNT + i].abs();
                 }
-                added += legendre[last * MAX_DEGREES + last].abs();
-                *neglected += added / late_series[component][0].abs();
+                dropped_sum += legendre[last * MAX_POLYNOMIAL_COUNT + last].abs();
+                *neglected_sum += dropped_sum / late_series[component][0].abs();
             }
-            if neglected[0].max(neglected[1]) > limit {
+            if neglected_sums[0].max(neglected_sums[1]) > max_error {
                 return;
             }
-            self.degrees = last;
+            self.polynomial_count = last;
         }
     }
 }
 
-/// Legendre coefficients of Φ(s(ξ−η)) over the patch, `MAX_DEGREES` × `MAX_DEGREES`.
+/// Legendre coefficients of Φ(s(ξ−η)) over the patch, `MAX_POLYNOMIAL_COUNT` × `MAX_POLYNOMIAL_COUNT`.
 fn legendre_of_kernel(
     series: [f64; LATE_SERIES_TERMS],
     difference_powers: &[f64],
     scaled_half_span: f64,
 ) -> Vec<f64> {
-    let mut legendre = vec![0.0; MAX_DEGREES * MAX_DEGREES];
+    let mut legendre = vec![0.0; MAX_POLYNOMIAL_COUNT * MAX_POLYNOMIAL_COUNT];
     let mut power = 1.0;
-    for (k, of_power) in difference_powers.chunks_exact(MAX_DEGREES * MAX_DEGREES).enumerate() {
+    for (k, table) in difference_powers
+        .chunks_exact(MAX_POLYNOMIAL_COUNT * MAX_POLYNOMIAL_COUNT)
+        .enumerate()
+    {
         let factor = series[k] * power;
-        for (sum, value) in legendre.iter_mut().zip(of_power) {
+        for (sum, value) in legendre.iter_mut().zip(table) {
             *sum += factor * value;
         }
-        let next = (2 * k + 2) as f64;
-        power *= scaled_half_span * scaled_half_span / (next * (next - 1.0));
+        let next_exponent = (2 * k + 2) as f64;
+        power *= scaled_half_span * scaled_half_span / (next_exponent * (next_exponent - 1.0));
     }
-    // Higher degrees at slow poles are rounding errors.
-    let rounding = 1e-15 * legendre[0].abs();
-    for (place, value) in legendre.iter_mut().enumerate() {
-        let i = place / MAX_DEGREES;
-        let j = place % MAX_DEGREES;
-        if value.abs() < rounding * ((2 * i + 1) * (2 * j + 1)) as f64 {
+    // Coefficients of higher degrees at slow poles are rounding errors.
+    let rounding_error = COEFFICIENT_ROUNDING * legendre[0].abs();
+    for (index, value) in legendre.iter_mut().enumerate() {
+        let i = index / MAX_POLYNOMIAL_COUNT;
+        let j = index % MAX_POLYNOMIAL_COUNT;
+        if value.abs() < rounding_error * ((2 * i + 1) * (2 * j + 1)) as f64 {
             *value = 0.0;
         }
     }
@@ -209,17 +225,17 @@ fn fill_legendre(x: f64, values: &mut [f64]) {
     }
 }
 
-/// Means over the elements of the Legendre polynomials of the first `degrees` degrees.
+/// Element means of the first `polynomial_count` Legendre polynomials.
 ///
-/// The interval [−1, 1] of the polynomials is stretched over the patch.
-fn legendre_means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
-    let first = elements[0].left();
-    let last = elements[elements.len() - 1].right();
-    let half_span = 0.5 * (last - first);
-    let middle = 0.5 * (first + last);
-    let mut means = vec![vec![0.0; elements.len()]; degrees];
-    let mut values = vec![0.0; degrees];
-    // A Gauss rule over each element is exact, and does not cancel on short ones.
+/// The interval [−1, 1] of the polynomials is mapped to the patch.
+fn legendre_means(elements: &[ContactElement], polynomial_count: usize) -> Vec<Vec<f64>> {
+    let left_end = elements[0].left();
+    let right_end = elements[elements.len() - 1].right();
+    let half_span = 0.5 * (right_end - left_end);
+    let middle = 0.5 * (left_end + right_end);
+    let mut means = vec![vec![0.0; elements.len()]; polynomial_count];
+    let mut values = vec![0.0; polynomial_count];
+    // A Gauss rule over each element is exact, without cancellation on short elements.
     let rule = gauss::largest();
     for (e, element) in elements.iter().enumerate() {
         for (node, weight) in rule.points() {
@@ -233,21 +249,24 @@ fn legendre_means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> 
     means
 }
 
-/// Legendre coefficients of (x−y)^(2k) in x and y, `MAX_DEGREES` × `MAX_DEGREES` for each k.
+/// Legendre coefficients of (x−y)^(2k) in x and y, `MAX_POLYNOMIAL_COUNT` × `MAX_POLYNOMIAL_COUNT` for each k.
 ///
-/// All binomial terms that contribute to a coefficient have one sign, so no digits are lost.
+/// All binomial terms of a coefficient have the same sign, so no digits are lost.
 fn legendre_of_difference_powers() -> Vec<f64> {
     let powers = legendre_of_powers(2 * LATE_SERIES_TERMS - 1);
-    let mut tables = vec![0.0; LATE_SERIES_TERMS * MAX_DEGREES * MAX_DEGREES];
-    for (k, table) in tables.chunks_exact_mut(MAX_DEGREES * MAX_DEGREES).enumerate() {
+    let mut tables = vec![0.0; LATE_SERIES_TERMS * MAX_POLYNOMIAL_COUNT * MAX_POLYNOMIAL_COUNT];
+    for (k, table) in
+        tables.chunks_exact_mut(MAX_POLYNOMIAL_COUNT * MAX_POLYNOMIAL_COUNT).enumerate()
+    {
         let mut binomial = 1.0;
         for m in 0..=2 * k {
             let sign = if m % 2 == 0 { 1.0 } else { -1.0 };
-            for (i, row) in table.chunks_exact_mut(MAX_DEGREES).enumerate() {
+            for (i, row) in table.chunks_exact_mut(MAX_POLYNOMIAL_COUNT).enumerate() {
                 let factor = sign * binomial * powers[m][i];
                 if factor != 0.0 {
-                    let other = &powers[2 * k - m];
-                    row.iter_mut().zip(other).for_each(|(sum, value)| *sum += factor * value);
+                    for (sum, value) in row.iter_mut().zip(&powers[2 * k - m]) {
+                        *sum += factor * value;
+                    }
                 }
             }
             binomial *= (2 * k - m) as f64 / (m + 1) as f64;
@@ -256,16 +275,18 @@ fn legendre_of_difference_powers() -> Vec<f64> {
     tables
 }
 
-/// Legendre coefficients of 1, x, x², …, none of them negative: x Pᵢ = ((i+1) Pᵢ₊₁ + i Pᵢ₋₁)/(2i+1).
-fn legendre_of_powers(count: usize) -> Vec<Vec<f64>> {
-    let mut powers = vec![vec![0.0; MAX_DEGREES.max(count + 1)]; count];
+/// Legendre coefficients of the powers 1, x, x², …, none of them negative.
+///
+/// They follow from the recurrence x Pᵢ = ((i+1) Pᵢ₊₁ + i Pᵢ₋₁)/(2i+1).
+fn legendre_of_powers(power_count: usize) -> Vec<Vec<f64>> {
+    let mut powers = vec![vec![0.0; MAX_POLYNOMIAL_COUNT.max(power_count + 1)]; power_count];
     powers[0][0] = 1.0;
-    for m in 1..count {
+    for m in 1..power_count {
         for i in 0..m {
-            let part = powers[m - 1][i] / (2 * i + 1) as f64;
-            powers[m][i + 1] += (i + 1) as f64 * part;
+            let quotient = powers[m - 1][i] / (2 * i + 1) as f64;
+            powers[m][i + 1] += (i + 1) as f64 * quotient;
             if i > 0 {
-                powers[m][i - 1] += i as f64 * part;
+                powers[m][i - 1] += i as f64 * quotient;
             }
         }
     }
@@ -278,23 +299,21 @@ mod tests {
 
     #[test]
     fn differences_are_powers_of_the_distance() {
+        const N: usize = MAX_POLYNOMIAL_COUNT;
         let tables = legendre_of_difference_powers();
-        for (k, table) in
-            tables.chunks_exact(MAX_DEGREES * MAX_DEGREES).enumerate().take(MAX_DEGREES / 2)
-        {
+        for (k, table) in tables.chunks_exact(N * N).enumerate().take(N / 2) {
             for (x, y) in [(0.3_f64, -0.8), (-0.95, 0.9), (0.5, 0.5), (1.0, -1.0)] {
-                let mut in_x = [0.0; MAX_DEGREES];
-                let mut in_y = [0.0; MAX_DEGREES];
-                fill_legendre(x, &mut in_x);
-                fill_legendre(y, &mut in_y);
-                let sum: f64 = (0..MAX_DEGREES * MAX_DEGREES)
-                    .map(|place| {
-                        table[place] * in_x[place / MAX_DEGREES] * in_y[place % MAX_DEGREES]
-                    })
-                    .sum();
-                let exact = (0..k).fold(1.0_f64, |power, _| power * (x - y) * (x - y));
-                let largest = (2.0 * k as f64).exp2();
-                assert!((sum - exact).abs() < 1e-13 * largest, "{k} {x} {y}");
+                let mut x_polynomials = [0.0; N];
+                let mut y_polynomials = [0.0; N];
+                fill_legendre(x, &mut x_polynomials);
+                fill_legendre(y, &mut y_polynomials);
+                let mut computed = 0.0;
+                for (index, coefficient) in table.iter().enumerate() {
+                    computed += coefficient * x_polynomials[index / N] * y_polynomials[index % N];
+                }
+                let expected = (0..k).fold(1.0_f64, |power, _| power * (x - y) * (x - y));
+                let max_power = (2.0 * k as f64).exp2();
+                assert!((computed - expected).abs() < 1e-13 * max_power, "{k} {x} {y}");
             }
         }
     }

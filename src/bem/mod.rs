@@ -52,7 +52,7 @@ use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Soil under the base; implement this for a ground of your own.
+/// Soil under the base; implement this trait for a ground of your own.
 ///
 /// A ground returns the mean displacement of every element at the end of a step. It is the sum of the step compliance
 /// (a matrix) times the tractions of this step, which are constant over the step, and of the history, the effect of all
@@ -71,11 +71,11 @@ use crate::soil::Soil;
 /// dissipate (Δτ)²/2k without any damping: the response would converge at first order, and the loss would count as
 /// radiated by the soil. A spring with a dashpot c in parallel has the step compliance 1/(k/2 + c/Δt) and the history
 /// (c/Δt − k/2)/(c/Δt + k/2) s₀. [`SpringGround::of_elements`] makes a bed of them, which can be a part of your ground.
-/// Parts that only rates displace (dashpots, waves, creep) have the exact displacement under a constant traction.
+/// Parts without stiffness (dashpots, waves, creep) use the exact displacement under a constant traction.
 ///
-/// A run warns of an elastic part that follows the traction of the step:
-/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). To find it, `build` prepares a ground of
-/// your own, unless it has waves, for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
+/// A run warns of an elastic part with s₁ = τ/k:
+/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). For this check `build` prepares a ground of
+/// your own without waves for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
 ///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]
@@ -84,19 +84,19 @@ pub trait Ground: Any + Send {
     ///
     /// With walls, along the outline: down the left wall, along the base, up the right wall.
     ///
-    /// All elements are in the plane, or all are [in plan](ContactElement::in_plan). In plan they move in three
-    /// directions, and forces, moments and energies refer to the whole body, in N, N m and J.
+    /// All elements are in the plane, or all are [in plan](ContactElement::in_plan). Elements in plan have displacements
+    /// in three directions, and forces, moments and energies refer to the whole body, in N, N m and J.
     fn elements(&self) -> &[ContactElement];
 
     /// Prepares for steps of `time_step` seconds, and clears all tractions.
     ///
-    /// `steps` is the total number of steps, including the steps so far; `None` if no end is known. Weights are
-    /// computed and memory is allocated here. [`build`](crate::coupled::SimulationBuilder::build) calls it, and so does
-    /// a run that goes on beyond `steps`: before the first step, or later with [`Ground::save`] before and
-    /// [`Ground::restore`] after the call.
+    /// `steps` is the total number of steps, including the committed steps; `None` if the number is open. The method
+    /// computes weights and allocates memory. [`build`](crate::coupled::SimulationBuilder::build) calls it before the
+    /// first step. A run beyond `steps` calls it again, with [`Ground::save`] before and [`Ground::restore`] after the
+    /// call.
     ///
     /// # Errors
-    /// If this ground cannot take this time step or number of steps ([`Error::part`](crate::Error::part) makes an error
+    /// If this ground does not support this time step or number of steps ([`Error::part`](crate::Error::part) makes an error
     /// of a ground of your own); [`Error::Stopped`] by the observer. The ground is then unchanged.
     fn prepare(
         &mut self,
@@ -133,9 +133,9 @@ pub trait Ground: Any + Send {
 
     /// Diagonals of step and static compliance, if all other entries are zero; `None` by default.
     ///
-    /// Return them only if no element moves another one, nor one of its directions another one. Under a base of few rigid
-    /// bodies, a run on many such elements in plan then needs no matrices between them: a bed of 64 × 64 cells takes tens of
-    /// megabytes instead of gigabytes. All other grounds and bases have the matrices.
+    /// Return them only if a traction displaces its own element in its own direction alone. Under a base of few rigid
+    /// bodies, a run on many such elements in plan then needs no full matrices: a bed of 64 × 64 cells needs tens of
+    /// megabytes instead of gigabytes. A run on all other grounds and bases uses the full matrices.
     ///
     /// # Errors
     /// If the ground is not prepared.
@@ -145,8 +145,9 @@ pub trait Ground: Any + Send {
 
     /// Static compliance of elements cut into halves, or in plan into quarters; `None` by default.
     ///
-    /// The matrix is like [`Ground::static_compliance`], with the parts of each element in its place; in plan left
-    /// front, right front, left back, right back. `build` uses it to find whether a flexible base needs more elements.
+    /// The matrix is like [`Ground::static_compliance`], with the parts of each element in place of the element. In plan
+    /// their order is left front, right front, left back, right back. `build` uses the matrix to check whether a
+    /// flexible base needs more elements.
     ///
     /// # Errors
     /// If the matrix cannot be computed.
@@ -156,7 +157,7 @@ pub trait Ground: Any + Send {
 
     /// Soil and history of the ground, for warnings and pages; nothing by default.
     ///
-    /// `build` takes all but the history from one call before [`Ground::prepare`].
+    /// `build` uses all fields but the history from one call before [`Ground::prepare`].
     fn description(&self) -> GroundDescription {
         GroundDescription::default()
     }
@@ -190,23 +191,25 @@ pub trait Ground: Any + Send {
     /// Overwrites `displacement` (2Q, m) with the soil's motion without structure at `time`.
     ///
     /// Normal components are positive **down**. The default evaluates `motion` at the element midpoints. A run on a ground
-    /// with walls takes [`FreeField::at_faces`] instead.
+    /// with walls uses [`FreeField::at_faces`] instead.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let count = self.elements().len();
+        let element_count = self.elements().len();
         for (e, element) in self.elements().iter().enumerate() {
             let center = element.center();
             let surface_motion = motion.displacement_at([center[0], center[1]], time);
-            let components = displacement.iter_mut().skip(e).step_by(count);
-            for (value, component) in components.zip(element.components(surface_motion)) {
-                *value = component;
+            let components = displacement.iter_mut().skip(e).step_by(element_count);
+            for (component, surface_component) in components.zip(element.components(surface_motion))
+            {
+                *component = surface_component;
             }
         }
     }
 }
 
-/// Overwrites displacements and impulses, both 2Q, as [`Ground::free_field`] or with walls [`FreeField::at_faces`].
+/// Overwrites free-field displacements (2Q, m) and, with walls, impulses (2Q, Pa s).
 ///
-/// Impulses are overwritten with walls only. Returns whether the motion is known.
+/// Calls [`FreeField::at_faces`] for elements with walls and [`Ground::free_field`] for all others. Returns whether
+/// `motion` is defined at all elements.
 pub(crate) fn free_field(
     ground: &dyn Ground,
     motion: &dyn FreeField,
@@ -221,7 +224,7 @@ pub(crate) fn free_field(
     true
 }
 
-/// Compliances of a ground whose elements do not move each other: [`Ground::diagonal_compliance`].
+/// Diagonal compliances of a ground with independent elements: [`Ground::diagonal_compliance`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiagonalCompliance {
     /// Diagonal of [`Ground::step_compliance`], 2Q, m/Pa.
@@ -238,28 +241,28 @@ pub struct GroundDescription {
     /// Soils of the ground; a run warns of an unusual soil:
     /// [`Mistake::UnusualSoil`](crate::coupled::Mistake::UnusualSoil).
     pub soils: Vec<Soil>,
-    /// Number of cells whose passivity is checked, and of all cells; `None` if all are checked.
+    /// Number of cells with a passivity check, and number of all cells; `None` if all cells are checked.
     ///
-    /// If only a sample is checked, a run warns:
+    /// A run warns if only a sample is checked:
     /// [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     pub sampled_cells: Option<[usize; 2]>,
-    /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
+    /// Soil pressure at rest on each element, divided by gravity, kg/m²; empty for a ground without walls.
     ///
-    /// It acts on the walls of a structure in the ground before the run. Pressures below its base count for
-    /// [`GravityStage::WishedInPlace`](crate::coupled::GravityStage::WishedInPlace) only. Walls of a ground that leaves
-    /// the list empty carry no pressure at rest.
+    /// The pressure acts on the walls of an embedded structure before the run. Pressures below the structure's base act
+    /// with [`GravityStage::WishedInPlace`](crate::coupled::GravityStage::WishedInPlace) only. Walls have no pressure at
+    /// rest if this list is empty.
     pub pressure_at_rest: Vec<f64>,
-    /// Distance of the resultant of that pressure below the middle of each element, m; empty where it is the middle.
+    /// Depth of the pressure's resultant below the middle of each element, m; empty if all depths are zero.
     ///
-    /// Pressures on an element are distributed as at rest, for the place of a wall's thrust
+    /// The position of a wall's thrust follows from pressures that are distributed on each element as at rest
     /// ([`FaceForces::place`](crate::coupled::FaceForces::place)).
     pub depth_of_pressure_at_rest: Vec<f64>,
     /// Mean mass of the soil above each element, kg/m²; empty for a ground without walls, or of unknown weight.
     ///
-    /// A run warns of walls that press on the soil with more than it bears:
+    /// A run warns of wall pressures beyond the soil's resistance:
     /// [`Warning::WallPressure`](crate::coupled::Warning::WallPressure).
     pub mass_above: Vec<f64>,
-    /// Numbers of the soils around walls, equal only for equal soils; `None` if they are not known.
+    /// Numbers that identify the soils around walls, equal only for equal soils; `None` without them.
     ///
     /// `build` compares them with [`FreeField::soils`].
     pub identity: Option<Vec<f64>>,
@@ -267,7 +270,7 @@ pub struct GroundDescription {
     pub history: Option<HistoryChoice>,
 }
 
-/// Error of a ground before its time step is known.
+/// Error of a ground without a time step, before `prepare`.
 const NOT_PREPARED: Error = Error::Scene {
     quantity: "ground",
     needed: "`prepare` must be called with the time step first",
@@ -276,12 +279,13 @@ const NOT_PREPARED: Error = Error::Scene {
 /// Soil with convolution weights and a static compliance, as [`WeightsGround`] needs it.
 ///
 /// In the [mid-step form](Ground#elastic-parts-in-the-mid-step-form) the weights of an elastic part of compliance C
-/// alternate for ever: 2C, −2C, 2C, … A single weight C would damp at first order. A [`Ground`] can have such a part.
+/// alternate without end: 2C, −2C, 2C, … A single weight C would add damping of first order in the time step. A
+/// [`Ground`] can have an elastic part.
 pub trait WeightsSource: Any + Send {
     /// Convolution weights of `elements` (left to right, not overlapping) for steps of `time_step` seconds.
     ///
-    /// Compute coefficients when they are requested, not in this call: other grounds may be waiting for the same
-    /// kernel.
+    /// Compute coefficients when they are requested, not in this call: threads of other grounds may be waiting for the
+    /// same weights.
     ///
     /// # Errors
     /// If the soil has no weights for these elements or this step.
@@ -305,9 +309,9 @@ pub trait WeightsSource: Any + Send {
         None
     }
 
-    /// Numbers that identify the soil among its type, so that equal soils share kernels; `None` by default.
+    /// Numbers that identify the soil among soils of this type, for shared weights; `None` by default.
     ///
-    /// Equal numbers must mean equal bits of all coefficients. With `None`, [`SharedKernels`] shares no kernel of this
+    /// Equal numbers must mean equal bits of all coefficients. With `None`, [`SharedKernels`] stores no weights of this
     /// soil.
     fn identity(&self) -> Option<Vec<f64>> {
         None

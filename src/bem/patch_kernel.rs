@@ -8,7 +8,7 @@ use crate::soil::Soil;
 
 /// [`ConvolutionWeights`] of the half-plane for a patch of surface elements, in closed form.
 ///
-/// The coupling of a pair ends when the Rayleigh wave has crossed it.
+/// The coupling of a pair of elements ends when the Rayleigh wave has crossed both.
 #[derive(Debug, Clone)]
 pub struct PatchKernel {
     pub(super) kernel: InfluenceKernel,
@@ -17,7 +17,7 @@ pub struct PatchKernel {
 }
 
 impl PatchKernel {
-    /// Kernel for `elements` (left to right, not overlapping) and steps of `time_step` seconds.
+    /// Weights for `elements` (left to right, not overlapping) and steps of `time_step` seconds.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step; as for [`PairClasses::new`].
@@ -39,13 +39,13 @@ impl ConvolutionWeights for PatchKernel {
         first_lag: usize,
         values: &mut [&mut [f64]],
     ) -> Result<()> {
-        let values = by_kind(values)?;
+        let components = by_kind(values)?;
         let [source, receiver] = self.classes.representative(class)?;
         let pair = self.kernel.pair(receiver, source)?;
-        pair.fill(first_lag, values)?;
-        let length = receiver.length();
-        for value in values.iter_mut().flat_map(|kind| kind.iter_mut()) {
-            *value *= length;
+        pair.fill(first_lag, components)?;
+        let receiver_length = receiver.length();
+        for value in components.iter_mut().flat_map(|component| component.iter_mut()) {
+            *value *= receiver_length;
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 
-/// Largest number of kernels stored: the most recently used ones.
+/// Largest number of stored kernels: more would fill the memory in long sweeps.
 const MAX_STORED_KERNELS: usize = 8;
 
 /// Store of weights and spectra for grounds of one soil, mesh and time step.
@@ -17,9 +17,9 @@ const MAX_STORED_KERNELS: usize = 8;
 /// Grounds with clones of one store ([`ElasticGround::with_shared_kernels`],
 /// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
 /// store holds the eight combinations of soil, mesh and step used last. Results are the same to the last bit.
-/// [`WeightsSource::identity`] decides whether two soils are the same. A thread that needs weights another thread is
-/// computing waits for them. A source may take the weights of other sources from the same store while it computes
-/// its own; sources of several threads that take each other's weights wait for ever.
+/// [`WeightsSource::identity`] decides whether two soils are the same. A thread waits for weights that another thread
+/// is computing. A source may request the weights of other sources from the same store during its computation. Sources
+/// on several threads that request each other's weights wait without end.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
@@ -45,15 +45,18 @@ pub struct SharedKernels {
     store: Arc<Store>,
 }
 
+/// Table of kernels behind a lock, and the signal to waiting threads.
 #[derive(Debug, Default)]
 struct Store {
     kernels: Mutex<KernelTable>,
-    /// Notifies waiting threads that a kernel is ready or has failed.
-    ended: Condvar,
+    /// Notifies waiting threads that the computation of a kernel has ended, with or without an error.
+    computation_ended: Condvar,
 }
 
+/// Stored kernels, and the kernels in computation.
 #[derive(Debug, Default)]
 struct KernelTable {
+    /// Stored kernels, the last used one at the end.
     entries: Vec<StoredKernel>,
     /// Kernels that are being computed, each with its thread.
     in_progress: Vec<(Arc<KernelKey>, ThreadId)>,
@@ -62,7 +65,7 @@ struct KernelTable {
 /// Soil, time step and elements that determine a kernel.
 #[derive(Debug, PartialEq)]
 struct KernelKey {
-    source: TypeId,
+    source_type: TypeId,
     identity: Vec<f64>,
     time_step: f64,
     elements: Vec<ContactElement>,
@@ -78,11 +81,14 @@ short_debug! { StoredKernel; self; identity: self.key.identity, time_step: self.
 impl KernelTable {
     /// Thread that is computing the kernel of `key`.
     fn computing_thread(&self, key: &KernelKey) -> Option<ThreadId> {
-        self.in_progress.iter().find(|(other, _)| **other == *key).map(|(_, thread)| *thread)
+        self.in_progress
+            .iter()
+            .find(|(computed_key, _)| **computed_key == *key)
+            .map(|(_, thread)| *thread)
     }
 }
 
-/// Kernel that is being computed; when dropped, ends the wait of other threads.
+/// Kernel in computation; its drop ends the wait of other threads.
 struct KernelInProgress<'a> {
     store: &'a SharedKernels,
     key: &'a Arc<KernelKey>,
@@ -91,7 +97,7 @@ struct KernelInProgress<'a> {
 impl Drop for KernelInProgress<'_> {
     fn drop(&mut self) {
         self.store.kernels().in_progress.retain(|(key, _)| !Arc::ptr_eq(key, self.key));
-        self.store.store.ended.notify_all();
+        self.store.store.computation_ended.notify_all();
     }
 }
 
@@ -105,9 +111,9 @@ impl SharedKernels {
         self.store.kernels.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the kernel of these elements.
+    /// Returns the stored or newly computed kernel of these elements.
     ///
-    /// It is computed if it is not stored or `source` has no identity.
+    /// A kernel of a `source` without identity is not stored.
     pub(super) fn kernel(
         &self,
         source: &dyn WeightsSource,
@@ -117,14 +123,14 @@ impl SharedKernels {
         let Some(identity) = source.identity() else {
             return source.kernel(elements, time_step);
         };
-        let any: &dyn Any = source;
+        let source_as_any: &dyn Any = source;
         let key = Arc::new(KernelKey {
-            source: any.type_id(),
+            source_type: source_as_any.type_id(),
             identity,
             time_step,
             elements: elements.to_vec(),
         });
-        if let Some(kernel) = self.stored_or_begun(&key)? {
+        if let Some(kernel) = self.stored_kernel_or_begin(&key)? {
             return Ok(kernel);
         }
         // The store is not locked while the kernel is computed: the kernel may need other kernels.
@@ -142,31 +148,35 @@ impl SharedKernels {
         Ok(kernel)
     }
 
-    /// Returns the stored kernel of `key`, after waiting for another thread that computes it.
+    /// Returns the stored kernel of `key`, or `None` after it has marked the kernel as in computation by the caller.
     ///
-    /// Returns `None` if the caller has to compute it.
-    fn stored_or_begun(&self, key: &Arc<KernelKey>) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
+    /// Waits while another thread computes the kernel.
+    fn stored_kernel_or_begin(
+        &self,
+        key: &Arc<KernelKey>,
+    ) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
         let this_thread = thread::current().id();
         let mut kernels = self.kernels();
         loop {
-            if let Some(place) = kernels.entries.iter().position(|entry| entry.key == *key) {
+            if let Some(index) = kernels.entries.iter().position(|entry| entry.key == *key) {
                 // The kernel used last moves to the end, because the first one is removed first.
-                let entry = kernels.entries.remove(place);
+                let entry = kernels.entries.remove(index);
                 let kernel = Arc::clone(&entry.kernel);
                 kernels.entries.push(entry);
                 return Ok(Some(kernel));
             }
-            let Some(computing) = kernels.computing_thread(key) else {
+            let Some(computing_thread) = kernels.computing_thread(key) else {
                 kernels.in_progress.push((Arc::clone(key), this_thread));
                 return Ok(None);
             };
-            if computing == this_thread {
+            if computing_thread == this_thread {
                 return Err(Error::Scene {
                     quantity: "kernel source",
-                    needed: "must not ask the shared kernels for the kernel that it is making",
+                    needed: "must not request the kernel that it is computing from the shared kernels",
                 });
             }
-            kernels = self.store.ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
+            kernels =
+                self.store.computation_ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
         }
     }
 }

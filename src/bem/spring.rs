@@ -12,12 +12,13 @@ use crate::structure::Structure;
 ///
 /// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, stepped by a θ rule: θ = ½ (the
 /// default, the [mid-step form](Ground#elastic-parts-in-the-mid-step-form)) conserves the springs' energy, θ = 1 damps the
-/// ringing of a released bed without dashpots. Stiff tangential springs without dashpots keep the sideways speed of a base
-/// that lands from a flight: it alternates from step to step. A ground of your own can contain a bed as one of its parts:
-/// [`SpringGround::of_elements`].
+/// oscillations of a released bed without dashpots. A base with a sideways speed may land on stiff tangential springs
+/// without dashpots: this speed then alternates from step to step. A ground of your own can contain a bed as one of its
+/// parts: [`SpringGround::of_elements`].
 ///
-/// In plan under a base of up to ten rigid bodies, memory and time of a step grow in proportion to the elements, from 64
-/// elements on: a bed of 64 × 64 cells is usual. Under a base that can bend, and in the plane, they grow as on elastic soil.
+/// In plan under a base of up to ten rigid bodies, memory and time per step grow in proportion to the number of elements,
+/// from 64 elements on: a bed of 64 × 64 cells is usual. Under a flexible base, and in the plane, they grow as on elastic
+/// soil.
 ///
 /// ```
 /// use basemat::bem::{Ground, SpringGround};
@@ -31,12 +32,14 @@ use crate::structure::Structure;
 #[derive(Debug, Clone)]
 pub struct SpringGround {
     elements: Patch,
-    /// Stiffness of each number of a contact vector, Pa/m.
+    /// Stiffness of each component of a contact vector, Pa/m.
     stiffness: Vec<f64>,
-    /// Dashpot coefficient of each number of a contact vector, Pa·s/m.
+    /// Dashpot coefficient of each component of a contact vector, Pa·s/m.
     dashpot: Vec<f64>,
     theta: f64,
+    /// Time step, s; zero before `prepare`.
     time_step: f64,
+    /// Displacement at the end of the last step, m.
     displacement: Vec<f64>,
 }
 
@@ -111,16 +114,15 @@ impl SpringGround {
         Self::uniform_bed(plan.without_overhang()?.elements(), stiffness)
     }
 
-    /// Bed of any elements, with a spring and a dashpot for each number of a [contact vector](crate::bem).
+    /// Bed of any elements, with a spring and a dashpot for each component of a [contact vector](crate::bem).
     ///
-    /// `stiffness` in Pa/m and `dashpot` in Pa·s/m have 2Q numbers for Q elements, in plan 3Q. A ground of your own that
-    /// consists of springs and dashpots, and of more, calls the bed's methods in its own methods of the same name, and
-    /// adds its other parts.
+    /// `stiffness` in Pa/m and `dashpot` in Pa·s/m have 2Q components for Q elements, in plan 3Q. A ground of your own
+    /// with such a bed as a part calls the bed's methods in its methods of the same name, and adds its other parts.
     ///
     /// ```
     /// use basemat::bem::{Ground, SpringGround, Strip};
     /// let elements = Strip::uniform(-2.0..2.0, 2)?.elements();
-    /// // Down, then to the right: the left half is softer.
+    /// // Down, then to the right: the left element is softer.
     /// let mut bed = SpringGround::of_elements(elements, &[1e7, 2e7, 5e6, 5e6], &[0.0; 4])?;
     /// bed.prepare(0.01, None, &mut basemat::unobserved)?;
     /// let (mut step, mut past) = ([0.0; 16], [0.0; 4]);
@@ -141,12 +143,12 @@ impl SpringGround {
         dashpot: &[f64],
     ) -> Result<Self> {
         let elements = Patch::of_any_count(elements)?;
-        let size = elements.layout().len();
-        same_length("stiffnesses of the spring bed", stiffness.len(), size)?;
-        same_length("dashpots of the spring bed", dashpot.len(), size)?;
-        for (stiffness, dashpot) in stiffness.iter().zip(dashpot) {
-            positive("stiffness of the spring bed", *stiffness)?;
-            not_negative("dashpot of the spring bed", *dashpot)?;
+        let component_count = elements.layout().len();
+        same_length("stiffnesses of the spring bed", stiffness.len(), component_count)?;
+        same_length("dashpots of the spring bed", dashpot.len(), component_count)?;
+        for i in 0..component_count {
+            positive("stiffness of the spring bed", stiffness[i])?;
+            not_negative("dashpot of the spring bed", dashpot[i])?;
         }
         Ok(Self {
             elements,
@@ -154,7 +156,7 @@ impl SpringGround {
             dashpot: dashpot.to_vec(),
             theta: 0.5,
             time_step: 0.0,
-            displacement: vec![0.0; size],
+            displacement: vec![0.0; component_count],
         })
     }
 
@@ -167,8 +169,8 @@ impl SpringGround {
         positive("tangential stiffness of the spring bed", stiffness[1])?;
         positive("tangential stiffness of the spring bed along y", stiffness[2])?;
         let layout = ContactLayout::for_elements(&elements);
-        let stiffness = each_number(layout, stiffness);
-        Self::of_elements(elements, &stiffness, &vec![0.0; stiffness.len()])
+        let stiffnesses = component_values(layout, stiffness);
+        Self::of_elements(elements, &stiffnesses, &vec![0.0; stiffnesses.len()])
     }
 
     /// Adds dashpots (Pa·s/m) parallel to the springs.
@@ -180,7 +182,7 @@ impl SpringGround {
     pub fn with_dashpots(mut self, normal: f64, tangential: f64) -> Result<Self> {
         let normal = not_negative("normal dashpot of the spring bed", normal)?;
         let tangential = not_negative("tangential dashpot of the spring bed", tangential)?;
-        self.dashpot = each_number(self.elements.layout(), [normal, tangential, tangential]);
+        self.dashpot = component_values(self.elements.layout(), [normal, tangential, tangential]);
         Ok(self)
     }
 
@@ -193,30 +195,40 @@ impl SpringGround {
         Ok(self)
     }
 
-    /// Returns an error before `prepare`: without a time step the impedance is not defined.
+    /// Error before `prepare`: without a time step the impedance is undefined.
     fn check_prepared(&self) -> Result<()> {
         if self.time_step > 0.0 { Ok(()) } else { Err(NOT_PREPARED) }
     }
 
-    /// θ k + c/Δt of a number of a contact vector.
+    /// Impedance θ k + c/Δt of a component of a contact vector, Pa/m.
     fn impedance(&self, index: usize) -> f64 {
         self.theta * self.stiffness[index] + self.dashpot[index] / self.time_step
     }
 
-    /// Overwrites `matrix` with a diagonal matrix of `value` of each diagonal place.
-    fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
-        let size = self.displacement.len();
-        same_length("matrix of the spring bed", matrix.len(), size * size)?;
+    /// Displacement at the end of the next step without traction, m.
+    fn history_component(&self, index: usize) -> f64 {
+        let impedance = self.impedance(index);
+        (impedance - self.stiffness[index]) / impedance * self.displacement[index]
+    }
+
+    /// Overwrites `matrix` with a diagonal matrix; `diagonal_entry` returns the entry of each component.
+    fn fill_diagonal(
+        &self,
+        matrix: &mut [f64],
+        diagonal_entry: impl Fn(usize) -> f64,
+    ) -> Result<()> {
+        let row_count = self.displacement.len();
+        same_length("matrix of the spring bed", matrix.len(), row_count * row_count)?;
         matrix.fill(0.0);
-        for i in 0..size {
-            matrix[i * size + i] = value(i);
+        for i in 0..row_count {
+            matrix[i * row_count + i] = diagonal_entry(i);
         }
         Ok(())
     }
 }
 
-/// Values down, along x and along y, for each number of a contact vector.
-fn each_number(layout: ContactLayout, values: [f64; COMPONENTS_IN_SPACE]) -> Vec<f64> {
+/// Value of each component of a contact vector, from the values down, along x and along y.
+fn component_values(layout: ContactLayout, values: [f64; COMPONENTS_IN_SPACE]) -> Vec<f64> {
     (0..layout.len()).map(|index| values[layout.origin(index)[0]]).collect()
 }
 
@@ -244,19 +256,17 @@ impl Ground for SpringGround {
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         self.check_prepared()?;
         same_length("displacement of the history", displacement.len(), self.displacement.len())?;
-        for (i, (out, last)) in displacement.iter_mut().zip(&self.displacement).enumerate() {
-            let impedance = self.impedance(i);
-            *out = (impedance - self.stiffness[i]) / impedance * last;
+        for (i, component) in displacement.iter_mut().enumerate() {
+            *component = self.history_component(i);
         }
         Ok(())
     }
 
     fn commit(&mut self, traction: &[f64]) {
         for i in 0..self.displacement.len() {
-            let traction = traction.get(i).copied().unwrap_or(0.0);
-            let impedance = self.impedance(i);
-            let history = (impedance - self.stiffness[i]) / impedance * self.displacement[i];
-            self.displacement[i] = history + traction / impedance;
+            let component_traction = traction.get(i).copied().unwrap_or(0.0);
+            self.displacement[i] =
+                self.history_component(i) + component_traction / self.impedance(i);
         }
     }
 
@@ -285,11 +295,11 @@ impl Ground for SpringGround {
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
-        let parts = self.elements[0].parts().count();
-        let size = parts * self.displacement.len();
-        let mut matrix = vec![0.0; size * size];
-        for i in 0..size {
-            matrix[i * (size + 1)] = 1.0 / self.stiffness[i / parts];
+        let part_count = self.elements[0].parts().count();
+        let row_count = part_count * self.displacement.len();
+        let mut matrix = vec![0.0; row_count * row_count];
+        for i in 0..row_count {
+            matrix[i * (row_count + 1)] = 1.0 / self.stiffness[i / part_count];
         }
         Ok(Some(matrix))
     }
@@ -306,21 +316,21 @@ mod tests {
             .with_dashpots(10.0, 5.0)
             .unwrap();
         bed.prepare(0.01, None, &mut crate::unobserved).unwrap();
-        let mut s = [0.0; 2];
         for _ in 0..10 {
             bed.commit(&[200.0, -50.0]);
         }
-        // s = p/k (1 − exp(−k t/c)) at t = 0.1 s, within the rule's second order.
-        let exact = 1.0 - (-1.0_f64).exp();
-        assert!((bed.displacement[0] / 2.0 - exact).abs() < 5e-4);
-        assert!((bed.displacement[1] / -1.0 - exact).abs() < 5e-4);
+        // s = p/k (1 − exp(−k t/c)) at t = 0.1 s, with the second-order error of the θ rule.
+        let expected_ratio = 1.0 - (-1.0_f64).exp();
+        assert!((bed.displacement[0] / 2.0 - expected_ratio).abs() < 5e-4);
+        assert!((bed.displacement[1] / -1.0 - expected_ratio).abs() < 5e-4);
         for _ in 0..2000 {
             bed.commit(&[200.0, -50.0]);
         }
-        bed.history(&mut s).unwrap();
-        let mut matrix = [0.0; 4];
-        bed.step_compliance(&mut matrix).unwrap();
-        assert!((s[0] + matrix[0] * 200.0 - 2.0).abs() < 1e-12);
-        assert!((s[1] + matrix[3] * -50.0 + 1.0).abs() < 1e-12);
+        let mut history = [0.0; 2];
+        bed.history(&mut history).unwrap();
+        let mut compliance = [0.0; 4];
+        bed.step_compliance(&mut compliance).unwrap();
+        assert!((history[0] + compliance[0] * 200.0 - 2.0).abs() < 1e-12);
+        assert!((history[1] + compliance[3] * -50.0 + 1.0).abs() < 1e-12);
     }
 }

@@ -8,6 +8,9 @@ use crate::history::PairClasses;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
+/// Reference length in spans of the elements: far enough for a positive definite static matrix.
+const REFERENCE_SPANS: f64 = 10.0;
+
 /// Element means of the static surface displacement (Flamant).
 ///
 /// `u_zz` = `u_xx` = −(1−ν)/(πμ) ln(|x|/L₀) and `u_zx` = −`u_xz` = (1−2ν)/(4μ) sgn x (Johnson 1985, § 2.3), x from the
@@ -23,7 +26,7 @@ pub(crate) struct StaticKernel {
 }
 
 impl StaticKernel {
-    /// Kernel of a soil; displacements vanish at the distance `reference_length` (L₀, m).
+    /// Kernel of a soil whose displacements vanish at the distance `reference_length` (L₀, m).
     ///
     /// The distance can be chosen freely because a half-plane has no static datum.
     ///
@@ -39,13 +42,13 @@ impl StaticKernel {
         })
     }
 
-    /// Kernel for `elements` (at least one), with a reference length well above the patch.
+    /// Kernel for `elements` (at least one), with a reference length well above their span.
     ///
-    /// The logarithm needs a length as datum. A long one keeps the static matrix positive definite, and the settlement
-    /// that it adds cancels in all results.
+    /// The logarithm needs a length as datum. A long reference length keeps the static matrix positive definite. The
+    /// settlement that it adds cancels in all results.
     pub(super) fn under(soil: Soil, elements: &[ContactElement]) -> Result<Self> {
         let span = elements[elements.len() - 1].right() - elements[0].left();
-        Self::new(soil, 10.0 * span)
+        Self::new(soil, REFERENCE_SPANS * span)
     }
 
     /// Mean displacement of the receiver due to a unit traction on the source, m/Pa.
@@ -58,16 +61,18 @@ impl StaticKernel {
         source: ContactElement,
     ) -> Result<Surface> {
         let overlap = Overlap::new(receiver, source)?;
-        let mut even = 0.0;
-        let mut odd = 0.0;
-        for i in 1..overlap.nodes.len() {
-            let low = overlap.nodes[i - 1];
-            let high = overlap.nodes[i];
-            even += self.logarithm_integral([low, high], [overlap.even[i - 1], overlap.even[i]]);
-            odd += 0.5 * (high - low) * (overlap.odd[i - 1] + overlap.odd[i]);
+        let Overlap { nodes, even_overlaps, odd_overlaps, receiver_length, .. } = &overlap;
+        let mut even_sum = 0.0;
+        let mut odd_sum = 0.0;
+        for i in 1..nodes.len() {
+            even_sum += self.logarithm_integral(
+                [nodes[i - 1], nodes[i]],
+                [even_overlaps[i - 1], even_overlaps[i]],
+            );
+            odd_sum += 0.5 * (nodes[i] - nodes[i - 1]) * (odd_overlaps[i - 1] + odd_overlaps[i]);
         }
-        let diagonal = self.logarithm_factor * even / overlap.length;
-        Ok(Surface { zz: diagonal, xx: diagonal, zx: self.sign_factor * odd / overlap.length })
+        let diagonal = self.logarithm_factor * even_sum / receiver_length;
+        Ok(Surface { zz: diagonal, xx: diagonal, zx: self.sign_factor * odd_sum / receiver_length })
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
@@ -87,24 +92,25 @@ impl StaticKernel {
         Ok(())
     }
 
-    /// ∫ w ln(x/L₀) dx for w linear between `low` and `high`.
-    fn logarithm_integral(&self, [low, high]: [f64; 2], [w0, w1]: [f64; 2]) -> f64 {
-        let length = high - low;
+    /// ∫ w ln(x/L₀) dx from `x0` to `x1`, for w linear from `w0` to `w1`.
+    fn logarithm_integral(&self, [x0, x1]: [f64; 2], [w0, w1]: [f64; 2]) -> f64 {
+        let length = x1 - x0;
         let slope = (w1 - w0) / length;
-        if low >= 0.5 * length {
+        if x0 >= 0.5 * length {
             // Away from the singularity the rule is exact to rounding, while differences of the primitives lose digits.
             let rule = gauss::largest();
             let mut sum = 0.0;
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                let inside = 0.5 * length * (1.0 + node);
-                let logarithm = ((low + inside) / self.reference_length).ln();
-                sum += weight * (w0 + slope * inside) * logarithm;
+                let distance = 0.5 * length * (1.0 + node);
+                let logarithm = ((x0 + distance) / self.reference_length).ln();
+                sum += weight * (w0 + slope * distance) * logarithm;
             }
             return 0.5 * length * sum;
         }
-        let at_low = self.primitives(low);
-        let at_high = self.primitives(high);
-        (w0 - slope * low) * (at_high[0] - at_low[0]) + slope * (at_high[1] - at_low[1])
+        let start_primitives = self.primitives(x0);
+        let end_primitives = self.primitives(x1);
+        (w0 - slope * x0) * (end_primitives[0] - start_primitives[0])
+            + slope * (end_primitives[1] - start_primitives[1])
     }
 
     /// Primitives of ln(x/L₀) and of x ln(x/L₀).
@@ -112,8 +118,8 @@ impl StaticKernel {
         if x == 0.0 {
             return [0.0, 0.0];
         }
-        let log = (x / self.reference_length).ln();
-        [x * (log - 1.0), 0.5 * x * x * (log - 0.5)]
+        let logarithm = (x / self.reference_length).ln();
+        [x * (logarithm - 1.0), 0.5 * x * x * (logarithm - 0.5)]
     }
 }
 
@@ -128,12 +134,13 @@ mod tests {
     #[test]
     fn bad_input_is_an_error() {
         let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(StaticKernel::new(soil, bad).is_err());
+        for reference_length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(StaticKernel::new(soil, reference_length).is_err());
         }
         let kernel = StaticKernel::new(soil, 1.0).unwrap();
-        for bad in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)] {
-            assert!(kernel.coefficients(bad, element(0.0, 1.0)).is_err());
+        for bad_element in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)]
+        {
+            assert!(kernel.coefficients(bad_element, element(0.0, 1.0)).is_err());
         }
     }
 
@@ -142,23 +149,26 @@ mod tests {
         let soil = Soil::new(2.0, 0.3, 1.0).unwrap();
         let kernel = StaticKernel::new(soil, 3.0).unwrap();
         // Midpoint rule over the receiver of the exact line integral over the source.
-        for (p, q) in [
+        for (receiver, source) in [
             (element(0.0, 1.0), element(1.5, 3.0)),
             (element(-4.0, -1.0), element(-0.9, 0.3)),
             (element(0.0, 1.0), element(400.0, 401.0)),
         ] {
-            let count = 4000;
+            let point_count = 4000;
             let mut sum = 0.0;
-            for i in 0..count {
-                let x = p.left() + p.length() * (f64::from(i) + 0.5) / f64::from(count);
-                sum += line_integral(x - q.left()) - line_integral(x - q.right());
+            for i in 0..point_count {
+                let fraction = (f64::from(i) + 0.5) / f64::from(point_count);
+                let x = receiver.left() + receiver.length() * fraction;
+                sum += line_integral(x - source.left()) - line_integral(x - source.right());
             }
-            let expected = -0.7 / (std::f64::consts::PI * 2.0) * sum / f64::from(count);
-            let found = kernel.coefficients(p, q).unwrap();
-            assert!((found.zz - expected).abs() < 1e-6 * expected.abs(), "{p:?} {q:?}");
-            assert_eq!(found.zz, found.xx);
-            let jump = -0.4 / 8.0 * q.length();
-            assert!((found.zx - jump).abs() < 1e-15, "{} {jump}", found.zx);
+            let expected = -0.7 / (std::f64::consts::PI * 2.0) * sum / f64::from(point_count);
+            let computed = kernel.coefficients(receiver, source).unwrap();
+            let error = (computed.zz - expected).abs();
+            assert!(error < 1e-6 * expected.abs(), "{receiver:?} {source:?}");
+            assert_eq!(computed.zz, computed.xx);
+            let expected_coupling = -0.4 / 8.0 * source.length();
+            let error = (computed.zx - expected_coupling).abs();
+            assert!(error < 1e-15, "{} {expected_coupling}", computed.zx);
         }
     }
 
@@ -172,9 +182,9 @@ mod tests {
         // (1/l) ∫∫ ln|x−ξ| = l (ln l − 3/2).
         let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
         let kernel = StaticKernel::new(soil, 1.0).unwrap();
-        let found = kernel.coefficients(element(2.0, 4.0), element(2.0, 4.0)).unwrap();
+        let computed = kernel.coefficients(element(2.0, 4.0), element(2.0, 4.0)).unwrap();
         let expected = -0.75 / std::f64::consts::PI * 2.0 * (2.0_f64.ln() - 1.5);
-        assert!((found.zz - expected).abs() < 1e-15);
-        assert_eq!(found.zx, 0.0);
+        assert!((computed.zz - expected).abs() < 1e-15);
+        assert_eq!(computed.zx, 0.0);
     }
 }

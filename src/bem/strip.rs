@@ -63,7 +63,7 @@ impl Strip {
         let mut nodes = vec![range.start];
         for k in 1..count {
             let fraction = k as f64 / count as f64;
-            // The sine of the distance from the middle keeps both halves mirror images to rounding.
+            // The sine of the angle from the middle makes both halves mirror images to rounding.
             let relative_position = match grading {
                 Grading::Uniform => 2.0 * fraction - 1.0,
                 Grading::Cosine => (std::f64::consts::PI * (fraction - 0.5)).sin(),
@@ -119,11 +119,11 @@ impl Strip {
         let mut strips = Vec::with_capacity(lines.len());
         for nodes in &lines {
             check_line(nodes)?;
-            let first = nodes[0].x;
-            let last = nodes[nodes.len() - 1].x;
-            from_the_left(first, last)?;
+            let left_end = nodes[0].x;
+            let right_end = nodes[nodes.len() - 1].x;
+            from_the_left(left_end, right_end)?;
             let element_count = if count == 0 { 0 } else { count.max(BaseNode::segments(nodes)) };
-            strips.push(Self::new(first..last, element_count, grading)?);
+            strips.push(Self::new(left_end..right_end, element_count, grading)?);
         }
         Ok(strips)
     }
@@ -166,78 +166,81 @@ impl AsRef<[Strip]> for Strip {
     }
 }
 
-// Geometry of a pair of elements: the length of overlap at every offset, and its integral over the offsets that a wave
-// of a certain speed passes during a step.
+/// Relative rounding error of an offset, a sum of up to four element ends: eight units in the last place.
+const OFFSET_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Overlap lengths w(x) of a receiver and a source shifted by x, folded to x ≥ 0.
 ///
-/// Both foldings are linear between `nodes`.
+/// The even and the odd overlap are linear between `nodes`.
 #[derive(Debug, Clone)]
 pub(crate) struct Overlap {
     /// Offsets, ascending, m.
     pub(crate) nodes: Vec<f64>,
     /// w(x) + w(−x) at the nodes, m.
-    pub(crate) even: Vec<f64>,
+    pub(crate) even_overlaps: Vec<f64>,
     /// w(x) − w(−x) at the nodes, m.
-    pub(crate) odd: Vec<f64>,
+    pub(crate) odd_overlaps: Vec<f64>,
     /// Length of the receiver, m.
-    pub(crate) length: f64,
-    /// Whether the odd folding is not zero everywhere.
-    pub(crate) one_sided: bool,
+    pub(crate) receiver_length: f64,
+    /// Whether the odd overlap is not zero everywhere.
+    pub(crate) is_one_sided: bool,
 }
 
-/// Returns the element if its ends are finite and the left end comes first.
-fn checked(element: ContactElement) -> Result<ContactElement> {
+/// Error for an element whose ends are not finite or not in order.
+fn check_ends(element: ContactElement) -> Result<()> {
     finite("left end of an element", element.left())?;
     finite("right end of an element", element.right())?;
     positive("length of an element", element.length())?;
-    Ok(element)
+    Ok(())
 }
 
 impl Overlap {
     pub(crate) fn new(receiver: ContactElement, source: ContactElement) -> Result<Self> {
-        let p = checked(receiver)?;
-        let q = checked(source)?;
-        let first = p.left() - q.right();
-        let last = p.right() - q.left();
-        let left_offset = p.left() - q.left();
-        let right_offset = p.right() - q.right();
-        let max_overlap = p.length().min(q.length());
-        let largest_coordinate = [p.left(), p.right(), q.left(), q.right()]
+        check_ends(receiver)?;
+        check_ends(source)?;
+        let min_offset = receiver.left() - source.right();
+        let max_offset = receiver.right() - source.left();
+        let left_offset = receiver.left() - source.left();
+        let right_offset = receiver.right() - source.right();
+        let max_overlap = receiver.length().min(source.length());
+        let largest_coordinate = [receiver.left(), receiver.right(), source.left(), source.right()]
             .iter()
-            .fold(0.0_f64, |m, v| m.max(v.abs()));
-        let rounding = 8.0 * f64::EPSILON * largest_coordinate;
-        let mut nodes = vec![first.abs(), left_offset.abs(), right_offset.abs(), last.abs()];
-        if first < rounding && last > -rounding {
+            .fold(0.0_f64, |largest, coordinate| largest.max(coordinate.abs()));
+        let rounding_length = OFFSET_ROUNDING * largest_coordinate;
+        let mut nodes =
+            vec![min_offset.abs(), left_offset.abs(), right_offset.abs(), max_offset.abs()];
+        if min_offset < rounding_length && max_offset > -rounding_length {
             nodes.push(0.0);
         }
         nodes.sort_by(f64::total_cmp);
         // Nodes that differ only by rounding of the coordinates are one node.
-        nodes.dedup_by(|next, previous| *next - *previous <= rounding);
-        let overlap_length = |x: f64| (x - first).min(last - x).min(max_overlap).max(0.0);
-        let mut even = Vec::with_capacity(nodes.len());
-        let mut odd = Vec::with_capacity(nodes.len());
+        nodes.dedup_by(|next, previous| *next - *previous <= rounding_length);
+        let overlap_length =
+            |x: f64| (x - min_offset).min(max_offset - x).min(max_overlap).max(0.0);
+        let mut even_overlaps = Vec::with_capacity(nodes.len());
+        let mut odd_overlaps = Vec::with_capacity(nodes.len());
         for &x in &nodes {
-            even.push(overlap_length(x) + overlap_length(-x));
-            odd.push(overlap_length(x) - overlap_length(-x));
+            even_overlaps.push(overlap_length(x) + overlap_length(-x));
+            odd_overlaps.push(overlap_length(x) - overlap_length(-x));
         }
-        let one_sided = odd.iter().any(|w: &f64| w.abs() > rounding);
-        Ok(Self { nodes, even, odd, length: p.length(), one_sided })
+        let is_one_sided = odd_overlaps.iter().any(|w: &f64| w.abs() > rounding_length);
+        let receiver_length = receiver.length();
+        Ok(Self { nodes, even_overlaps, odd_overlaps, receiver_length, is_one_sided })
     }
 
     /// Largest offset, m.
-    pub(crate) fn farthest(&self) -> f64 {
+    pub(crate) fn max_offset(&self) -> f64 {
         self.nodes.last().copied().unwrap_or(0.0)
     }
 
     /// Smallest offset, m.
-    pub(crate) fn nearest(&self) -> f64 {
+    pub(crate) fn min_offset(&self) -> f64 {
         self.nodes.first().copied().unwrap_or(0.0)
     }
 
     /// Segment between nodes that contains the offset `x`.
     fn segment(&self, x: f64) -> SegmentOfOffset {
-        if x < self.nearest() {
+        if x < self.min_offset() {
             return SegmentOfOffset::BeforeFirst;
         }
         match (1..self.nodes.len()).find(|&i| x < self.nodes[i]) {
@@ -246,50 +249,53 @@ impl Overlap {
         }
     }
 
-    /// The polynomial A(u) on the piece that contains the speed `middle`.
+    /// The polynomial A(u) of a step from t₀ to t₁ on the piece that contains `speed`.
     ///
-    /// `step`: t₀ and t₁; `duration`: t₁ − t₀, rounded once; `odd`: of the odd folding instead of the even one.
+    /// `step_ends`: t₀ and t₁ (m); `travel_per_step`: t₁ − t₀ (m), rounded once; `is_odd`: odd instead of even overlap.
     pub(crate) fn passed_overlap(
         &self,
-        step: [f64; 2],
-        duration: f64,
-        middle: f64,
-        odd: bool,
+        step_ends: [f64; 2],
+        travel_per_step: f64,
+        speed: f64,
+        is_odd: bool,
     ) -> PassedOverlap {
-        let w = if odd { &self.odd } else { &self.even };
+        let w = if is_odd { &self.odd_overlaps } else { &self.even_overlaps };
         let x = &self.nodes;
         let slope = |i: usize| (w[i + 1] - w[i]) / (x[i + 1] - x[i]);
+        let line_through =
+            |node: usize, i: usize| LinearOverlap { x: x[node], w: w[node], slope: slope(i) };
         let mut passed = PassedOverlap {
-            same_segment: false,
-            duration,
-            start: step[0],
-            end: step[1],
+            has_one_segment: false,
+            travel_per_step,
+            start: step_ends[0],
+            end: step_ends[1],
             whole_segments: 0.0,
-            low: [0.0; 3],
-            high: [0.0; 3],
+            lower_line: LinearOverlap::default(),
+            upper_line: LinearOverlap::default(),
         };
-        let low = self.segment(step[0] * middle);
-        let high = self.segment(step[1] * middle);
-        if let (SegmentOfOffset::Inside(i), SegmentOfOffset::Inside(j)) = (low, high)
+        let lower_segment = self.segment(step_ends[0] * speed);
+        let upper_segment = self.segment(step_ends[1] * speed);
+        if let (SegmentOfOffset::Inside(i), SegmentOfOffset::Inside(j)) =
+            (lower_segment, upper_segment)
             && i == j
         {
-            // Measured from the end where w is smaller, so that w keeps its relative precision there.
-            let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
-            passed.same_segment = true;
-            passed.low = [x[k], w[k], slope(i)];
+            // The line starts at the end with the smaller w, so that w keeps its relative precision there.
+            let node = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
+            passed.has_one_segment = true;
+            passed.lower_line = line_through(node, i);
             return passed;
         }
-        let first_node = match low {
+        let first_node = match lower_segment {
             SegmentOfOffset::Inside(i) => {
-                passed.low = [x[i + 1], w[i + 1], slope(i)];
+                passed.lower_line = line_through(i + 1, i);
                 i + 1
             }
             SegmentOfOffset::BeforeFirst => 0,
             SegmentOfOffset::BeyondLast => return passed,
         };
-        let last_node = match high {
+        let last_node = match upper_segment {
             SegmentOfOffset::Inside(j) => {
-                passed.high = [x[j], w[j], slope(j)];
+                passed.upper_line = line_through(j, j);
                 j
             }
             SegmentOfOffset::BeyondLast => x.len() - 1,
@@ -302,13 +308,23 @@ impl Overlap {
     }
 }
 
-/// Place of an offset among the segments between the nodes of an [`Overlap`].
+/// Position of an offset relative to the segments between the nodes of an [`Overlap`].
 #[derive(Debug, Clone, Copy)]
 enum SegmentOfOffset {
     BeforeFirst,
-    /// Number of the segment.
+    /// Index of the segment.
     Inside(usize),
     BeyondLast,
+}
+
+/// Linear overlap w on one segment: a point on the line, and the slope.
+#[derive(Debug, Clone, Copy, Default)]
+struct LinearOverlap {
+    /// Offset of the point, m.
+    x: f64,
+    /// Overlap at the point, m.
+    w: f64,
+    slope: f64,
 }
 
 /// Overlap that a wave of speed u passes during a step, a polynomial in u.
@@ -317,45 +333,46 @@ enum SegmentOfOffset {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PassedOverlap {
     /// Whether both limits lie in the same segment.
-    same_segment: bool,
-    /// t₁ − t₀.
-    duration: f64,
-    /// t₀.
+    has_one_segment: bool,
+    /// t₁ − t₀, m.
+    travel_per_step: f64,
+    /// t₀, m.
     start: f64,
-    /// t₁.
+    /// t₁, m.
     end: f64,
-    /// Integral over the segments that lie between the limits as a whole.
+    /// Integral over the whole segments between the limits, m².
     whole_segments: f64,
-    /// Node, width there and slope, of the segment that both limits share or of the lower limit's segment.
-    low: [f64; 3],
-    /// Node, width there and slope, of the upper limit's segment.
-    high: [f64; 3],
+    /// Line on the lower limit's segment, or on the segment of both limits.
+    lower_line: LinearOverlap,
+    /// Line on the upper limit's segment.
+    upper_line: LinearOverlap,
 }
 
 impl KernelWeight for PassedOverlap {
     /// A(u), m².
     fn value(&self, u: f64) -> f64 {
-        if self.same_segment {
+        if self.has_one_segment {
             return u * self.value_over_speed(u);
         }
-        let below = self.low[0] - self.start * u;
-        let above = self.end * u - self.high[0];
+        let lower_length = self.lower_line.x - self.start * u;
+        let upper_length = self.end * u - self.upper_line.x;
         self.whole_segments
-            + below * (self.low[1] - 0.5 * self.low[2] * below)
-            + above * (self.high[1] + 0.5 * self.high[2] * above)
+            + lower_length * (self.lower_line.w - 0.5 * self.lower_line.slope * lower_length)
+            + upper_length * (self.upper_line.w + 0.5 * self.upper_line.slope * upper_length)
     }
 
     /// A(u)/u, m².
     fn value_over_speed(&self, u: f64) -> f64 {
-        if self.same_segment {
+        if self.has_one_segment {
             let middle = 0.5 * (self.start + self.end);
-            self.duration * (self.low[1] + self.low[2] * (middle * u - self.low[0]))
+            let LinearOverlap { x, w, slope } = self.lower_line;
+            self.travel_per_step * (w + slope * (middle * u - x))
         } else {
             self.value(u) / u
         }
     }
 
     fn vanishes_at_zero(&self) -> bool {
-        self.same_segment
+        self.has_one_segment
     }
 }

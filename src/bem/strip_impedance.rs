@@ -1,6 +1,6 @@
 //! Dynamic stiffness of the strips of an elastic ground.
 
-use super::layered::{StripContact, StripImpedance, impedance_watch, strip_impedances};
+use super::layered::{StripContact, StripImpedance, impedance_progress, strip_impedances};
 use super::{ElasticGround, Ground};
 use crate::error::{Error, Observer, Result};
 use crate::geometry::ContactLayout;
@@ -8,8 +8,8 @@ use crate::geometry::ContactLayout;
 impl ElasticGround {
     /// Dynamic stiffness of all strips as one rigid body, at each of `frequencies` (Hz).
     ///
-    /// Cosine-graded strips converge with second order. The observer counts points of the Laplace plane, eight per
-    /// frequency.
+    /// The error on cosine-graded strips is of second order in the element length. The observer counts points of the
+    /// Laplace plane, eight per frequency.
     ///
     /// Frequency 0 is the static stiffness on rigid bedrock. Layers may have any damping, including hysteretic
     /// damping.
@@ -22,17 +22,17 @@ impl ElasticGround {
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
     /// let strip = Strip::graded(-3.0..3.0, 16)?;
     /// let ground = ElasticGround::new(soil, &strip)?;
-    /// let found = ground.impedances(&[2.0, 8.0], StripContact::Bonded, &mut unobserved)?;
-    /// // Vertical dashpots come near the dashpot of plane waves, ρ c₁ per area.
-    /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
-    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
+    /// let impedances = ground.impedances(&[2.0, 8.0], StripContact::Bonded, &mut unobserved)?;
+    /// // The vertical dashpot is close to the dashpot of plane waves, ρ c₁ per area.
+    /// let plane_wave_dashpot = 1800.0 * soil.pressure_wave_speed() * 6.0;
+    /// assert!((impedances[1].dashpots()[1] / plane_wave_dashpot - 1.0).abs() < 0.1);
     ///
     /// let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 6.0)?;
     /// let ground = ElasticGround::new(layer, strip)?;
-    /// let found = ground.impedances(&[1.0, 9.0], StripContact::Bonded, &mut unobserved)?;
-    /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
-    /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
-    /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
+    /// let impedances = ground.impedances(&[1.0, 9.0], StripContact::Bonded, &mut unobserved)?;
+    /// // Below the layer's first natural frequency, 6.25 Hz, the strip radiates no waves.
+    /// assert!(impedances[0].horizontal.im < 1e-6 * impedances[0].horizontal.re);
+    /// assert!(impedances[1].horizontal.im > 0.5 * impedances[1].horizontal.re);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -40,7 +40,7 @@ impl ElasticGround {
     /// [`Error::Scene`] for a ground in plan; [`Error::Input`] for a frequency that is negative or not
     /// finite, or 0 on a half-plane, whose static stiffness is 0;
     /// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) without damping at a frequency at which
-    /// guided waves begin; [`Error::Singular`] if elements are too similar to be distinguished;
+    /// guided waves begin; [`Error::Singular`] if two elements have nearly equal equations;
     /// [`Error::Stopped`] by the observer.
     pub fn impedances(
         &self,
@@ -54,7 +54,7 @@ impl ElasticGround {
                 needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
             });
         }
-        let progress = &mut impedance_watch(frequencies, observer);
+        let progress = &mut impedance_progress(frequencies, observer);
         strip_impedances(self.profile(), self.elements(), frequencies, contact, progress)
     }
 }

@@ -11,11 +11,10 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 /// Ground for any soil that has convolution weights and a static compliance.
 ///
 /// [`ElasticGround`](super::ElasticGround) uses it. For a soil of your own, write a [`WeightsSource`] and its
-/// [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels and checkpoints then work without more
-/// code.
+/// [`ConvolutionWeights`]. All methods of history, their choice, shared kernels and checkpoints then need no more code.
 ///
-/// The example is a bed of independent Kelvin–Voigt springs, exactly integrated. Under a pressure held for one step an
-/// element settles by (1 − z)/k; in each later step this settlement is multiplied by z = exp(−k Δt/c).
+/// The example is a bed of independent Kelvin–Voigt springs, exactly integrated. A unit pressure during one step
+/// causes the settlement (1 − z)/k with z = exp(−k Δt/c). In each later step this settlement is multiplied by z.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -55,14 +54,14 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 ///         let Bed { stiffness, dashpots } = self.bed;
 ///         let rate = stiffness * self.time_step / dashpots;
 ///         let [source, receiver] = self.classes.representative(class)?;
-///         // Integrals over the receiver; nothing moves but the loaded element.
-///         let at_once = if source == receiver {
+///         // Integrals over the receiver; only the loaded element is displaced.
+///         let step_settlement = if source == receiver {
 ///             receiver.length() * -(-rate).exp_m1() / stiffness
 ///         } else {
 ///             0.0
 ///         };
 ///         for (i, value) in normal.iter_mut().enumerate() {
-///             *value = at_once * (-rate * (first_lag - 1 + i) as f64).exp();
+///             *value = step_settlement * (-rate * (first_lag - 1 + i) as f64).exp();
 ///         }
 ///         tangential.copy_from_slice(normal);
 ///         coupling.fill(0.0);
@@ -103,12 +102,12 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
-    /// Cells of the elements in plan that consist of several cells.
+    /// Unions of cells to contact elements in plan; `None` if each cell is one element.
     unions: Option<Unions>,
     options: HistoryOptions,
-    /// Makes the user's history; `None` for a history by `options`.
+    /// Makes the user's history; `None` for a history according to `options`.
     custom_history: Option<Box<MakeHistory>>,
-    shared: SharedKernels,
+    shared_kernels: SharedKernels,
     prepared: Option<PreparedHistory>,
 }
 
@@ -153,7 +152,7 @@ impl WeightsGround {
             unions,
             options: HistoryOptions::default(),
             custom_history: None,
-            shared: SharedKernels::default(),
+            shared_kernels: SharedKernels::default(),
             prepared: None,
         }
     }
@@ -180,12 +179,12 @@ impl WeightsGround {
         self
     }
 
-    /// Takes convolution weights from a store shared with other grounds.
+    /// Uses convolution weights from a store shared with other grounds.
     ///
-    /// Weights that are equal in several cases of a sweep are then computed once.
+    /// A sweep then computes weights that several cases have in common only once.
     #[must_use]
     pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
-        self.shared = kernels.clone();
+        self.shared_kernels = kernels.clone();
         self
     }
 
@@ -220,7 +219,7 @@ impl Ground for WeightsGround {
     ) -> Result<()> {
         let weights = match &self.prepared {
             Some(prepared) if prepared.time_step == time_step => Arc::clone(&prepared.weights),
-            _ => self.shared.kernel(&*self.source, &self.elements, time_step)?,
+            _ => self.shared_kernels.kernel(&*self.source, &self.elements, time_step)?,
         };
         let mut chosen = self.empty_history(&weights, steps)?;
         match steps {
@@ -259,8 +258,8 @@ impl Ground for WeightsGround {
 
     fn commit(&mut self, traction: &[f64]) {
         let Some(PreparedHistory { chosen, .. }) = &mut self.prepared else { return };
-        let traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
-        chosen.history.push(traction);
+        let cell_traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
+        chosen.history.push(cell_traction);
     }
 
     fn description(&self) -> GroundDescription {
@@ -278,9 +277,9 @@ impl Ground for WeightsGround {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let history = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
+        let history_values = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
         let last_traction = self.unions.as_ref().map_or(&[][..], |unions| &unions.last_traction);
-        Ok([&history[..], last_traction].concat())
+        Ok([&history_values[..], last_traction].concat())
     }
 
     /// Restores a history of the same kind; exponentials are fitted again if they had another horizon.
@@ -289,10 +288,10 @@ impl Ground for WeightsGround {
         let last_traction =
             self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last_traction);
         let history_length = values.len().saturating_sub(last_traction.len());
-        let history = &values[..history_length];
-        if let Some(horizon) = prepared.chosen.restore(steps, history)? {
+        let history_values = &values[..history_length];
+        if let Some(horizon) = prepared.chosen.restore(steps, history_values)? {
             let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
-            if chosen.restore(steps, history)?.is_some() {
+            if chosen.restore(steps, history_values)?.is_some() {
                 return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
             }
             prepared.chosen = chosen;

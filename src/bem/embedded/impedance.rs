@@ -11,7 +11,7 @@ use super::compliance::HalfCompliances;
 use super::ground::TrenchGround;
 use super::soil::{FreeFieldAtFaces, TrenchMesh, TrenchSoil};
 use crate::bem::layered::{
-    StripImpedance, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+    StripImpedance, extrapolated_stiffnesses, impedance_progress, laplace_variables,
 };
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Complex, ComplexBlock, DenseFactor};
@@ -159,7 +159,7 @@ impl TrenchSoil {
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<TrenchResponse>> {
-        let watch = &mut impedance_watch(frequencies, observer);
+        let watch = &mut impedance_progress(frequencies, observer);
         let profile = self.profile();
         let trench = self.elements().trench();
         let span = 2.0 * (trench.half_width() + trench.depth());

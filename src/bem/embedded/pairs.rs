@@ -3,7 +3,7 @@
 use super::classes::TRENCH_KINDS;
 use super::compliance::HalfCompliances;
 use super::soil::TrenchSoil;
-use crate::bem::layered::{Compliances, LayeredCompliance, surface_outlook};
+use crate::bem::layered::{Compliances, LayeredCompliance, append_surface_surrogate};
 use crate::error::Result;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -96,7 +96,7 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
         Ok(())
     }
 
-    fn outlook(
+    fn append_surrogate(
         &self,
         profile: &SoilProfile,
         s: Complex,
@@ -104,7 +104,7 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
         values: &mut Vec<Complex>,
     ) -> Result<()> {
         work.set(profile, s)?;
-        surface_outlook(profile, work, self.lengths, values);
+        append_surface_surrogate(profile, work, self.lengths, values);
         Ok(())
     }
 }

@@ -30,7 +30,7 @@ use super::contour::{
 use super::panel_evaluation::evaluate;
 use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
-use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
+use super::wavenumber::{Compliances, SURROGATE_COMPONENTS, Wavenumbers};
 use crate::error::{Error, ProgressReporter, Result};
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
@@ -139,8 +139,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
 
     /// Eigenvalues and weights at a z.
     pub(crate) fn nodes(&self, log_z: [f64; 2]) -> impl Iterator<Item = Node> {
-        let CirclePoint { z, rest } = on_circle(log_z[0], log_z[1]);
-        self.stages.nodes(z, rest)
+        let CirclePoint { z, one_less_z } = on_circle(log_z[0], log_z[1]);
+        self.stages.nodes(z, one_less_z)
     }
 
     /// Adds the contribution of one sample to the mobility.
@@ -179,7 +179,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let spectra = self.spectra(circle, threads, &mut samples)?;
         // Factor 1/(1−z) from the mobility to the transform of Gⁿ.
         let inverse_rest: Vec<_> = (0..circle.points())
-            .map(|point| on_circle(logarithm, circle.angle(point)).rest.inverse())
+            .map(|point| on_circle(logarithm, circle.angle(point)).one_less_z.inverse())
             .collect();
         let transform = RealPlanner::new().plan_fft_inverse(length);
         // r⁻ⁿ/L.
@@ -288,18 +288,23 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             let inverse_factor = panel_factor(node, point).inverse();
             let Some(node) = self.nodes(point).nth(node) else { continue };
             let first = values.len();
-            self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
+            self.integrals.append_surrogate(
+                &self.profile,
+                self.variable(node),
+                work,
+                &mut values,
+            )?;
             let weight = node.weight * inverse_factor;
             for value in &mut values[first..] {
                 *value = *value * weight;
             }
         }
-        let count = values.len() / (CHEBYSHEV_POINTS * OUTLOOK_COMPONENTS);
+        let count = values.len() / (CHEBYSHEV_POINTS * SURROGATE_COMPONENTS);
         // Each function is compared with itself.
         let self_pairs: Vec<_> = (0..count).map(|function| [function; 2]).collect();
         let tolerance = factor * self.tolerance;
         let polynomials =
-            PanelPolynomials::through::<OUTLOOK_COMPONENTS>(&values, &self_pairs, tolerance);
+            PanelPolynomials::through::<SURROGATE_COMPONENTS>(&values, &self_pairs, tolerance);
         Ok(polynomials.is_some())
     }
 

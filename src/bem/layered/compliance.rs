@@ -1,21 +1,21 @@
 //! Surface compliance of a layered ground in the wavenumber domain.
 //!
-//! Pressure p cos kx and shear τ sin kx on the surface give W cos kx (down) and U sin kx:
-//! [U; W] = C(k, s) [τ; p], C symmetric. The impedance Z (stresses by displacements on a horizontal
-//! plane) is carried upwards from the base, layer by layer, with decaying exponentials only (Kausel
-//! & Roësset 1981 for the impedance; Luco & Apsel 1983 for the reflected waves).
+//! Pressure p cos kx and shear τ sin kx on the surface cause displacements W cos kx (down) and U sin kx:
+//! [U; W] = C(k, s) [τ; p] with a symmetric C. The impedance Z relates stresses to displacements on a horizontal plane.
+//! It is computed upwards from the base, layer by layer, with decaying exponentials only (Kausel & Roësset 1981 for the
+//! impedance; Luco & Apsel 1983 for the reflected waves).
 //!
-//! Through layers thin relative to the wavelength, displacements and stresses are carried by the power series
-//! of their differential equations. There the reflected waves of a slab would nearly cancel the others, and
-//! the contribution of soft ground below would be lost in rounding.
+//! In layers thin relative to the wavelength, displacements and stresses follow from the power series of the layer's
+//! differential equations. With waves, the reflected waves of a thin slab would nearly cancel the incident waves, and the
+//! contribution of soft ground below would be lost in rounding.
 //!
-//! Waves polarised across the wavenumber have the impedance Z = σ/u alone. It is μβ in a half-space. Through
-//! a layer of thickness h with z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom, Z ←
-//! z₀ (1 − R)/(1 + R). With E = 1 − e^(−2βh) the result is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), which keeps
-//! its digits in thin layers; rigid bedrock is Z = ∞.
+//! Waves with displacements normal to the wavenumber's direction have the scalar impedance Z = σ/u, μβ in a half-space.
+//! A layer of thickness h has z₀ = μβ and the reflection R = e^(−2βh) (z₀ − Z)/(z₀ + Z) at its bottom, which yields
+//! Z ← z₀ (1 − R)/(1 + R) at its top. With E = 1 − e^(−2βh) this is z₀ (z₀E + Z(2 − E))/(z₀(2 − E) + ZE), without
+//! cancellation in thin layers. Rigid bedrock has Z = ∞.
 //!
-//! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
-//! |s|/(c k) → 0; all differences are formed as products.
+//! The waves of a layer are P and D = (S − P)/(β − α) instead of P and S, which become parallel for |s|/(c k) → 0. All
+//! differences are computed as products.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -23,8 +23,8 @@
 //! | q₂, q₁ | ρs²/μ, a²q₂ |
 //! | α, β | √(k² + q₁), √(k² + q₂), principal |
 //! | U, T | columns: displacements (x, z) and stresses (xz, zz) of the waves P and D |
-//! | Λ | change of these waves over the layer |
-//! | R | up-going waves per down-going waves, at the layer's bottom |
+//! | Λ | transfer matrix of these waves over the layer |
+//! | R | reflection matrix at the layer's bottom: up-going waves from down-going waves |
 
 use crate::error::Result;
 use crate::linalg::Complex;
@@ -34,7 +34,7 @@ mod square;
 
 use square::Square;
 
-/// C at one wavenumber, m/Pa.
+/// Surface compliance C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct SurfaceCompliance {
     /// Displacement to the right due to shear.
@@ -45,7 +45,7 @@ pub(crate) struct SurfaceCompliance {
     pub(crate) xz: Complex,
 }
 
-/// A layer at one Laplace variable.
+/// Layer with its moduli at one Laplace variable.
 #[derive(Debug, Clone, Copy)]
 struct LaplaceLayer {
     modulus: Complex,
@@ -55,7 +55,7 @@ struct LaplaceLayer {
     thickness: f64,
 }
 
-/// μ(s), q₂ and a² of a soil at one Laplace variable.
+/// Soil with its modulus μ(s), q₂ and a² at one Laplace variable.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LaplaceSoil {
     pub(crate) modulus: Complex,
@@ -63,20 +63,20 @@ pub(crate) struct LaplaceSoil {
     pub(crate) a2: f64,
 }
 
-/// C(k, s) of one profile at one s.
+/// Surface compliance C(k, s) of a profile at one Laplace variable.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LayeredCompliance {
     layers: Vec<LaplaceLayer>,
     has_rigid_bedrock: bool,
     moduli: Vec<Complex>,
-    /// α, β of the layers down to the last that affects the surface.
+    /// α and β of the layers, down to the last layer that affects the surface.
     roots: Vec<[Complex; 2]>,
 }
 
-/// Largest |β|h of a layer that counts as thin.
+/// Largest |β|h of a thin layer: its power series converges in few terms.
 const THIN_LAYER_PHASE: f64 = 0.2;
-/// Size of the last term of the power series, relative to the first.
-const SERIES_CUTOFF: f64 = 1e-18;
+/// Magnitude of the last term of the power series, relative to the first: below rounding.
+const SERIES_TOLERANCE: f64 = 1e-18;
 
 impl LaplaceLayer {
     fn soil(&self) -> LaplaceSoil {
@@ -88,54 +88,54 @@ impl LaplaceLayer {
         (k * k + self.q2.abs()).sqrt() * self.thickness < THIN_LAYER_PHASE
     }
 
-    /// Displacements and stresses at the layer's top, from the values at its bottom.
+    /// Displacements and stresses at the top of a thin layer, from the values at its bottom.
     ///
-    /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
+    /// f = [U; `σ_zz`/μ] and g = [W; `σ_xz`/μ] satisfy f′ = P g and g′ = Q f.
     fn top_state(&self, k: f64, bottom: PlaneState) -> PlaneState {
         let a2 = self.a2;
         let q2 = self.q2;
         let h = self.thickness;
-        let wave = Complex::real(k);
+        let wavenumber = Complex::real(k);
         let one = Complex::real(1.0);
-        let poisson = Complex::real((1.0 - 2.0 * a2) * k);
-        let membrane = Complex::real(4.0 * (1.0 - a2) * k * k) + q2;
-        let p = Square([wave, one, q2, -wave]);
-        let q = Square([-poisson, Complex::real(a2), membrane, poisson]);
+        let poisson_factor = Complex::real((1.0 - 2.0 * a2) * k);
+        let membrane_factor = Complex::real(4.0 * (1.0 - a2) * k * k) + q2;
+        let p = Square([wavenumber, one, q2, -wavenumber]);
+        let q = Square([-poisson_factor, Complex::real(a2), membrane_factor, poisson_factor]);
         // Rows: U, W; σ_xz, σ_zz.
         let u = bottom.displacement.0;
         let t = bottom.stress.scaled(self.modulus.inverse()).0;
-        let mut even = Square([u[0], u[1], t[2], t[3]]);
-        let mut odd = Square([u[2], u[3], t[0], t[1]]);
-        let mut even_term = even;
-        let mut odd_term = odd;
-        // Every other power of h k and h √q₂ may be absent from an entry.
+        let mut f = Square([u[0], u[1], t[2], t[3]]);
+        let mut g = Square([u[2], u[3], t[0], t[1]]);
+        let mut f_term = f;
+        let mut g_term = g;
+        // The factor 2 is for entries without every other power of h k and h √q₂.
         let term_ratio = 2.0 * (k + q2.abs().sqrt()) * h;
         let mut n = 0.0;
-        let mut size = 1.0;
-        while size > SERIES_CUTOFF {
+        let mut magnitude = 1.0;
+        while magnitude > SERIES_TOLERANCE {
             n += 1.0;
-            size *= term_ratio / n;
+            magnitude *= term_ratio / n;
             let factor = Complex::real(-h / n);
-            let next_even = p.times(odd_term).scaled(factor);
-            odd_term = q.times(even_term).scaled(factor);
-            even_term = next_even;
-            even = even.plus(even_term);
-            odd = odd.plus(odd_term);
+            let next_f_term = p.times(g_term).scaled(factor);
+            g_term = q.times(f_term).scaled(factor);
+            f_term = next_f_term;
+            f = f.plus(f_term);
+            g = g.plus(g_term);
         }
-        let stress = Square([odd.0[2], odd.0[3], even.0[2], even.0[3]]).scaled(self.modulus);
-        let displacement = Square([even.0[0], even.0[1], odd.0[0], odd.0[1]]);
+        let stress = Square([g.0[2], g.0[3], f.0[2], f.0[3]]).scaled(self.modulus);
+        let displacement = Square([f.0[0], f.0[1], g.0[0], g.0[1]]);
         PlaneState { displacement, stress }
     }
 }
 
-/// Displacements and stresses on a horizontal plane, U and T: two independent solutions in columns.
+/// Displacements U and stresses T on a horizontal plane, with two independent solutions as columns.
 #[derive(Clone, Copy)]
 struct PlaneState {
     displacement: Square,
     stress: Square,
 }
 
-/// Depth, in decay lengths, below which no wave returns to the surface: e^(−2·21) is 6e-19.
+/// Depth, in decay lengths, below which reflections do not affect the surface: e^(−2·21) is 6e-19.
 const OPAQUE_DECAY_EXPONENT: f64 = 21.0;
 
 impl LayeredCompliance {
@@ -148,11 +148,11 @@ impl LayeredCompliance {
         profile.moduli(s, &mut self.moduli)?;
         self.has_rigid_bedrock = matches!(profile.bedrock(), Bedrock::Rigid);
         self.layers.clear();
-        for (number, ((soil, _), modulus)) in profile.soils().zip(&self.moduli).enumerate() {
+        for (layer, ((soil, _), modulus)) in profile.soils().zip(&self.moduli).enumerate() {
             let thickness =
-                profile.layers().get(number).map_or(f64::INFINITY, |layer| layer.thickness);
+                profile.layers().get(layer).map_or(f64::INFINITY, |layer| layer.thickness);
             let a2 = soil.speed_ratio_squared();
-            // s is multiplied twice, because its square may exceed the range of f64 where the product does not.
+            // Two factors s, because s² may exceed the range of floating-point numbers although q₂ does not.
             let q2 = (s / *modulus) * s.scale(soil.density());
             self.layers.push(LaplaceLayer {
                 modulus: *modulus,
@@ -181,37 +181,11 @@ impl LayeredCompliance {
         if root.is_nan() { f64::INFINITY } else { root }
     }
 
-    /// C at the wavenumber `k` > 0, 1/m.
+    /// Surface compliance at the wavenumber `k` > 0, 1/m.
     pub(crate) fn at(&mut self, k: f64) -> SurfaceCompliance {
-        self.roots.clear();
-        let mut decay = 0.0;
-        for layer in &self.layers {
-            let square = Complex::real(k * k);
-            let alpha = (square + layer.q1).sqrt();
-            let beta = (square + layer.q2).sqrt();
-            self.roots.push([alpha, beta]);
-            decay += alpha.re.min(beta.re) * layer.thickness;
-            if decay > OPAQUE_DECAY_EXPONENT {
-                break;
-            }
-        }
+        let decay_exponent = self.find_roots(k);
         let last = self.roots.len() - 1;
-        let lowest = &self.layers[last];
-        // A layer from whose bottom no wave returns is a half-plane.
-        let is_half_plane = lowest.thickness.is_infinite() || decay > OPAQUE_DECAY_EXPONENT;
-        let mut top = if !is_half_plane && lowest.is_thin(k) {
-            let rigid =
-                PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
-            lowest.top_state(k, rigid)
-        } else {
-            let waves = DownGoingWaves::new(lowest, k, self.roots[last]);
-            if is_half_plane {
-                waves.down
-            } else {
-                let reflection = waves.up().displacement.solve(waves.down.displacement).negative();
-                waves.above(lowest, reflection)
-            }
-        };
+        let mut top = self.lowest_state(k, decay_exponent);
         for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
             let z = top.stress.times_inverse(top.displacement);
             if layer.is_thin(k) {
@@ -219,22 +193,61 @@ impl LayeredCompliance {
                     .top_state(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
                 continue;
             }
-            let waves = DownGoingWaves::new(layer, k, *roots);
+            let waves = LayerWaves::new(layer, k, *roots);
             let down = waves.down;
             let up = waves.up();
             let reflection = up
                 .stress
                 .minus(z.times(up.displacement))
                 .solve(z.times(down.displacement).minus(down.stress));
-            top = waves.above(layer, reflection);
+            top = waves.top_state(layer, reflection);
         }
         let c = top.displacement.times_inverse(top.stress);
         SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
 
-    /// `C_tt` = 1/Z: displacement per shear across the wavenumber of the last evaluation, m/Pa.
-    pub(crate) fn across(&self) -> Complex {
-        // Below the last layer that affects the surface any base is valid, so it starts as rigid.
+    /// Overwrites the roots α and β of all layers that affect the surface, and returns the decay exponent through them.
+    fn find_roots(&mut self, k: f64) -> f64 {
+        self.roots.clear();
+        let mut decay_exponent = 0.0;
+        for layer in &self.layers {
+            let k_squared = Complex::real(k * k);
+            let alpha = (k_squared + layer.q1).sqrt();
+            let beta = (k_squared + layer.q2).sqrt();
+            self.roots.push([alpha, beta]);
+            decay_exponent += alpha.re.min(beta.re) * layer.thickness;
+            if decay_exponent > OPAQUE_DECAY_EXPONENT {
+                break;
+            }
+        }
+        decay_exponent
+    }
+
+    /// Displacements and stresses at the top of the lowest layer that affects the surface.
+    fn lowest_state(&self, k: f64, decay_exponent: f64) -> PlaneState {
+        let last = self.roots.len() - 1;
+        let lowest = &self.layers[last];
+        // A layer whose bottom does not affect the surface is a half-plane.
+        let is_half_plane =
+            lowest.thickness.is_infinite() || decay_exponent > OPAQUE_DECAY_EXPONENT;
+        if !is_half_plane && lowest.is_thin(k) {
+            let rigid_bottom =
+                PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
+            return lowest.top_state(k, rigid_bottom);
+        }
+        let waves = LayerWaves::new(lowest, k, self.roots[last]);
+        if is_half_plane {
+            return waves.down;
+        }
+        let reflection = waves.up().displacement.solve(waves.down.displacement).negative();
+        waves.top_state(lowest, reflection)
+    }
+
+    /// Transverse compliance `C_tt` = 1/Z at the wavenumber of the last evaluation, m/Pa.
+    ///
+    /// It is the displacement due to shear, both normal to the direction of the wavenumber.
+    pub(crate) fn transverse(&self) -> Complex {
+        // The base below the last layer that affects the surface is arbitrary; the code uses a rigid base.
         let mut impedance = None;
         for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {
             let z0 = layer.modulus * *beta;
@@ -242,64 +255,78 @@ impl LayeredCompliance {
                 impedance = Some(z0);
                 continue;
             }
-            let e = one_less_exponential(beta.scale(2.0 * layer.thickness));
-            let two_less_e = Complex::real(2.0) - e;
+            let one_less_decay = one_less_exponential(beta.scale(2.0 * layer.thickness));
+            let one_plus_decay = Complex::real(2.0) - one_less_decay;
             impedance = Some(match impedance {
-                Some(z) => z0 * (z0 * e + z * two_less_e) / (z0 * two_less_e + z * e),
-                None => z0 * two_less_e / e,
+                Some(z) => {
+                    z0 * (z0 * one_less_decay + z * one_plus_decay)
+                        / (z0 * one_plus_decay + z * one_less_decay)
+                }
+                None => z0 * one_plus_decay / one_less_decay,
             });
         }
         impedance.map_or_else(Complex::default, Complex::inverse)
     }
 }
 
-/// Largest |x| for which 1 − e^(−x) is summed as a series.
+/// Largest |x| for which 1 − e^(−x) is a sum of its series: twelve terms are exact to rounding.
 const EXPONENTIAL_SERIES_LIMIT: f64 = 0.3;
+/// Largest power of x in this series.
+const EXPONENTIAL_SERIES_DEGREE: u32 = 13;
+/// Square of the largest |x| for which φ₁(x) = (eˣ − 1)/x is a sum of its series: nine terms are exact to rounding.
+const PHI_SERIES_LIMIT_SQUARED: f64 = 0.01;
+/// Largest power of x in this series.
+const PHI_SERIES_DEGREE: u32 = 10;
 
 /// 1 − e^(−x) for Re x ≥ 0.
 fn one_less_exponential(x: Complex) -> Complex {
     if x.square() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
         return Complex::real(1.0) - (-x).exp();
     }
-    let terms = (2..=13).rev().map(f64::from);
+    let exponents = (2..=EXPONENTIAL_SERIES_DEGREE).rev().map(f64::from);
     let one = Complex::real(1.0);
-    x * terms.fold(one, |sum, n| one - (x * sum).scale(1.0 / n))
+    x * exponents.fold(one, |sum, n| one - (x * sum).scale(1.0 / n))
 }
 
-/// Down-going waves of a layer.
-struct DownGoingWaves {
+/// Down-going and up-going waves of a layer.
+struct LayerWaves {
     alpha: Complex,
     beta: Complex,
     /// β − α.
     root_difference: Complex,
-    /// U and T of these waves at the top of the layer.
+    /// U and T of the down-going waves at the top of the layer.
     down: PlaneState,
 }
 
-impl DownGoingWaves {
+impl LayerWaves {
     /// Waves of a layer at the wavenumber `k`, with its α and β.
     fn new(layer: &LaplaceLayer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
-        let wave = Complex::real(k);
-        let sum = alpha + beta;
-        let inverse_ratio = 1.0 / (1.0 - layer.a2);
+        let wavenumber = Complex::real(k);
+        let root_sum = alpha + beta;
+        let inverse_shear_ratio = 1.0 / (1.0 - layer.a2);
         // 1/(β + k) and 1/(k + α), with one division.
-        let beta_sum = beta + wave;
-        let alpha_sum = alpha + wave;
+        let beta_sum = beta + wavenumber;
+        let alpha_sum = alpha + wavenumber;
         let inverse_product = (beta_sum * alpha_sum).inverse();
         let inverse_beta_sum = inverse_product * alpha_sum;
         let inverse_alpha_sum = inverse_product * beta_sum;
-        let u0 = (sum * inverse_beta_sum).scale(inverse_ratio);
-        let u1 = (sum * inverse_alpha_sum).scale(-layer.a2 * inverse_ratio);
-        let minus = -layer.modulus;
-        let t0 = sum - layer.q1 * inverse_alpha_sum * u1;
+        let u0 = (root_sum * inverse_beta_sum).scale(inverse_shear_ratio);
+        let u1 = (root_sum * inverse_alpha_sum).scale(-layer.a2 * inverse_shear_ratio);
+        let negative_modulus = -layer.modulus;
+        let t0 = root_sum - layer.q1 * inverse_alpha_sum * u1;
         let t1 = -(layer.q2 * inverse_beta_sum * u0);
-        let square = Complex::real(2.0 * k * k) + layer.q2;
-        let displacement = Square([wave, u0, alpha, u1]);
-        let stress = Square([minus * alpha.scale(2.0 * k), minus * t0, minus * square, minus * t1]);
+        let two_k_squared_plus_q2 = Complex::real(2.0 * k * k) + layer.q2;
+        let displacement = Square([wavenumber, u0, alpha, u1]);
+        let stress = Square([
+            negative_modulus * alpha.scale(2.0 * k),
+            negative_modulus * t0,
+            negative_modulus * two_k_squared_plus_q2,
+            negative_modulus * t1,
+        ]);
         Self {
             alpha,
             beta,
-            root_difference: layer.q2.scale(1.0 - layer.a2) / sum,
+            root_difference: layer.q2.scale(1.0 - layer.a2) / root_sum,
             down: PlaneState { displacement, stress },
         }
     }
@@ -310,27 +337,27 @@ impl DownGoingWaves {
         PlaneState { displacement, stress: self.down.stress.mirrored().negative() }
     }
 
-    /// Displacements and stresses at the layer's top for the reflection R at its bottom.
-    fn above(&self, layer: &LaplaceLayer, reflection: Square) -> PlaneState {
-        let x = self.transfer(layer.thickness).around(reflection);
+    /// Displacements and stresses at the layer's top for the reflection matrix R at its bottom.
+    fn top_state(&self, layer: &LaplaceLayer, reflection: Square) -> PlaneState {
+        let returned = self.transfer(layer.thickness).reflected(reflection);
         let up = self.up();
         PlaneState {
-            displacement: self.down.displacement.plus(up.displacement.times(x)),
-            stress: self.down.stress.plus(up.stress.times(x)),
+            displacement: self.down.displacement.plus(up.displacement.times(returned)),
+            stress: self.down.stress.plus(up.stress.times(returned)),
         }
     }
 
-    /// Λ = [[e^(−αh), −g], [0, e^(−βh)]], g = (e^(−αh) − e^(−βh))/(β − α).
+    /// Transfer matrix Λ = [[e^(−αh), −g], [0, e^(−βh)]], g = (e^(−αh) − e^(−βh))/(β − α).
     fn transfer(&self, h: f64) -> Transfer {
         let pressure = self.alpha.scale(-h).exp();
         let x = self.root_difference.scale(-h);
-        if x.square() > 0.01 {
+        if x.square() > PHI_SERIES_LIMIT_SQUARED {
             let shear = self.beta.scale(-h).exp();
             return Transfer { pressure, shear, mixed: (pressure - shear) / self.root_difference };
         }
-        // e^(−βh) is the product of e^(−αh) and e^x; φ₁(x) = (e^x − 1)/x by its series.
+        // e^(−βh) = e^(−αh) eˣ, with eˣ from the series of φ₁(x) = (eˣ − 1)/x.
         let mut phi = Complex::real(1.0);
-        for n in (2..=10).rev() {
+        for n in (2..=PHI_SERIES_DEGREE).rev() {
             phi = Complex::real(1.0) + (phi * x).scale(1.0 / f64::from(n));
         }
         let shear = pressure * (Complex::real(1.0) + x * phi);
@@ -338,30 +365,32 @@ impl DownGoingWaves {
     }
 }
 
-/// Λ of a layer.
+/// Transfer matrix Λ of a layer's waves.
 struct Transfer {
+    /// e^(−αh).
     pressure: Complex,
+    /// e^(−βh).
     shear: Complex,
     /// g.
     mixed: Complex,
 }
 
 impl Transfer {
-    /// Λ R Λ.
-    fn around(&self, r: Square) -> Square {
+    /// Λ R Λ: the up-going waves at the layer's top due to reflection at its bottom.
+    fn reflected(&self, r: Square) -> Square {
         let Square([a, b, c, d]) = r;
         // Λ R.
-        let left = [
+        let product = [
             self.pressure * a - self.mixed * c,
             self.pressure * b - self.mixed * d,
             self.shear * c,
             self.shear * d,
         ];
         Square([
-            left[0] * self.pressure,
-            left[1] * self.shear - left[0] * self.mixed,
-            left[2] * self.pressure,
-            left[3] * self.shear - left[2] * self.mixed,
+            product[0] * self.pressure,
+            product[1] * self.shear - product[0] * self.mixed,
+            product[2] * self.pressure,
+            product[3] * self.shear - product[2] * self.mixed,
         ])
     }
 }

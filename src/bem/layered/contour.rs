@@ -72,7 +72,7 @@ impl Circle {
 
 /// Ratio of an eigenvalue's contribution to the mobility and the function that panels represent.
 pub(crate) fn panel_factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
-    let rest = on_circle(logarithm, angle).rest;
+    let rest = on_circle(logarithm, angle).one_less_z;
     if node == 0 { Complex::real(1.0) } else { rest * rest }
 }
 

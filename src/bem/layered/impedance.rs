@@ -86,7 +86,7 @@ const MAX_SPACING_BY_TRAVEL_TIME: f64 = 0.1;
 const EXTRAPOLATION_TOLERANCE: f64 = 1e-3;
 
 /// Progress of impedances at `frequencies`; its parts are points of the Laplace plane, eight per frequency.
-pub(in crate::bem) fn impedance_watch<'a>(
+pub(in crate::bem) fn impedance_progress<'a>(
     frequencies: &[f64],
     observer: &'a mut Observer<'_>,
 ) -> ProgressReporter<'a> {

@@ -3,13 +3,13 @@
 //! | file | content |
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
-//! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
+//! | wavenumber, halving, form_factors, tail | element compliances F(s), integrals of C over k |
 //! | runge_kutta, contour, panel_evaluation, coefficients | convolution weights Gⁿ by convolution quadrature |
-//! | passivity | the check of convolution weights |
+//! | passivity | passivity check of convolution weights |
 //! | block_store, block_file | blocks of convolution weights in memory and in a file |
-//! | threads | work on several threads |
+//! | threads | computations on several threads |
 //! | weights | convolution weights for a history |
-//! | static_compliance, impedance | statics, rigid strips at one frequency |
+//! | static_compliance, impedance | static compliance, dynamic stiffness of rigid strips |
 
 mod block_file;
 mod block_store;
@@ -40,7 +40,7 @@ pub(super) use halving::{
 };
 pub use impedance::{StripContact, StripImpedance};
 pub(super) use impedance::{
-    extrapolated_stiffnesses, impedance_watch, laplace_variables, strip_impedances,
+    extrapolated_stiffnesses, impedance_progress, laplace_variables, strip_impedances,
 };
 #[cfg(test)]
 pub(super) use passivity::margin;
@@ -48,6 +48,8 @@ pub use runge_kutta::Stages;
 pub(super) use runge_kutta::{CirclePoint, on_circle};
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{on_grid, surface_series};
-pub(super) use threads::{on_threads, threads};
-pub(super) use wavenumber::{Compliances, deep, surface_outlook, unresolved};
+pub(super) use threads::{on_threads, thread_count};
+pub(super) use wavenumber::{
+    Compliances, append_surface_surrogate, top_layer_wavenumber, unresolved,
+};
 pub(super) use weights::{QuadratureWeights, StripWeights};

@@ -3,7 +3,7 @@
 use basemat_fourier::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
-use super::threads::{on_threads, threads};
+use super::threads::{on_threads, thread_count};
 use super::wavenumber::Compliances;
 use crate::error::{Error, ProgressReporter, Result};
 use crate::history::PairClasses;
@@ -52,7 +52,9 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
         let quantity = "mobility of the convolution weights";
         Err(Error::NotPassive { quantity, margin, allowed, angle: place[1], radius: CHECK_RADIUS })
     };
-    on_threads(threads().min(MAX_CHECK_THREADS), points, check_point, |done| watch.reach(done))?;
+    on_threads(thread_count().min(MAX_CHECK_THREADS), points, check_point, |done| {
+        watch.reach(done)
+    })?;
     let mut fingerprint = CheckSum::default();
     fingerprint.add_number(quadrature.time_step);
     fingerprint.add_number(quadrature.tolerance);

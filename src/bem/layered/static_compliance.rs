@@ -10,7 +10,7 @@
 //! with an arbitrary datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). On rigid bedrock displacements are absolute.
 
 use super::compliance::{LayeredCompliance, SurfaceCompliance};
-use super::wavenumber::{IntegralBuffers, Wavenumbers, deep};
+use super::wavenumber::{IntegralBuffers, Wavenumbers, top_layer_wavenumber};
 use crate::error::{Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout};
 use crate::history::{PairClasses, STRIP_KINDS};
@@ -74,7 +74,7 @@ pub(super) fn pairs(
         let odd = Complex::real(odd * decay);
         SurfaceCompliance { xx: c.xx - even, zz: c.zz - even, xz: c.xz + odd }
     };
-    let min_k = deep(profile).max(STATIC_DECAY_EXPONENT / span);
+    let min_k = top_layer_wavenumber(profile).max(STATIC_DECAY_EXPONENT / span);
     let mut work = IntegralBuffers::default();
     integrals.static_compliance(
         &compliance,

@@ -1,63 +1,63 @@
-//! Work on several threads, with results that do not depend on their number.
+//! Computations on several threads, with results that do not depend on the number of threads.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Error, Result};
 
-/// Number of threads: of all processors with the feature `rayon`, otherwise one.
-pub(in crate::bem) fn threads() -> usize {
+/// Number of threads: the number of processors with the feature `rayon`, otherwise one.
+pub(in crate::bem) fn thread_count() -> usize {
     #[cfg(feature = "rayon")]
     return rayon::current_num_threads();
     #[cfg(not(feature = "rayon"))]
     1
 }
 
-/// Calls `work` once for each item, on `threads` threads with a workspace each.
+/// Calls `compute` once for each item, on several threads with a workspace each.
 ///
-/// `after` is called on this thread, with the number of items done so far; its error stops all threads.
+/// `report` is called on the calling thread, with the number of completed items; its error stops all threads.
 ///
 /// # Errors
 /// The first error in the order of the items.
 pub(in crate::bem) fn on_threads<T: Send, W: Default>(
-    threads: usize,
+    thread_count: usize,
     items: impl Iterator<Item = T> + Send,
-    work: impl Fn(&mut W, T) -> Result<()> + Sync,
-    mut after: impl FnMut(usize) -> Result<()>,
+    compute: impl Fn(&mut W, T) -> Result<()> + Sync,
+    mut report: impl FnMut(usize) -> Result<()>,
 ) -> Result<()> {
     let queue = Mutex::new(items.enumerate());
-    let done = AtomicUsize::new(0);
-    let stopped = AtomicBool::new(false);
-    let work_off_queue = |after: &mut dyn FnMut(usize) -> Result<()>| {
+    let completed_count = AtomicUsize::new(0);
+    let is_stopped = AtomicBool::new(false);
+    let process_queue = |report: &mut dyn FnMut(usize) -> Result<()>| {
         let mut workspace = W::default();
-        while !stopped.load(Ordering::Relaxed) {
-            // If a thread panics, its queue stays valid.
+        while !is_stopped.load(Ordering::Relaxed) {
+            // The queue stays valid if a thread panics.
             let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((number, item)) = next else { break };
-            work(&mut workspace, item).map_err(|error| (number, error))?;
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            after(done).map_err(|error| (number, error))?;
+            let Some((index, item)) = next else { break };
+            compute(&mut workspace, item).map_err(|error| (index, error))?;
+            let completed = completed_count.fetch_add(1, Ordering::Relaxed) + 1;
+            report(completed).map_err(|error| (index, error))?;
         }
         Ok(())
     };
-    // Separate threads instead of a pool: a waiting worker of a pool may start other work, which may wait for the
+    // Separate threads instead of a pool: a waiting thread of a pool may start another task, which may wait for the
     // results of these threads.
     let mut failures: Vec<(usize, Error)> = std::thread::scope(|scope| {
-        let others: Vec<_> =
-            (1..threads).map(|_| scope.spawn(|| work_off_queue(&mut |_| Ok(())))).collect();
-        let outcome = work_off_queue(&mut after);
-        stopped.store(outcome.is_err(), Ordering::Relaxed);
+        let handles: Vec<_> =
+            (1..thread_count).map(|_| scope.spawn(|| process_queue(&mut |_| Ok(())))).collect();
+        let outcome = process_queue(&mut report);
+        is_stopped.store(outcome.is_err(), Ordering::Relaxed);
         let mut failures: Vec<_> = outcome.err().into_iter().collect();
-        for thread in others {
-            match thread.join() {
+        for handle in handles {
+            match handle.join() {
                 Ok(outcome) => failures.extend(outcome.err()),
-                // A user's damping law may panic; the panic is passed on.
+                // A user's damping law may panic; the panic continues on the calling thread.
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }
         failures
     });
-    failures.sort_by_key(|(number, _)| *number);
+    failures.sort_by_key(|(index, _)| *index);
     failures.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))
 }
 
@@ -68,33 +68,33 @@ mod tests {
     use super::*;
     use crate::error::positive;
 
-    /// Each item is done once; the error is of the first item that fails, whichever thread ends first.
+    /// Each item is computed once, and the error is the error of the first item that fails.
     #[test]
-    fn threads_do_all_items_or_return_the_first_error() {
-        for threads in [1, 2, 5] {
+    fn threads_compute_all_items_or_return_the_first_error() {
+        for thread_count in [1, 2, 5] {
             let mut squares = vec![0; 100];
-            let calls = AtomicUsize::new(0);
-            let mut last = 0;
+            let call_count = AtomicUsize::new(0);
+            let mut last_report = 0;
             on_threads(
-                threads,
+                thread_count,
                 (0..100).zip(&mut squares),
                 |(): &mut (), (item, square): (usize, &mut usize)| {
                     *square += item * item;
-                    calls.fetch_add(1, Ordering::Relaxed);
+                    call_count.fetch_add(1, Ordering::Relaxed);
                     Ok(())
                 },
-                |done| {
-                    last = done;
+                |completed| {
+                    last_report = completed;
                     Ok(())
                 },
             )
             .unwrap();
             assert!(squares.iter().enumerate().all(|(item, square)| *square == item * item));
-            assert!(calls.into_inner() == 100 && last <= 100);
+            assert!(call_count.into_inner() == 100 && last_report <= 100);
 
-            let found = on_threads(threads, 0..100, fail_first_item_last, |_| Ok(()));
-            assert!(matches!(found, Err(Error::Input { value: -0.5, .. })), "{found:?}");
-            assert!(on_threads(threads, 0..100, wait, stop_after_three).is_err());
+            let outcome = on_threads(thread_count, 0..100, fail_first_item_last, |_| Ok(()));
+            assert!(matches!(outcome, Err(Error::Input { value: -0.5, .. })), "{outcome:?}");
+            assert!(on_threads(thread_count, 0..100, wait_briefly, stop_after_three).is_err());
         }
     }
 
@@ -103,14 +103,14 @@ mod tests {
         positive("item", -0.5 - item as f64).map(|_| ())
     }
 
-    /// Long enough for the calling thread to do some of the items.
-    #[allow(clippy::unnecessary_wraps, reason = "the type of the function that it stands for")]
-    fn wait((): &mut (), _item: usize) -> Result<()> {
+    /// Waits long enough for the calling thread to compute some of the items.
+    #[allow(clippy::unnecessary_wraps, reason = "the type of `compute`")]
+    fn wait_briefly((): &mut (), _item: usize) -> Result<()> {
         std::thread::sleep(Duration::from_millis(2));
         Ok(())
     }
 
-    fn stop_after_three(done: usize) -> Result<()> {
-        positive("rest", 3.0 - done as f64).map(|_| ())
+    fn stop_after_three(completed: usize) -> Result<()> {
+        positive("remaining items", 3.0 - completed as f64).map(|_| ())
     }
 }

@@ -65,11 +65,11 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
 
     /// Appends the surface compliance at a few wavenumbers, a cheap substitute for the compliances at `s`.
     ///
-    /// [`OUTLOOK_COMPONENTS`] numbers each, in a hundredth of the time.
+    /// [`SURROGATE_COMPONENTS`] numbers each, in a hundredth of the time.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
-    fn outlook(
+    fn append_surrogate(
         &self,
         profile: &SoilProfile,
         s: Complex,
@@ -81,9 +81,9 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
 /// Wavenumbers of an outlook, times the length of the patch.
 ///
 /// The first is always used, the others if a slab carries waves along the patch.
-const OUTLOOK_WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
+const SURROGATE_WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
 /// Number of components of the surface compliance in an outlook: zz, xx, xz.
-pub(crate) const OUTLOOK_COMPONENTS: usize = 3;
+pub(crate) const SURROGATE_COMPONENTS: usize = 3;
 
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
@@ -138,7 +138,7 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
         compliance.set(profile, s)?;
         // The series of the tail converges from this wavenumber on.
         let min_k = TAIL_START_RATIO * compliance.root();
-        let panels = self.panels(min_k.max(deep(profile)))?;
+        let panels = self.panels(min_k.max(top_layer_wavenumber(profile)))?;
         self.sum_panels(panels, buffers, &mut |k| compliance.at(k))
             .map_err(|k| unresolved(s, k))?;
         self.add_tail(compliance, panels, buffers);
@@ -148,7 +148,7 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
 
     /// Appends the surface compliance at small wavenumbers, and for waves along the shortest element and the
     /// patch.
-    fn outlook(
+    fn append_surrogate(
         &self,
         profile: &SoilProfile,
         s: Complex,
@@ -157,7 +157,8 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
     ) -> Result<()> {
         work.compliance.set(profile, s)?;
         let lengths = [self.shortest, self.span];
-        work.panels.evaluations += surface_outlook(profile, &mut work.compliance, lengths, values);
+        work.panels.evaluations +=
+            append_surface_surrogate(profile, &mut work.compliance, lengths, values);
         Ok(())
     }
 }
@@ -165,18 +166,18 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
 /// Appends the surface compliance at small wavenumbers, and for waves along shortest element and patch.
 ///
 /// Returns the number of evaluations.
-pub(crate) fn surface_outlook(
+pub(crate) fn append_surface_surrogate(
     profile: &SoilProfile,
     compliance: &mut LayeredCompliance,
     [shortest, span]: [f64; 2],
     values: &mut Vec<Complex>,
 ) -> usize {
-    let mut wavenumbers = &OUTLOOK_WAVENUMBERS[..1];
+    let mut wavenumbers = &SURROGATE_WAVENUMBERS[..1];
     if let Some((top, (below, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
         // A slab stiffer along the patch than the ground below it transmits waves along the patch.
         let slab_stiffness = top.soil.shear_modulus() * top.thickness;
         if slab_stiffness > below.shear_modulus() * span {
-            wavenumbers = &OUTLOOK_WAVENUMBERS[..];
+            wavenumbers = &SURROGATE_WAVENUMBERS[..];
         }
     }
     let root = compliance.top().q2.sqrt();
@@ -314,7 +315,7 @@ pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
 }
 
 /// Smallest K at which the bottom of the top layer has no effect on the surface, 1/m.
-pub(crate) fn deep(profile: &SoilProfile) -> f64 {
+pub(crate) fn top_layer_wavenumber(profile: &SoilProfile) -> f64 {
     profile.layers().first().map_or(0.0, |layer| OPAQUE_DECAY_LENGTHS / layer.thickness)
 }
 

@@ -8,7 +8,7 @@ use super::block_store::{BlockStore, copy_lags, last_block};
 use super::coefficients::{Quadrature, Samples};
 use super::passivity;
 use super::runge_kutta::Stages;
-use super::threads::threads;
+use super::threads::thread_count;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, ProgressReporter, Result, in_bounds, memory, positive};
 use crate::geometry::ContactElement;
@@ -78,7 +78,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         expected: Range<usize>,
     ) -> Result<&LagBlock> {
         self.blocks.block(number, watch, |watch| {
-            self.quadrature.block(number, threads(), Samples::new(watch, expected))
+            self.quadrature.block(number, thread_count(), Samples::new(watch, expected))
         })
     }
 

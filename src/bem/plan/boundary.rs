@@ -1,17 +1,17 @@
 //! Boundary of a mat: the closed lines around the union of its faces.
 //!
-//! Edges that two faces share cancel, also where corners of one face divide the edge of another, and corners on straight
-//! lines are left out. The lines therefore depend on the outline alone, whatever the faces that fill it.
+//! Edges that two faces share cancel, also if corners of one face divide the edge of the other. Corners on straight lines
+//! are dropped. The lines therefore depend on the outline alone, and not on the division into faces.
 
 use std::collections::HashMap;
 
 use super::faces::{MatFace, side};
 use super::points::{Point, PointIndex, without_pairs};
 
-/// Largest distance by which sharp corners move, relative to the distance of their edges.
-const MAX_CORNER_MOVE: f64 = 3.0;
-/// Sine of the angle between two edges that count as one.
-const STRAIGHT_SINE: f64 = 1e-6;
+/// Largest distance by which sharp corners move, relative to the distance of their edges: longer tips are cut off.
+const MAX_CORNER_SHIFT: f64 = 3.0;
+/// Largest sine of the angle between two edges on one line: rounding of coordinates in files.
+const MAX_STRAIGHT_SINE: f64 = 1e-6;
 
 /// Closed lines with the mat to their left: counter-clockwise around it, clockwise around its holes.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,48 +19,54 @@ pub(super) struct MatBoundary {
     pub(super) loops: Vec<Vec<Point>>,
 }
 
-/// Edge with its length, direction and outward distance.
+/// Edge that moves outwards, in parallel.
 #[derive(Clone, Copy)]
-struct MovedEdge {
+struct ShiftedEdge {
+    /// End before the shift, m.
     end: Point,
+    /// Length before the shift, m.
     length: f64,
+    /// Unit vector from start to end.
     direction: Point,
+    /// Outward distance of the shift, m.
     distance: f64,
 }
 
 impl MatBoundary {
     /// Boundary of each mat: faces that touch form one.
     pub(super) fn of_mats(faces: &[MatFace]) -> Vec<Self> {
-        let mats = MatFace::mats(faces);
-        let count = mats.iter().max().map_or(0, |last| last + 1);
-        let mut faces_of_mats = vec![vec![]; count];
-        for (face, mat) in faces.iter().zip(mats) {
-            faces_of_mats[mat].push(face);
+        let face_mats = MatFace::mats(faces);
+        let mat_count = face_mats.iter().max().map_or(0, |last| last + 1);
+        let mut mat_faces = vec![vec![]; mat_count];
+        for (face, mat) in faces.iter().zip(face_mats) {
+            mat_faces[mat].push(face);
         }
-        faces_of_mats.iter().map(|faces| Self::of(faces)).collect()
+        mat_faces.iter().map(|faces| Self::of_mat(faces)).collect()
     }
 
-    /// Boundary of some faces, the faces of one mat.
-    fn of(faces: &[&MatFace]) -> Self {
-        let near = faces.iter().map(|face| face.near()).fold(0.0, f64::max);
-        let mut points = PointIndex::new(near);
+    /// Boundary of the faces of one mat.
+    fn of_mat(faces: &[&MatFace]) -> Self {
+        let touch_distance = faces.iter().map(|face| face.touch_distance()).fold(0.0, f64::max);
+        let mut points = PointIndex::new(touch_distance);
         let mut edges = vec![];
         for face in faces {
             let corners: Vec<_> =
-                face.corners().iter().map(|corner| points.number(*corner)).collect();
+                face.corners().iter().map(|corner| points.index_of(*corner)).collect();
             for k in 0..corners.len() {
                 edges.push([corners[k], corners[(k + 1) % corners.len()]]);
             }
         }
-        // Parts of edges between neighbouring points on them.
-        let mut parts = vec![];
-        for on_edge in points.on_edges(&without_pairs(edges)) {
-            parts.extend(on_edge.windows(2).map(|pair| [pair[0].1, pair[1].1]));
+        // Pieces of edges between neighbouring points on the edges.
+        let mut pieces = vec![];
+        for edge_points in points.on_edges(&without_pairs(edges)) {
+            pieces.extend(edge_points.windows(2).map(|pair| [pair[0].1, pair[1].1]));
         }
-        let mut loops = closed_lines(&points, without_pairs(parts));
+        let mut loops = closed_lines(&points, without_pairs(pieces));
+        // The order depends on the corners alone: first their number, then their coordinates.
         loops.sort_by(|one, other| {
-            let corners = one.iter().flatten().zip(other.iter().flatten());
-            corners.fold(one.len().cmp(&other.len()), |order, (x, y)| order.then(x.total_cmp(y)))
+            let coordinates = one.iter().flatten().zip(other.iter().flatten());
+            coordinates
+                .fold(one.len().cmp(&other.len()), |order, (x, y)| order.then(x.total_cmp(y)))
         });
         Self { loops }
     }
@@ -79,103 +85,108 @@ impl MatBoundary {
         0.5 * self.edges().map(|edge| side(edge, origin)).sum::<f64>()
     }
 
-    /// Closed lines whose edges lie farther out by a distance (m) that depends on their unit normal.
+    /// Closed lines with edges shifted outwards, by a distance (m) that depends on the edge's unit normal.
     ///
-    /// Points about which the lines turn counter-clockwise at least once lie inside. Sharp corners are cut off at three
+    /// A point is inside if the lines turn about it counter-clockwise at least once. Sharp corners are cut off at three
     /// times the distance.
-    pub(super) fn moved_outwards(&self, distance: impl Fn(Point) -> f64) -> Vec<Vec<Point>> {
-        let mut moved_loops = Vec::with_capacity(self.loops.len());
+    pub(super) fn shifted_outwards(&self, edge_shift: impl Fn(Point) -> f64) -> Vec<Vec<Point>> {
+        let mut shifted_loops = Vec::with_capacity(self.loops.len());
         for corners in &self.loops {
             let mut edges = Vec::with_capacity(corners.len());
             for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
                 let length = (b[0] - a[0]).hypot(b[1] - a[1]);
                 let direction = [0, 1].map(|k| (b[k] - a[k]) / length);
-                let distance = distance([direction[1], -direction[0]]);
-                edges.push(MovedEdge { end: *b, length, direction, distance });
+                let distance = edge_shift([direction[1], -direction[0]]);
+                edges.push(ShiftedEdge { end: *b, length, direction, distance });
             }
-            let mut moved = vec![];
+            let mut shifted_corners = vec![];
             for (edge, next) in edges.iter().zip(edges.iter().cycle().skip(1)) {
-                moved.extend(edge.corner_to(next));
+                shifted_corners.extend(edge.corners_to(next));
             }
-            moved_loops.push(moved);
+            shifted_loops.push(shifted_corners);
         }
-        moved_loops
+        shifted_loops
     }
 }
 
-impl MovedEdge {
-    /// Point on the moved edge, at the distance `along` from the edge's `corner`.
-    fn beside(&self, corner: Point, along: f64) -> Point {
+impl ShiftedEdge {
+    /// Point on the line of the shifted edge, at a `distance_along` (m) from the edge's original `corner`.
+    fn shifted_point(&self, corner: Point, distance_along: f64) -> Point {
         let normal = [self.direction[1], -self.direction[0]];
-        [0, 1].map(|k| corner[k] + self.distance * normal[k] + along * self.direction[k])
+        [0, 1].map(|k| corner[k] + self.distance * normal[k] + distance_along * self.direction[k])
     }
 
-    /// Corner between this edge and the next one, both moved outwards.
+    /// Corners between this edge and the next edge, both shifted outwards.
     ///
-    /// It is the point where the moved edges meet. Where an edge is too short for this, or the corner too sharp, both
-    /// end before: a corner of the mat is then cut off, and in a corner of its surroundings edges pass one another.
-    fn corner_to(&self, next: &Self) -> Vec<Point> {
+    /// In general it is one corner, where the shifted edges meet. If an edge is too short for this, or the corner too
+    /// sharp, both edges end before they meet. A corner of the mat is then cut off, and edges at a reentrant corner
+    /// cross each other.
+    fn corners_to(&self, next: &Self) -> Vec<Point> {
         let corner = self.end;
-        let one = self.direction;
-        let other = next.direction;
-        let sine = one[0] * other[1] - one[1] * other[0];
-        let cosine = one[0] * other[0] + one[1] * other[1];
-        if sine.abs() <= STRAIGHT_SINE {
-            return vec![self.beside(corner, 0.0), next.beside(corner, 0.0)];
+        let sine = self.direction[0] * next.direction[1] - self.direction[1] * next.direction[0];
+        let cosine = self.direction[0] * next.direction[0] + self.direction[1] * next.direction[1];
+        if sine.abs() <= MAX_STRAIGHT_SINE {
+            return vec![self.shifted_point(corner, 0.0), next.shifted_point(corner, 0.0)];
         }
-        // Lengths by which this edge grows beyond its end, and the next one before its start, until they meet.
-        let growth = (next.distance - self.distance * cosine) / sine;
-        let next_growth = (self.distance - next.distance * cosine) / sine;
-        let max_growth =
-            (MAX_CORNER_MOVE * MAX_CORNER_MOVE - 1.0).sqrt() * self.distance.max(next.distance);
-        let ratio = self
-            .allowed_fraction(growth, max_growth)
-            .min(next.allowed_fraction(next_growth, max_growth));
-        // Edges that do not move have no ratio (0/0).
-        if ratio.is_nan() || ratio >= 1.0 {
-            return vec![self.beside(corner, growth)];
+        // Extensions of this edge beyond its end, and of the next edge before its start, to their intersection.
+        let extension = (next.distance - self.distance * cosine) / sine;
+        let next_extension = (self.distance - next.distance * cosine) / sine;
+        let max_extension =
+            (MAX_CORNER_SHIFT * MAX_CORNER_SHIFT - 1.0).sqrt() * self.distance.max(next.distance);
+        let fraction = self
+            .allowed_fraction(extension, max_extension)
+            .min(next.allowed_fraction(next_extension, max_extension));
+        // The fraction of edges without a shift is 0/0.
+        if fraction.is_nan() || fraction >= 1.0 {
+            return vec![self.shifted_point(corner, extension)];
         }
-        let end = self.beside(corner, ratio * growth);
-        let next_start = next.beside(corner, -ratio * next_growth);
-        if sine > 0.0 { vec![end, next_start] } else { vec![end, corner, next_start] }
+        let edge_end = self.shifted_point(corner, fraction * extension);
+        let next_start = next.shifted_point(corner, -fraction * next_extension);
+        if sine > 0.0 {
+            vec![edge_end, next_start]
+        } else {
+            vec![edge_end, corner, next_start]
+        }
     }
 
-    /// Largest fraction of a growth that the edge allows; it may be reduced by half its length.
-    fn allowed_fraction(&self, growth: f64, max_growth: f64) -> f64 {
-        let allowed = if growth < 0.0 { 0.5 * self.length } else { max_growth };
-        allowed / growth.abs()
+    /// Largest fraction of an extension that the edge allows; it may lose half its length.
+    fn allowed_fraction(&self, extension: f64, max_extension: f64) -> f64 {
+        let allowed = if extension < 0.0 { 0.5 * self.length } else { max_extension };
+        allowed / extension.abs()
     }
 }
 
 /// Closed lines of these edges.
 ///
-/// Where several edges leave a point, a line turns left as far as it can: it stays with its part of the mat.
+/// If several edges start at a point, a line takes the leftmost turn: it stays along its part of the mat.
 fn closed_lines(points: &PointIndex, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
-    let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
-    for &[first, last] in &edges {
-        leaving.entry(first).or_default().push(last);
+    let mut edge_ends: HashMap<usize, Vec<usize>> = HashMap::new();
+    for &[start, end] in &edges {
+        edge_ends.entry(start).or_default().push(end);
     }
     let mut lines = vec![];
-    for [first, last] in edges {
-        let Some(ends) = leaving.get_mut(&first) else { continue };
-        let Some(place) = ends.iter().position(|end| *end == last) else { continue };
-        ends.swap_remove(place);
-        let mut line = vec![first, last];
+    for [start, end] in edges {
+        let Some(ends) = edge_ends.get_mut(&start) else { continue };
+        let Some(position) = ends.iter().position(|candidate| *candidate == end) else {
+            continue;
+        };
+        ends.swap_remove(position);
+        let mut line = vec![start, end];
         while let [_, second, ..] = line[..]
             && let [.., previous, current] = line[..]
-            && let Some(ends) = leaving.get_mut(&current)
+            && let Some(ends) = edge_ends.get_mut(&current)
         {
-            let corner = [points.place(previous), points.place(current)];
-            let turn = |end: usize| clockwise(corner, points.place(end));
-            let Some(next) = (0..ends.len())
+            let last_edge = [points.point(previous), points.point(current)];
+            let turn = |end: usize| clockwise_angle(last_edge, points.point(end));
+            let Some(leftmost) = (0..ends.len())
                 .min_by(|one, other| turn(ends[*one]).total_cmp(&turn(ends[*other])))
             else {
                 break;
             };
-            if current == first && turn(second) <= turn(ends[next]) {
+            if current == start && turn(second) <= turn(ends[leftmost]) {
                 break;
             }
-            line.push(ends.swap_remove(next));
+            line.push(ends.swap_remove(leftmost));
         }
         line.pop();
         lines.push(line);
@@ -183,34 +194,34 @@ fn closed_lines(points: &PointIndex, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> 
     lines.iter().filter_map(|line| corners(points, line)).collect()
 }
 
-/// Corners of a closed line, from the lowest of its leftmost ones; `None` if it encloses nothing.
+/// Corners of a closed line, from the lowest of its leftmost corners; `None` if the line encloses no area.
 fn corners(points: &PointIndex, line: &[usize]) -> Option<Vec<Point>> {
-    let places: Vec<Point> = line.iter().map(|number| points.place(*number)).collect();
-    let start = (0..places.len()).min_by(|one, other| {
-        let one = places[*one];
-        let other = places[*other];
-        if (one[0] - other[0]).abs() <= points.near() {
+    let line_points: Vec<Point> = line.iter().map(|index| points.point(*index)).collect();
+    let start = (0..line_points.len()).min_by(|one, other| {
+        let one = line_points[*one];
+        let other = line_points[*other];
+        if (one[0] - other[0]).abs() <= points.touch_distance() {
             one[1].total_cmp(&other[1])
         } else {
             one[0].total_cmp(&other[0])
         }
     })?;
-    let mut corners = vec![places[start]];
-    for k in 1..places.len() {
-        let place = places[(start + k) % places.len()];
-        let next = places[(start + k + 1) % places.len()];
-        let last = corners[corners.len() - 1];
-        if points.along([last, next], place).is_none() {
-            corners.push(place);
+    let mut corners = vec![line_points[start]];
+    for k in 1..line_points.len() {
+        let point = line_points[(start + k) % line_points.len()];
+        let next = line_points[(start + k + 1) % line_points.len()];
+        let last_corner = corners[corners.len() - 1];
+        if points.position_on_edge([last_corner, next], point).is_none() {
+            corners.push(point);
         }
     }
     (corners.len() > 2).then_some(corners)
 }
 
-/// Angle at the second point from the first one clockwise to `end`, above 0 and up to 2π.
-fn clockwise([first, second]: [Point; 2], end: Point) -> f64 {
+/// Angle at the second point from the first point clockwise to `end`, above 0 and up to 2π.
+fn clockwise_angle([first, second]: [Point; 2], end: Point) -> f64 {
     let first_angle = (first[1] - second[1]).atan2(first[0] - second[0]);
     let end_angle = (end[1] - second[1]).atan2(end[0] - second[0]);
-    let turn = (first_angle - end_angle).rem_euclid(std::f64::consts::TAU);
-    if turn > 0.0 { turn } else { std::f64::consts::TAU }
+    let angle = (first_angle - end_angle).rem_euclid(std::f64::consts::TAU);
+    if angle > 0.0 { angle } else { std::f64::consts::TAU }
 }

@@ -3,32 +3,33 @@
 use std::ops::Range;
 
 use super::boundary::MatBoundary;
-use super::faces::{MatFace, check_apart, mat_by_mat};
-use super::outline::{CutCell, RIGID_MAT_OVERHANG, cells_of_mats};
+use super::faces::{MatFace, check_apart, sort_by_mat};
+use super::outline::{CutCell, MatCells, RIGID_MAT_OVERHANG, assign_cells};
 use super::region::PlanGrid;
-use super::unions::Unions;
+use super::unions::{Quarters, Unions};
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{Lattice, circle, middle};
 use crate::history::PairClasses;
 
 mod areas;
 
-/// Largest relative difference of the areas of mats and cells.
+/// Largest relative difference between the areas of mats and of their cells: faces that are wide enough have less.
 const MAX_AREA_ERROR: f64 = 0.01;
-/// Memory for a cell, bytes.
+/// Upper estimate of the memory for a cell before matrices exist, bytes.
 const BYTES_PER_CELL: f64 = 1000.0;
-/// Relative difference of sides that counts as rounding.
+/// Relative difference of a cell's sides below which they are equal but for rounding.
 const EQUAL_SIDES_TOLERANCE: f64 = 1e-12;
-/// Part of a union's rectangle beside its cells that counts as rounding.
+/// Fraction of a union's rectangle outside its cells below which the rest is rounding.
 const UNION_AREA_TOLERANCE: f64 = 1e-9;
 
 /// Cells of one lattice under one or several mats.
 ///
 /// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a rigid mat
 /// with edges along x and y extend 0.105 of their side beyond its outline: piecewise constant tractions under a rigid
-/// base act like a mat whose edge lies this far inside. This removes at least 0.9 of the error, of first order in the
-/// cells. Other edges cut cells. The contact element of a cut cell is a rectangle with the area inside the outline
-/// about its centre of area, and a spring makes the soil under it softer as the area is smaller.
+/// base act like a mat whose edge lies this far inside. The overhang removes at least 0.9 of the error, which is of first
+/// order in the side of a cell. Oblique edges cut cells. The contact element of a cut cell is a rectangle with the area
+/// inside the outline about its centre of area. A spring in series with the soil increases its compliance as the area
+/// decreases.
 ///
 /// ```
 /// use basemat::bem::plan::Plan;
@@ -44,21 +45,22 @@ pub struct Plan {
     pub(super) cells: Vec<[usize; 2]>,
     /// Smallest x and y of the lattice, m.
     corner: [f64; 2],
+    /// Overhang of outer cells beyond the outline, as a fraction of their side.
     overhang: f64,
-    /// Area of the outline, m².
+    /// Area inside the outline, m².
     area: f64,
-    /// Faces of the outline; empty for masks.
+    /// Faces of the mats; empty for masks.
     faces: Vec<MatFace>,
     /// Number of cells along the shorter side of the outline; 0 for masks.
-    cells_along: usize,
-    /// Contact element of each cell; `None` if each cell is one.
-    pub(super) owners: Option<Vec<usize>>,
-    /// Each cell at the outline; empty if no cell is cut.
-    pub(super) cuts: Vec<CutCell>,
+    shorter_side_cells: usize,
+    /// Contact element of each cell; `None` if each cell is one element.
+    pub(super) cell_elements: Option<Vec<usize>>,
+    /// Contact element of each cell at the outline; empty if no cell is cut.
+    pub(super) cut_cells: Vec<CutCell>,
 }
 
 impl Plan {
-    /// A rectangle, with `cells` along its shorter side.
+    /// Plan of a rectangle (m), with `cells` along its shorter side.
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
@@ -69,11 +71,11 @@ impl Plan {
         Self::on_faces(&[corners.to_vec()], cells)
     }
 
-    /// Cells under some faces, with `cells` along the shorter side of all.
+    /// Plan under faces, with `cells` along the shorter side of all faces together.
     ///
-    /// Faces are convex polygons, each given by its corners (m) in either order. Faces that share a corner, or have
-    /// one on the other's edge, form one mat; between mats there is at least one empty cell. Cells depend on the outline
-    /// of the mats alone, and not on the faces that fill it.
+    /// A face is a convex polygon, a list of its corners (m) in either order. Faces that share a corner, or have a corner
+    /// on the other's edge, form one mat. Mats are at least one empty cell apart. Cells depend on the outline of the mats
+    /// alone, and not on their division into faces.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
@@ -81,14 +83,14 @@ impl Plan {
     /// [`PlanError::Uncovered`].
     pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
         check_faces(faces.len())?;
-        let mut checked = Vec::with_capacity(faces.len());
-        for (number, corners) in faces.iter().enumerate() {
-            checked.push(MatFace::new(number, corners)?);
+        let mut mat_faces = Vec::with_capacity(faces.len());
+        for (face, corners) in faces.iter().enumerate() {
+            mat_faces.push(MatFace::new(face, corners)?);
         }
-        Self::on_outlines(checked, cells, RIGID_MAT_OVERHANG, f64::INFINITY)
+        Self::on_outlines(mat_faces, cells, RIGID_MAT_OVERHANG, f64::INFINITY)
     }
 
-    /// A disc, as a polygon of the same area, with `cells` along its diameter.
+    /// Plan of a disc (m), as a polygon of the same area, with `cells` along its diameter.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells, or a centre or radius not finite and positive; [`Error::Memory`].
@@ -100,9 +102,10 @@ impl Plan {
         Self::on_faces(&[corners.collect()], cells)
     }
 
-    /// Cells with sides `pitch` (m) where `mask` is true.
+    /// Plan of the cells with sides `pitch` (m) whose entry in `mask` is true.
     ///
-    /// Row by row of `columns`, from `corner` (m) to the right, then away. Nothing extends beyond the cells.
+    /// The mask has rows of `columns` entries along x, in the order of y; its first cell is at `corner` (m). The mat ends at
+    /// the sides of the cells.
     ///
     /// # Errors
     /// [`Error::Input`] for a corner that is not finite or sides that are not positive; [`Error::Size`] for a mask
@@ -119,20 +122,19 @@ impl Plan {
         }
         let rows = mask.len().div_ceil(columns.max(1)).max(1);
         if columns == 0 || rows * columns != mask.len() {
-            let found = mask.len();
             let needed = rows * columns.max(1);
-            return Err(Error::Size { quantity: "mask of a mat", found, needed });
+            return Err(Error::Size { quantity: "mask of a mat", found: mask.len(), needed });
         }
         check_memory([columns, rows])?;
         let mut cells = vec![];
         // Smallest and largest column and row of the cells.
-        let mut first = [usize::MAX; 2];
-        let mut last = [0; 2];
-        for place in (0..mask.len()).filter(|place| mask[*place]) {
-            let cell = [place % columns, place / columns];
+        let mut min_cell = [usize::MAX; 2];
+        let mut max_cell = [0; 2];
+        for index in (0..mask.len()).filter(|index| mask[*index]) {
+            let cell = [index % columns, index / columns];
             for axis in 0..2 {
-                first[axis] = first[axis].min(cell[axis]);
-                last[axis] = last[axis].max(cell[axis]);
+                min_cell[axis] = min_cell[axis].min(cell[axis]);
+                max_cell[axis] = max_cell[axis].max(cell[axis]);
             }
             cells.push(cell);
         }
@@ -140,24 +142,29 @@ impl Plan {
             return Err(PlanError::NoCells { mat: 0, pitch }.into());
         }
         let area = pitch[0] * pitch[1] * cells.len() as f64;
-        let sorted = mat_by_mat(&cells);
+        let sorted_cells = sort_by_mat(&cells);
+        let counts = [0, 1].map(|axis| max_cell[axis] + 1 - min_cell[axis]);
         Ok(Self {
-            corner: [0, 1].map(|axis| corner[axis] + pitch[axis] * first[axis] as f64),
-            cells: sorted.into_iter().map(|[i, j]| [i - first[0], j - first[1]]).collect(),
-            lattice: Lattice { pitch, counts: [0, 1].map(|axis| last[axis] + 1 - first[axis]) },
+            corner: [0, 1].map(|axis| corner[axis] + pitch[axis] * min_cell[axis] as f64),
+            cells: sorted_cells
+                .into_iter()
+                .map(|[i, j]| [i - min_cell[0], j - min_cell[1]])
+                .collect(),
+            lattice: Lattice { pitch, counts },
             overhang: 0.0,
             area,
             faces: vec![],
-            cells_along: 0,
-            owners: None,
-            cuts: vec![],
+            shorter_side_cells: 0,
+            cell_elements: None,
+            cut_cells: vec![],
         })
     }
 
     /// Unites cells to contact elements that are rectangles of cells.
     ///
-    /// `along`: numbers of columns, `across`: numbers of rows, of all. The ground still computes all cells. For a rigid
-    /// mat, sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are as accurate as all, with a quarter of the elements.
+    /// `columns` and `rows` are the numbers of columns and rows of cells in each union, from the first column and row to the
+    /// last. The ground still computes all cells. Under a rigid mat, unions of 1, 2, 2, 3, 3, 2, 2, 1 of sixteen cells are
+    /// as accurate as single cells, with a quarter of the elements.
     ///
     /// ```
     /// use basemat::bem::plan::Plan;
@@ -169,27 +176,29 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Size`] for numbers that do not sum up to the columns or rows; [`Error::Input`] for a rectangle that is
-    /// not wholly on the mat or that an oblique edge cuts, and for outermost elements wider than a cell: the mat's edge
-    /// would be theirs.
-    pub fn with_unions(self, along: &[usize], across: &[usize]) -> Result<Self> {
-        let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
-        let plan = Self { owners, ..self };
+    /// partly outside the mat or that an oblique edge cuts, and for outermost elements wider than a cell, because the
+    /// traction at the mat's edge would spread over them.
+    pub fn with_unions(self, columns: &[usize], rows: &[usize]) -> Result<Self> {
+        let cell_elements =
+            Some(Unions::cell_elements(self.lattice.counts, &self.cells, [columns, rows])?);
+        let plan = Self { cell_elements, ..self };
         for ([_, area], element) in plan.areas().into_iter().zip(plan.elements()) {
             let sides = element.sides();
-            let ratio = area / (sides[0] * sides[1]);
+            let filled_fraction = area / (sides[0] * sides[1]);
             require(
                 "part of a union's rectangle in its cells",
-                ratio,
-                ratio > 1.0 - UNION_AREA_TOLERANCE,
+                filled_fraction,
+                filled_fraction > 1.0 - UNION_AREA_TOLERANCE,
                 "1",
             )?;
         }
         Ok(plan)
     }
 
-    /// Cuts the cells of the edge off at the outline.
+    /// Cuts the outermost cells off at the outline.
     ///
-    /// Exact for given pressures and on springs; for a rigid mat on soil an error of first order. No effect on masks.
+    /// The contact area is then exact, for prescribed pressures and on springs. Under a rigid mat on soil the error is of
+    /// first order in the side of a cell. The method has no effect on masks.
     ///
     /// # Errors
     /// [`Error::Scene`] for a plan with unions, whose cells would change; as for [`Plan::on_faces`].
@@ -197,56 +206,43 @@ impl Plan {
         if self.overhang == 0.0 {
             return Ok(self);
         }
-        if self.owners.is_some() {
+        if self.cell_elements.is_some() {
             return Err(Error::Scene {
                 quantity: "plan with unions",
                 needed: "`without_overhang` before `with_unions`",
             });
         }
-        Self::on_outlines(self.faces, self.cells_along, 0.0, 0.0)
+        Self::on_outlines(self.faces, self.shorter_side_cells, 0.0, 0.0)
     }
 
-    /// Cells under faces of mats.
+    /// Plan under the faces of mats, for an overhang (as a fraction of a cell) and a rigidity.
     ///
-    /// `cells_along`: number of cells along the shorter side of all faces. `rigidity`: D/(G R³), infinite for rigid
-    /// mats.
+    /// `shorter_side_cells`: number of cells along the shorter side of all faces together. `rigidity`: D/(G R³), infinite
+    /// for rigid mats.
     pub(super) fn on_outlines(
         faces: Vec<MatFace>,
-        cells_along: usize,
+        shorter_side_cells: usize,
         overhang: f64,
         rigidity: f64,
     ) -> Result<Self> {
         MatFace::check_overlap(&faces)?;
         let bounds = MatFace::bounds(&faces);
-        let sides = bounds.map(|[low, high]| high - low);
-        let shorter = sides[0].min(sides[1]);
-        let covered_cells = cells_along as f64 - 2.0 * overhang;
-        let counts = sides.map(|side| {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-            let count = (covered_cells * side / shorter + 2.0 * overhang).round() as usize;
-            count
-        });
-        check_count(cells_along, counts)?;
-        let mut pitch = [0, 1].map(|axis| sides[axis] / (counts[axis] as f64 - 2.0 * overhang));
-        if (pitch[0] / pitch[1] - 1.0).abs() < EQUAL_SIDES_TOLERANCE {
-            pitch[1] = pitch[0];
-        }
-        let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
-        let mats = MatBoundary::of_mats(&faces);
-        let grid = PlanGrid { corner, pitch, counts };
-        let (owners, mut by_mat) = cells_of_mats(&mats, grid, overhang, rigidity);
-        check_apart(&owners, counts[0], pitch)?;
-        if let Some(mat) = by_mat.iter().position(|of_mat| of_mat.cells.is_empty()) {
+        let grid = grid_over(bounds, shorter_side_cells, overhang)?;
+        let PlanGrid { corner, pitch, counts } = grid;
+        let boundaries = MatBoundary::of_mats(&faces);
+        let MatCells { cell_mats, mut mats } = assign_cells(&boundaries, grid, overhang, rigidity);
+        check_apart(&cell_mats, counts[0], pitch)?;
+        if let Some(mat) = mats.iter().position(|mat| mat.cells.is_empty()) {
             return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        by_mat.sort_by_key(|of_mat| of_mat.cells.first().map(|[i, j]| [*j, *i]));
+        mats.sort_by_key(|mat| mat.cells.first().map(|[i, j]| [*j, *i]));
         let mut cells = vec![];
-        let mut cuts = vec![];
-        for of_mat in by_mat {
-            cells.extend(of_mat.cells);
-            cuts.extend(of_mat.cuts);
+        let mut cut_cells = vec![];
+        for mat in mats {
+            cells.extend(mat.cells);
+            cut_cells.extend(mat.cut_cells);
         }
-        let area = mats.iter().map(MatBoundary::area).sum();
+        let area = boundaries.iter().map(MatBoundary::area).sum();
         let plan = Self {
             lattice: Lattice { pitch, counts },
             cells,
@@ -254,11 +250,11 @@ impl Plan {
             overhang,
             area,
             faces,
-            cells_along,
-            owners: None,
-            cuts,
+            shorter_side_cells,
+            cell_elements: None,
+            cut_cells,
         };
-        let cell_area: f64 = plan.inside().iter().sum();
+        let cell_area: f64 = plan.areas_inside_outline().iter().sum();
         if (cell_area - area).abs() > MAX_AREA_ERROR * area {
             return Err(PlanError::Uncovered { faces: area, cells: cell_area, pitch }.into());
         }
@@ -275,7 +271,7 @@ impl Plan {
         self.lattice.pitch
     }
 
-    /// Middle of the bounding rectangle, m: reference point of resultants and rotations.
+    /// Middle of the bounding rectangle, m: the reference point of resultants and rotations.
     pub fn middle(&self) -> [f64; 2] {
         let sides = self.lattice.sides();
         [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
@@ -283,7 +279,7 @@ impl Plan {
 
     /// Relative error of the area inside the outline, due to narrow faces.
     pub fn area_error(&self) -> f64 {
-        self.inside().iter().sum::<f64>() / self.area - 1.0
+        self.areas_inside_outline().iter().sum::<f64>() / self.area - 1.0
     }
 
     /// Classes of pairs of cells.
@@ -292,20 +288,27 @@ impl Plan {
     }
 
     /// Contact element of a cell.
-    pub(super) fn owner(&self, cell: usize) -> usize {
-        self.owners.as_ref().map_or(cell, |owners| owners[cell])
+    pub(super) fn element_of(&self, cell: usize) -> usize {
+        self.cell_elements.as_ref().map_or(cell, |elements| elements[cell])
     }
 
-    /// The plan of the quarters of all elements: left front, right front, left back, right back of each.
+    /// Plan of the quarters of all elements, to check whether a flexible base needs more elements.
+    ///
+    /// The quarters of an element are left front, right front, left back and right back.
     pub(in crate::bem) fn quartered(&self) -> Self {
-        let (cells, owners) = Unions::quarters(&self.cells, |cell| self.owner(cell));
+        let Quarters { cells, elements } =
+            Unions::quarters(&self.cells, |cell| self.element_of(cell));
         let Lattice { pitch, counts } = &self.lattice;
-        let lattice = Lattice { pitch: pitch.map(|x| 0.5 * x), counts: counts.map(|n| 2 * n) };
-        let owners = Some(owners);
-        let cuts = self.cuts.iter().flat_map(|cut| vec![cut.clone(); 4]).collect();
-        let faces = vec![];
-        let cells_along = 0;
-        Self { lattice, cells, overhang: 0.0, faces, cells_along, owners, cuts, ..self.clone() }
+        Self {
+            lattice: Lattice { pitch: pitch.map(|x| 0.5 * x), counts: counts.map(|n| 2 * n) },
+            cells,
+            overhang: 0.0,
+            faces: vec![],
+            shorter_side_cells: 0,
+            cell_elements: Some(elements),
+            cut_cells: self.cut_cells.iter().flat_map(|cell| vec![cell.clone(); 4]).collect(),
+            ..self.clone()
+        }
     }
 
     /// Numbers that identify the lattice and its cells.
@@ -313,29 +316,46 @@ impl Plan {
         let Lattice { pitch, counts } = &self.lattice;
         let cells = self.cells.iter().flatten();
         let counts = counts.iter().chain(cells).map(|count| *count as f64);
-        let owners = self.owners.iter().flatten().map(|owner| *owner as f64);
-        pitch.iter().copied().chain(self.corner).chain(counts).chain(owners)
+        let elements = self.cell_elements.iter().flatten().map(|element| *element as f64);
+        pitch.iter().copied().chain(self.corner).chain(counts).chain(elements)
     }
 }
 
-/// Error for a mat without faces.
-pub(super) fn check_faces(count: usize) -> Result<()> {
-    at_least("list of faces of a mat", count, 1)
-}
-
-/// Error for less than two cells along a side, or more than memory allows.
-fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
+/// Lattice over `bounds` (m), the bounding rectangle of all faces.
+///
+/// # Errors
+/// [`Error::Input`] for less than two cells along the shorter side; [`Error::Memory`].
+fn grid_over(bounds: [[f64; 2]; 2], shorter_side_cells: usize, overhang: f64) -> Result<PlanGrid> {
+    let sides = bounds.map(|[min, max]| max - min);
+    let shorter_side = sides[0].min(sides[1]);
+    let covered_cells = shorter_side_cells as f64 - 2.0 * overhang;
+    let counts = sides.map(|side| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let count = (covered_cells * side / shorter_side + 2.0 * overhang).round() as usize;
+        count
+    });
     require(
         "number of cells along the shorter side of a mat",
-        cells as f64,
-        cells > 1,
+        shorter_side_cells as f64,
+        shorter_side_cells > 1,
         "at least 2",
     )?;
-    check_memory(counts)
+    check_memory(counts)?;
+    let mut pitch = [0, 1].map(|axis| sides[axis] / (counts[axis] as f64 - 2.0 * overhang));
+    if (pitch[0] / pitch[1] - 1.0).abs() < EQUAL_SIDES_TOLERANCE {
+        pitch[1] = pitch[0];
+    }
+    let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
+    Ok(PlanGrid { corner, pitch, counts })
 }
 
-/// Error for so many cells that their data would not fit into memory.
+/// Error for a mat without faces.
+pub(super) fn check_faces(face_count: usize) -> Result<()> {
+    at_least("list of faces of a mat", face_count, 1)
+}
+
+/// Error for cells whose data would not fit into memory.
 fn check_memory(counts: [usize; 2]) -> Result<()> {
-    let count = counts[0] as f64 * counts[1] as f64;
-    Ok(memory::check("cells of a mat", count, BYTES_PER_CELL * count)?)
+    let cell_count = counts[0] as f64 * counts[1] as f64;
+    Ok(memory::check("cells of a mat", cell_count, BYTES_PER_CELL * cell_count)?)
 }

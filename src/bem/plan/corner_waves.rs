@@ -5,21 +5,21 @@
 //!
 //! H(X, Y) = k⁻⁴ ⟨q(θ) e^(ik(X cos θ + Y sin θ))⟩,   q = F/(cos²θ sin²θ)
 //!
-//! with F = 1, cos²θ, … of the form. The poles of q at the four axes cancel in the differences. Any path around
-//! them is therefore allowed that is the same for all corners; the mean of the paths above and below is taken.
+//! with F = 1, cos²θ, … of the form. The poles of q at the four axes cancel in the differences. Any path around the
+//! poles is therefore allowed if it is the same for all corners. The code uses the mean of the paths above and below.
 //!
-//! With R = |(X, Y)| and φ its direction, waves are stationary at θ = φ and at φ + π. The path of steepest descent
-//! through φ is cos(θ − φ) = 1 + ip², −∞ < p < ∞. There the wave is e^(ikR) e^(−kRp²). The other point has the
-//! conjugate values. Between the first path and these two lie poles; their residues are waves along an axis,
-//! ±iπ Res, and their second differences are zero except in the first row and column, or in the second.
+//! With R = |(X, Y)| and φ its direction, the phase is stationary at θ = φ and at φ + π. The path of steepest descent
+//! through φ is cos(θ − φ) = 1 + ip², −∞ < p < ∞. On this path the wave is e^(ikR) e^(−kRp²). The point φ + π has the
+//! conjugate values. Poles lie between the original path and the two paths of steepest descent. Their residues, ±iπ Res,
+//! are waves along an axis. The second differences of the residues are zero except in the first two rows and columns.
 //!
 //! On the path, the trapezoidal rule at (n + ½)h converges like e^(−π²/(kRh²)). Poles beside the path add, in closed
 //! form, the residues of q e^(…)/(1 + e^(∓2πip/h)); a double pole on the path, A/p², adds Aπ²/h (Trefethen and
-//! Weideman, "The exponentially convergent trapezoidal rule", SIAM Review 56, 2014). The sum has thus no error but
-//! rounding, however near the poles are.
+//! Weideman, "The exponentially convergent trapezoidal rule", SIAM Review 56, 2014). With these terms the sum is exact to
+//! rounding, at any distance of the poles.
 //!
-//! Amplitudes, without e^(ikR), are smooth in k. They are polynomials on bands of k, each up to twice the wavenumber
-//! at which it begins, so that a form costs the same at any wavenumber.
+//! Amplitudes, without e^(ikR), are smooth in k. They are interpolated by polynomials on bands of k. Each band reaches
+//! from its first wavenumber to twice this wavenumber, so that the time for a form is the same at any wavenumber.
 
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use std::sync::OnceLock;
@@ -28,34 +28,36 @@ use super::forms::FORM_COUNT;
 use crate::geometry::Lattice;
 use crate::linalg::{Complex, add_combined_rows};
 
-/// Number of waves of each corner: q = 1/sin², 1/cos², 1/(cos sin), 1/(cos sin²), 1/(cos² sin).
+/// Number of waves of each corner, for the forms but g₀: q = 1/sin², 1/cos², 1/(cos sin), 1/(cos sin²), 1/(cos² sin).
 const CORNER_WAVE_COUNT: usize = 5;
 /// Whether waves are odd in X and in Y.
 const ODD_IN_X_AND_Y: [[bool; 2]; CORNER_WAVE_COUNT] =
     [[false, false], [false, false], [true, true], [true, false], [false, true]];
-/// Directions of the poles, with cosine and sine.
+/// Directions of the poles: angle, and its cosine and sine.
 const POLE_DIRECTIONS: [(f64, [f64; 2]); 4] =
     [(0.0, [1.0, 0.0]), (FRAC_PI_2, [0.0, 1.0]), (PI, [-1.0, 0.0]), (-FRAC_PI_2, [0.0, -1.0])];
-/// Half the number of points of the path.
+/// Half the number of points of the trapezoidal rule on the path.
 const PATH_HALF_POINTS: usize = 12;
-/// h √(kR): the first neglected point and the error of the rule are both about 1e-16.
+/// h √(kR) of the trapezoidal rule: the first neglected term and the error are both about 1e-16.
 const PATH_STEP_FACTOR: f64 = 0.517;
 /// Number of Chebyshev points of a band.
 ///
-/// Amplitudes are singular at k = 0 alone, so their coefficients fall like 5.8ⁿ. Forms at k × side = 16 are below 1e-4
-/// of the forms at k = 0.
+/// Amplitudes are singular at k = 0 alone, so that their coefficients decrease like 5.8⁻ⁿ. Forms at k × side = 16 are
+/// below 1e-4 of the forms at k = 0.
 const BAND_NODE_COUNT: usize = 16;
-/// Smallest wavenumber × shorter side of a cell: the branch points of the path then add e^(−2π√(kR)/[`PATH_STEP_FACTOR`]).
+/// Smallest wavenumber × shorter side of a cell, for an accurate rule.
+///
+/// Branch points of the path add an error of e^(−2π√(kR)/[`PATH_STEP_FACTOR`]).
 const MIN_WAVENUMBER_SIDE: f64 = 16.0;
 
-/// Forms of a lattice from a wavenumber on.
+/// Form factors of a lattice at large wavenumbers, as waves from corners of cells.
 #[derive(Debug)]
 pub(super) struct CornerWaves {
     lattice: Lattice,
     classes: Vec<[usize; 2]>,
     /// Distance of each corner from the source, column by column, m.
     distances: Vec<f64>,
-    /// Wavenumber at which the first band begins, 1/m.
+    /// Wavenumber at the start of the first band, 1/m.
     first_wavenumber: f64,
     /// Chebyshev coefficients of the amplitudes on each band.
     ///
@@ -69,24 +71,24 @@ pub(super) struct WaveBuffers {
     polynomials: Vec<f64>,
     amplitudes: Vec<f64>,
     /// H k⁴ of a wave at all corners.
-    corners: Vec<f64>,
-    /// Second differences in x of `corners`.
-    differences: Vec<f64>,
+    corner_values: Vec<f64>,
+    /// Second differences in x of `corner_values`.
+    x_differences: Vec<f64>,
     /// Forms: wavenumber by wavenumber, form by form, all classes.
     pub(super) values: Vec<f64>,
 }
 
 impl CornerWaves {
-    /// Smallest wavenumber at which waves have full accuracy, 1/m.
+    /// Smallest wavenumber at which the waves are accurate to rounding, 1/m.
     pub(super) fn min_wavenumber(lattice: &Lattice) -> f64 {
         MIN_WAVENUMBER_SIDE / lattice.finest()
     }
 
-    /// Waves from the wavenumber `first` up to `last`, 1/m.
-    pub(super) fn new(lattice: &Lattice, first: f64, last: f64) -> Self {
+    /// Waves from `first_wavenumber` up to `last_wavenumber`, 1/m.
+    pub(super) fn new(lattice: &Lattice, first_wavenumber: f64, last_wavenumber: f64) -> Self {
         let mut bands = vec![];
-        let mut band_end = first;
-        while band_end < last {
+        let mut band_end = first_wavenumber;
+        while band_end < last_wavenumber {
             bands.push(OnceLock::new());
             band_end *= 2.0;
         }
@@ -98,7 +100,7 @@ impl CornerWaves {
             }
         }
         let classes = lattice.classes();
-        Self { lattice: lattice.clone(), classes, distances, first_wavenumber: first, bands }
+        Self { lattice: lattice.clone(), classes, distances, first_wavenumber, bands }
     }
 
     /// Overwrites `buffers.values` with the forms at `wavenumbers` (1/m), which lie on one band.
@@ -107,110 +109,129 @@ impl CornerWaves {
         values.clear();
         let Some(middle) = wavenumbers.get(wavenumbers.len() / 2) else { return };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let number = (middle / self.first_wavenumber).log2().clamp(0.0, 63.0) as usize;
-        let band_start = self.first_wavenumber * (1_u64 << number) as f64;
-        let Some(band) = self.bands.get(number) else { return };
-        let count = wavenumbers.len();
+        let band_index = (middle / self.first_wavenumber).log2().clamp(0.0, 63.0) as usize;
+        let band_start = self.first_wavenumber * (1_u64 << band_index) as f64;
+        let Some(band) = self.bands.get(band_index) else { return };
+        let point_count = wavenumbers.len();
         polynomials.clear();
-        polynomials.resize(BAND_NODE_COUNT * count, 1.0);
+        polynomials.resize(BAND_NODE_COUNT * point_count, 1.0);
         for (i, k) in wavenumbers.iter().enumerate() {
             // Chebyshev polynomials T₁ = x and Tₙ = 2x Tₙ₋₁ − Tₙ₋₂.
             let x = 2.0 * (k - band_start) / band_start - 1.0;
-            polynomials[count + i] = x;
+            polynomials[point_count + i] = x;
             for degree in 2..BAND_NODE_COUNT {
-                let previous = polynomials[(degree - 1) * count + i];
-                let before_previous = polynomials[(degree - 2) * count + i];
-                polynomials[degree * count + i] = 2.0 * x * previous - before_previous;
+                let previous = polynomials[(degree - 1) * point_count + i];
+                let before_previous = polynomials[(degree - 2) * point_count + i];
+                polynomials[degree * point_count + i] = 2.0 * x * previous - before_previous;
             }
         }
-        let columns = 2 * CORNER_WAVE_COUNT * self.distances.len();
+        let column_count = 2 * CORNER_WAVE_COUNT * self.distances.len();
         amplitudes.clear();
-        amplitudes.resize(columns * count, 0.0);
+        amplitudes.resize(column_count * point_count, 0.0);
         let coefficients = band.get_or_init(|| self.amplitude_coefficients(band_start));
-        add_combined_rows(polynomials, coefficients, columns, 1.0, amplitudes);
-        let amplitudes = std::mem::take(amplitudes);
-        for (k, amplitudes) in wavenumbers.iter().zip(amplitudes.chunks_exact(columns)) {
-            self.append_forms(*k, amplitudes, buffers);
+        add_combined_rows(polynomials, coefficients, column_count, 1.0, amplitudes);
+        let all_amplitudes = std::mem::take(amplitudes);
+        for (k, point_amplitudes) in
+            wavenumbers.iter().zip(all_amplitudes.chunks_exact(column_count))
+        {
+            self.append_forms(*k, point_amplitudes, buffers);
         }
-        buffers.amplitudes = amplitudes;
+        buffers.amplitudes = all_amplitudes;
     }
 
     /// Appends the forms at the wavenumber `k` to `buffers.values`.
     fn append_forms(&self, k: f64, amplitudes: &[f64], buffers: &mut WaveBuffers) {
-        let WaveBuffers { corners, differences, values, .. } = buffers;
+        let WaveBuffers { corner_values, x_differences, values, .. } = buffers;
         let class_count = self.classes.len();
         let start = values.len();
         values.resize(start + FORM_COUNT * class_count, 0.0);
-        let values = &mut values[start..];
+        let forms = &mut values[start..];
         let phases: Vec<_> = self.distances.iter().map(|r| (k * r).sin_cos()).collect();
         let corner_count = self.distances.len();
         let column_height = self.lattice.extent()[1] + 1;
-        let unit = k.powi(-4) / PI;
-        let amplitudes = amplitudes.chunks_exact(2 * corner_count);
-        for ((wave, amplitudes), [odd_x, odd_y]) in amplitudes.enumerate().zip(ODD_IN_X_AND_Y) {
+        let factor = k.powi(-4) / PI;
+        let wave_amplitudes = amplitudes.chunks_exact(2 * corner_count);
+        for ((wave, amplitudes), [is_odd_in_x, is_odd_in_y]) in
+            wave_amplitudes.enumerate().zip(ODD_IN_X_AND_Y)
+        {
             let re = &amplitudes[..corner_count];
             let im = &amplitudes[corner_count..];
-            corners.clear();
-            // The two points of stationary phase together: twice the real part, or for odd F the imaginary part.
+            corner_values.clear();
+            // Sum over both points of stationary phase: twice the real part, or for odd F the imaginary part.
             for ((re, im), (sin, cos)) in re.iter().zip(im).zip(&phases) {
-                let sum = if odd_x == odd_y { re * cos - im * sin } else { re * sin + im * cos };
-                corners.push(sum);
+                let is_real = is_odd_in_x == is_odd_in_y;
+                corner_values.push(if is_real { re * cos - im * sin } else { re * sin + im * cos });
             }
-            differences.clear();
-            for i in 0..self.lattice.extent()[0] {
-                let before = if i > 0 { i - 1 } else { 1 };
-                let sign = if i == 0 && odd_x { -1.0 } else { 1.0 };
-                for j in 0..column_height {
-                    differences.push(
-                        sign * corners[before * column_height + j]
-                            - 2.0 * corners[i * column_height + j]
-                            + corners[(i + 1) * column_height + j],
-                    );
-                }
-            }
+            self.find_x_differences(corner_values, is_odd_in_x, x_differences);
             for (class, [i, j]) in self.classes.iter().enumerate() {
-                let column = &differences[i * column_height..(i + 1) * column_height];
-                let before = if *j > 0 { j - 1 } else { 1 };
-                let sign = if *j == 0 && odd_y { -1.0 } else { 1.0 };
-                let value = sign * column[before] - 2.0 * column[*j] + column[j + 1];
-                values[(wave + 1) * class_count + class] = unit * value;
+                let column = &x_differences[i * column_height..(i + 1) * column_height];
+                let previous_row = if *j > 0 { j - 1 } else { 1 };
+                let sign = if *j == 0 && is_odd_in_y { -1.0 } else { 1.0 };
+                let difference = sign * column[previous_row] - 2.0 * column[*j] + column[j + 1];
+                forms[(wave + 1) * class_count + class] = factor * difference;
             }
         }
         for (class, offset) in self.classes.iter().enumerate() {
             let residues = residue_differences(k, self.lattice.pitch, *offset);
-            for (form, value) in (1..).zip(residues) {
-                values[form * class_count + class] += value;
+            for (form, residue) in (1..).zip(residues) {
+                forms[form * class_count + class] += residue;
             }
-            values[class] = values[class_count + class] + values[2 * class_count + class];
+            forms[class] = forms[class_count + class] + forms[2 * class_count + class];
         }
     }
 
-    /// Chebyshev coefficients of all amplitudes on the band that begins at `band_start`.
+    /// Overwrites `x_differences` with the second differences in x of a function at all corners, column by column.
+    ///
+    /// The function is even or odd in x, so that the column before the first column equals the second column or its
+    /// negative.
+    fn find_x_differences(
+        &self,
+        corner_values: &[f64],
+        is_odd_in_x: bool,
+        x_differences: &mut Vec<f64>,
+    ) {
+        let column_height = self.lattice.extent()[1] + 1;
+        x_differences.clear();
+        for i in 0..self.lattice.extent()[0] {
+            let previous_column = if i > 0 { i - 1 } else { 1 };
+            let sign = if i == 0 && is_odd_in_x { -1.0 } else { 1.0 };
+            for j in 0..column_height {
+                x_differences.push(
+                    sign * corner_values[previous_column * column_height + j]
+                        - 2.0 * corner_values[i * column_height + j]
+                        + corner_values[(i + 1) * column_height + j],
+                );
+            }
+        }
+    }
+
+    /// Chebyshev coefficients of all amplitudes on the band from `band_start` on.
     fn amplitude_coefficients(&self, band_start: f64) -> Vec<f64> {
         let column_height = self.lattice.extent()[1] + 1;
         let pitch = self.lattice.pitch;
-        let corners = self.distances.len();
+        let corner_count = self.distances.len();
         let mut coefficients = vec![];
-        coefficients.resize(BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corners, 0.0);
+        coefficients.resize(BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corner_count, 0.0);
         for node in 0..BAND_NODE_COUNT {
             let angle = PI * (node as f64 + 0.5) / BAND_NODE_COUNT as f64;
             let k = band_start * (1.0 + 0.5 * (1.0 + angle.cos()));
-            for corner in 1..corners {
+            for corner in 1..corner_count {
                 let i = corner / column_height;
                 let j = corner % column_height;
                 let amplitudes = amplitudes(k, [pitch[0] * i as f64, pitch[1] * j as f64]);
-                for (wave, (value, [odd_x, odd_y])) in
+                for (wave, (amplitude, [is_odd_in_x, is_odd_in_y])) in
                     amplitudes.into_iter().zip(ODD_IN_X_AND_Y).enumerate()
                 {
-                    if (odd_x && i == 0) || (odd_y && j == 0) {
+                    if (is_odd_in_x && i == 0) || (is_odd_in_y && j == 0) {
                         continue;
                     }
                     for degree in 0..BAND_NODE_COUNT {
-                        let unit = if degree == 0 { 1.0 } else { 2.0 } / BAND_NODE_COUNT as f64;
-                        let factor = unit * (degree as f64 * angle).cos();
-                        let place = (degree * CORNER_WAVE_COUNT + wave) * 2 * corners + corner;
-                        coefficients[place] += factor * value.re;
-                        coefficients[place + corners] += factor * value.im;
+                        let normalisation =
+                            if degree == 0 { 1.0 } else { 2.0 } / BAND_NODE_COUNT as f64;
+                        let factor = normalisation * (degree as f64 * angle).cos();
+                        let index = (degree * CORNER_WAVE_COUNT + wave) * 2 * corner_count + corner;
+                        coefficients[index] += factor * amplitude.re;
+                        coefficients[index + corner_count] += factor * amplitude.im;
                     }
                 }
             }
@@ -219,57 +240,58 @@ impl CornerWaves {
     }
 }
 
-/// Second differences of the residues between the paths, for all forms but g₀.
+/// Second differences of the poles' residues between the paths, for all forms but g₀.
 ///
-/// −|Y| cos kX k⁻³ and −|X| cos kY k⁻³ of `g_cc` and `g_ss`, −(sign Y sin kX + sign X sin kY) k⁻⁴ of `g_cs`,
-/// −|Y| sin kX k⁻³ + sign X cos kY k⁻⁴ of `g_c`, and `g_s` alike.
+/// The residues are −|Y| cos kX k⁻³ and −|X| cos kY k⁻³ of `g_cc` and `g_ss`, −(sign Y sin kX + sign X sin kY) k⁻⁴ of `g_cs`,
+/// −|Y| sin kX k⁻³ + sign X cos kY k⁻⁴ of `g_c`, and with X and Y exchanged of `g_s`.
 fn residue_differences(k: f64, pitch: [f64; 2], offset: [usize; 2]) -> [f64; CORNER_WAVE_COUNT] {
-    let mut values = [0.0; CORNER_WAVE_COUNT];
+    let mut differences = [0.0; CORNER_WAVE_COUNT];
     for axis in 0..2 {
-        let across = 1 - axis;
-        if offset[across] > 1 {
+        let other_axis = 1 - axis;
+        if offset[other_axis] > 1 {
             continue;
         }
-        // Places of the forms g_cc, g_c and g_s along x, of g_ss, g_s and g_c along y.
-        let [even, odd, next_row] = [[0, 3, 4], [1, 4, 3]][axis];
-        let unit = 4.0 * (0.5 * k * pitch[axis]).sin().powi(2) * k.powi(-4);
+        // Indices of the forms g_cc, g_c and g_s along x, and of g_ss, g_s and g_c along y.
+        let [cosine_form, sine_form, neighbour_form] = [[0, 3, 4], [1, 4, 3]][axis];
+        let factor = 4.0 * (0.5 * k * pitch[axis]).sin().powi(2) * k.powi(-4);
         let phase = k * pitch[axis] * offset[axis] as f64;
         let sin = phase.sin();
         let cos = phase.cos();
-        if offset[across] == 0 {
-            values[even] += 2.0 * k * pitch[across] * unit * cos;
-            values[odd] += 2.0 * k * pitch[across] * unit * sin;
+        if offset[other_axis] == 0 {
+            differences[cosine_form] += 2.0 * k * pitch[other_axis] * factor * cos;
+            differences[sine_form] += 2.0 * k * pitch[other_axis] * factor * sin;
         } else {
-            values[2] -= unit * sin;
-            values[next_row] += unit * cos;
+            differences[2] -= factor * sin;
+            differences[neighbour_form] += factor * cos;
         }
     }
-    values
+    differences
 }
 
-/// k⁴ 2π e^(−ikR) of the waves by the stationary point θ = φ, for a corner at (X, Y) ≠ (0, 0), X, Y ≥ 0.
+/// Amplitudes of the waves from the stationary point θ = φ, times k⁴ 2π e^(−ikR).
+///
+/// The corner is at (X, Y) ≠ (0, 0) with X, Y ≥ 0.
 fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; CORNER_WAVE_COUNT] {
     let distance = x.hypot(y);
     let cos = x / distance;
     let sin = y / distance;
-    let direction = y.atan2(x);
     let h = PATH_STEP_FACTOR / (k * distance).sqrt();
     let one = Complex::real(1.0);
     // p = turn × √2 sin ½(θ − φ).
     let turn = Complex::polar(1.0, 0.5 * FRAC_PI_2);
     let mut sums = [Complex::default(); CORNER_WAVE_COUNT];
     for n in 0..2 * PATH_HALF_POINTS {
-        let place = n as f64 + 0.5 - PATH_HALF_POINTS as f64;
-        let p = place * h;
-        // Half angle's sine and cosine, and the angle's, of θ − φ on the path.
+        let steps_from_center = n as f64 + 0.5 - PATH_HALF_POINTS as f64;
+        let p = steps_from_center * h;
+        // Sine and cosine of ½(θ − φ) and of θ − φ on the path.
         let half_sine = turn.conj().scale(p / SQRT_2);
         let half_cosine = Complex::new(1.0, 0.5 * p * p).sqrt();
-        let turn_cosine = Complex::new(1.0, p * p);
-        let turn_sine = (half_sine * half_cosine).scale(2.0);
-        let c = turn_cosine.scale(cos) - turn_sine.scale(sin);
-        let s = turn_cosine.scale(sin) + turn_sine.scale(cos);
+        let path_cosine = Complex::new(1.0, p * p);
+        let path_sine = (half_sine * half_cosine).scale(2.0);
+        let c = path_cosine.scale(cos) - path_sine.scale(sin);
+        let s = path_cosine.scale(sin) + path_sine.scale(cos);
         // dp e^(−kRp²) dθ/dp.
-        let decay = (-(place * PATH_STEP_FACTOR).powi(2)).exp();
+        let decay = (-(steps_from_center * PATH_STEP_FACTOR).powi(2)).exp();
         let weight = turn.conj().scale(h * SQRT_2 * decay) / half_cosine;
         let over_c = one / c;
         let over_s = one / s;
@@ -280,16 +302,27 @@ fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; CORNER_WAVE_COUNT] {
             *sum += weight * value;
         }
     }
+    add_pole_terms(k, [x, y], h, &mut sums);
+    sums
+}
+
+/// Adds the terms of the poles beside the path and on the path to the sums of the trapezoidal rule with the step `h`.
+fn add_pole_terms(k: f64, [x, y]: [f64; 2], h: f64, sums: &mut [Complex; CORNER_WAVE_COUNT]) {
+    let distance = x.hypot(y);
+    let direction = y.atan2(x);
+    let one = Complex::real(1.0);
+    // p = turn × √2 sin ½(θ − φ).
+    let turn = Complex::polar(1.0, 0.5 * FRAC_PI_2);
     for (angle, [c, s]) in POLE_DIRECTIONS {
         let pole_angle = angle - direction;
         let wave = Complex::polar(1.0, k * (x * c + y * s - distance));
-        let slope = Complex::new(0.0, k * (y * c - x * s));
-        let poles = poles([c, s], slope);
+        let log_derivative = Complex::new(0.0, k * (y * c - x * s));
+        let poles = poles([c, s], log_derivative);
         // dp/dθ at the pole.
         let path_slope = turn.scale((0.5 * pole_angle).cos() / SQRT_2);
         if pole_angle == 0.0 {
-            for (sum, [double, _]) in sums.iter_mut().zip(poles) {
-                *sum = *sum - (double * path_slope * wave).scale(PI * PI / h);
+            for (sum, [double_pole, _]) in sums.iter_mut().zip(poles) {
+                *sum = *sum - (double_pole * path_slope * wave).scale(PI * PI / h);
             }
             continue;
         }
@@ -298,34 +331,33 @@ fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; CORNER_WAVE_COUNT] {
             (turn * Complex::new(0.0, TAU)).scale(SQRT_2 * (0.5 * pole_angle).sin().abs() / h);
         let exponential = exponent.exp();
         let inverse = (one + exponential).inverse();
-        // 1/(1 + e^(−…)) and its derivative by the exponent.
+        // 1/(1 + e^(−…)) and its derivative with respect to the exponent.
         let correction = exponential * inverse;
         let correction_slope = exponential * inverse * inverse;
         let sign = if pole_angle > 0.0 { 1.0 } else { -1.0 };
         let rate = (Complex::new(0.0, TAU) * path_slope).scale(sign / h);
-        for (sum, [double, single]) in sums.iter_mut().zip(poles) {
-            let residue = (single * correction + double * correction_slope * rate) * wave;
+        for (sum, [double_pole, simple_pole]) in sums.iter_mut().zip(poles) {
+            let residue = (simple_pole * correction + double_pole * correction_slope * rate) * wave;
             *sum += residue * Complex::new(0.0, sign * TAU);
         }
     }
-    sums
 }
 
 /// Coefficients of (θ − θ₀)⁻² and (θ − θ₀)⁻¹ of all waves at the pole in the direction (c, s) of an axis.
 ///
-/// `slope`: logarithmic derivative of the wave e^(…) there.
-fn poles([c, s]: [f64; 2], slope: Complex) -> [[Complex; 2]; CORNER_WAVE_COUNT] {
-    // Sizes of the double and of the simple pole of each wave.
-    let sizes = if s == 0.0 {
+/// `log_derivative`: logarithmic derivative of the wave e^(…) at the pole.
+fn poles([c, s]: [f64; 2], log_derivative: Complex) -> [[Complex; 2]; CORNER_WAVE_COUNT] {
+    // Coefficients of the double and of the simple pole of q for each wave.
+    let coefficients = if s == 0.0 {
         [[1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [c, 0.0], [0.0, c]]
     } else {
         [[0.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, -s], [s, 0.0]]
     };
-    sizes.map(|[double, single]| {
-        if double == 0.0 {
-            [Complex::default(), Complex::real(single)]
+    coefficients.map(|[double_pole, simple_pole]| {
+        if double_pole == 0.0 {
+            [Complex::default(), Complex::real(simple_pole)]
         } else {
-            [Complex::real(double), slope.scale(double)]
+            [Complex::real(double_pole), log_derivative.scale(double_pole)]
         }
     })
 }
@@ -335,10 +367,10 @@ mod tests {
     use super::super::forms::AngularMeans;
     use super::*;
 
-    /// Against sums over directions, at both ends of bands and within: corners near an axis have poles near the path.
+    /// Waves agree with sums over directions at both ends of bands and between; corners near an axis have near poles.
     #[test]
-    fn waves_are_sums_over_directions() {
-        let mut worst = 0.0_f64;
+    fn waves_agree_with_sums_over_directions() {
+        let mut max_error = 0.0_f64;
         for (pitch, counts) in [
             ([1.0, 1.0], [1, 1]),
             ([1.0, 0.7], [5, 4]),
@@ -346,24 +378,28 @@ mod tests {
             ([0.5, 0.5], [3, 24]),
         ] {
             let lattice = Lattice { pitch, counts };
-            let smallest = CornerWaves::min_wavenumber(&lattice);
-            let waves = CornerWaves::new(&lattice, smallest, 40.0 * smallest);
+            let min_wavenumber = CornerWaves::min_wavenumber(&lattice);
+            let waves = CornerWaves::new(&lattice, min_wavenumber, 40.0 * min_wavenumber);
             let mut means = AngularMeans::new(&lattice);
             let mut buffers = WaveBuffers::default();
-            for size in [1.0, 1.37, 1.999, 2.0, 3.7, 31.0] {
-                let wavenumbers = [size * smallest, size * smallest * (1.0 + 1e-4)];
+            for wavenumber_ratio in [1.0, 1.37, 1.999, 2.0, 3.7, 31.0] {
+                let wavenumbers = [
+                    wavenumber_ratio * min_wavenumber,
+                    wavenumber_ratio * min_wavenumber * (1.0 + 1e-4),
+                ];
                 waves.fill_forms(&wavenumbers, &mut buffers);
-                // Forms of a row or column fall like k⁻³.
-                let unit = (pitch[0] * pitch[1]).powi(2) * (size * MIN_WAVENUMBER_SIDE).powi(-3);
+                // Forms of a row or column decrease like k⁻³.
+                let scale = (pitch[0] * pitch[1]).powi(2)
+                    * (wavenumber_ratio * MIN_WAVENUMBER_SIDE).powi(-3);
                 let rows = buffers.values.chunks_exact(FORM_COUNT * waves.classes.len());
-                for (k, found) in wavenumbers.into_iter().zip(rows) {
-                    for (found, wanted) in found.iter().zip(means.at(k)) {
-                        worst = worst.max((found - wanted).abs() / unit);
+                for (k, row) in wavenumbers.into_iter().zip(rows) {
+                    for (computed, expected) in row.iter().zip(means.at(k)) {
+                        max_error = max_error.max((computed - expected).abs() / scale);
                     }
                 }
             }
         }
-        println!("{worst:e}");
-        assert!(worst < 1e-11, "{worst:e}");
+        println!("{max_error:e}");
+        assert!(max_error < 1e-11, "{max_error:e}");
     }
 }

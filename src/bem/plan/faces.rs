@@ -1,4 +1,4 @@
-//! Faces: convex polygons that form a mat, and the mats of their cells.
+//! Faces, convex polygons that form a mat, and the mats of cells.
 
 use std::collections::HashMap;
 
@@ -6,17 +6,17 @@ use crate::error::{Error, PlanError, Result};
 use crate::geometry::span;
 use crate::linalg::Partition;
 
-/// Area that two faces may share, relative to the smaller one: rounding of coordinates in files.
+/// Largest area that two faces may share, relative to the smaller face: rounding of coordinates in files.
 const OVERLAP_TOLERANCE: f64 = 1e-6;
-/// Distance that counts as touching, relative to the size of a face.
+/// Distance below which points touch, relative to the longest edge of a face: rounding of coordinates.
 const TOUCH_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// A convex polygon, counter-clockwise seen from above.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MatFace {
     corners: Vec<[f64; 2]>,
-    /// Distance that counts as touching, m.
-    near: f64,
+    /// Distance below which points touch, m.
+    touch_distance: f64,
 }
 
 /// Twice the area of the triangle a, b, p; positive if p is to the left of the line from a to b.
@@ -25,7 +25,7 @@ pub(crate) fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
 }
 
 impl MatFace {
-    /// Face number `face` from its corners, in either order.
+    /// Face from its corners in either order; `face` is its number for errors.
     ///
     /// # Errors
     /// [`Error::Item`] of [`Error::Scene`].
@@ -35,7 +35,7 @@ impl MatFace {
         })
     }
 
-    /// The face, or the fault of its corners.
+    /// Returns the face, or the error text of its corners.
     fn checked(corners: &[[f64; 2]]) -> std::result::Result<Self, &'static str> {
         if corners.len() < 3 {
             return Err("it has less than three corners");
@@ -48,13 +48,14 @@ impl MatFace {
             corners.reverse();
         }
         let area = area(&corners);
-        let mut face = Self { corners, near: 0.0 };
-        let size = face.edges().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).fold(0.0, f64::max);
-        face.near = TOUCH_TOLERANCE_FACTOR * size;
-        if area.is_nan() || area <= face.near * size {
+        let mut face = Self { corners, touch_distance: 0.0 };
+        let longest_edge =
+            face.edges().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).fold(0.0, f64::max);
+        face.touch_distance = TOUCH_TOLERANCE_FACTOR * longest_edge;
+        if area.is_nan() || area <= face.touch_distance * longest_edge {
             return Err("it has no area");
         }
-        // All corners lie to the left of all edges only if the line turns left everywhere, and once in all.
+        // All corners lie to the left of all edges only if the line turns left at each corner, and only once in total.
         if face.corners.iter().all(|p| face.contains(*p)) {
             Ok(face)
         } else {
@@ -62,6 +63,7 @@ impl MatFace {
         }
     }
 
+    /// Ends of each edge, counter-clockwise.
     fn edges(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
         let next = self.corners.iter().cycle().skip(1);
         self.corners.iter().zip(next).map(|(a, b)| [*a, *b])
@@ -72,9 +74,9 @@ impl MatFace {
         &self.corners
     }
 
-    /// Distance that counts as touching, m.
-    pub(crate) fn near(&self) -> f64 {
-        self.near
+    /// Distance below which points touch, m.
+    pub(crate) fn touch_distance(&self) -> f64 {
+        self.touch_distance
     }
 
     /// Area, m².
@@ -86,7 +88,7 @@ impl MatFace {
     fn contains(&self, p: [f64; 2]) -> bool {
         self.edges().all(|[a, b]| {
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            side([a, b], p) >= -self.near * length
+            side([a, b], p) >= -self.touch_distance * length
         })
     }
 
@@ -114,17 +116,17 @@ impl MatFace {
     fn neighbours(faces: &[Self]) -> Vec<[usize; 2]> {
         let mut bounds: Vec<[[f64; 2]; 2]> = Vec::with_capacity(faces.len());
         for face in faces {
-            let widened = Self::bounds(std::slice::from_ref(face))
-                .map(|[low, high]| [low - face.near, high + face.near]);
-            bounds.push(widened);
+            let widened_bounds = Self::bounds(std::slice::from_ref(face))
+                .map(|[min, max]| [min - face.touch_distance, max + face.touch_distance]);
+            bounds.push(widened_bounds);
         }
         let mut order: Vec<usize> = (0..faces.len()).collect();
         order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
         let mut pairs = vec![];
-        for (place, &one) in order.iter().enumerate() {
+        for (position, &one) in order.iter().enumerate() {
             let x_range = bounds[one][0];
             let y_range = bounds[one][1];
-            for &other in &order[place + 1..] {
+            for &other in &order[position + 1..] {
                 if bounds[other][0][0] > x_range[1] {
                     break;
                 }
@@ -141,20 +143,21 @@ impl MatFace {
     fn common_area(&self, other: &Self) -> f64 {
         let mut corners = self.corners.clone();
         for edge in other.edges() {
-            let mut inner = Vec::with_capacity(corners.len() + 1);
+            // Clips the polygon at the line of the edge (Sutherland and Hodgman).
+            let mut clipped_corners = Vec::with_capacity(corners.len() + 1);
             for (k, &q) in corners.iter().enumerate() {
                 let p = corners[(k + corners.len() - 1) % corners.len()];
-                let before = side(edge, p);
-                let after = side(edge, q);
-                if (before < 0.0) != (after < 0.0) {
-                    let ratio = before / (before - after);
-                    inner.push([0, 1].map(|k| p[k] + ratio * (q[k] - p[k])));
+                let p_side = side(edge, p);
+                let q_side = side(edge, q);
+                if (p_side < 0.0) != (q_side < 0.0) {
+                    let fraction = p_side / (p_side - q_side);
+                    clipped_corners.push([0, 1].map(|k| p[k] + fraction * (q[k] - p[k])));
                 }
-                if after >= 0.0 {
-                    inner.push(q);
+                if q_side >= 0.0 {
+                    clipped_corners.push(q);
                 }
             }
-            corners = inner;
+            corners = clipped_corners;
         }
         area(&corners)
     }
@@ -166,21 +169,21 @@ impl MatFace {
         })
     }
 
-    /// Number of the mat of each face: faces that touch form one mat.
+    /// Index of the mat of each face: faces that touch form one mat.
     pub(crate) fn mats(faces: &[Self]) -> Vec<usize> {
-        let mut joined = Partition::new(faces.len());
+        let mut partition = Partition::new(faces.len());
         for [one, other] in Self::neighbours(faces) {
             if faces[one].touches(&faces[other]) {
-                joined.join(one, other);
+                partition.join(one, other);
             }
         }
-        let mut mats = vec![0; faces.len()];
-        for (number, mat) in joined.sets().into_iter().enumerate() {
-            for face in mat {
-                mats[face] = number;
+        let mut face_mats = vec![0; faces.len()];
+        for (mat, mat_faces) in partition.sets().into_iter().enumerate() {
+            for face in mat_faces {
+                face_mats[face] = mat;
             }
         }
-        mats
+        face_mats
     }
 }
 
@@ -189,22 +192,26 @@ fn area(corners: &[[f64; 2]]) -> f64 {
     0.5 * corners.windows(2).map(|pair| side([pair[0], pair[1]], corners[0])).sum::<f64>()
 }
 
-// Cells of mats.
-
 /// Error for cells of two mats side by side or corner to corner.
-pub(super) fn check_apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
-    for (place, owner) in owners.iter().enumerate() {
-        let Some(owner) = owner else { continue };
-        let has_left = place % columns > 0;
-        let has_right = place % columns + 1 < columns;
+///
+/// `cell_mats`: mat of each cell of the lattice, row by row of `columns`.
+pub(super) fn check_apart(
+    cell_mats: &[Option<usize>],
+    columns: usize,
+    pitch: [f64; 2],
+) -> Result<()> {
+    for (cell, mat) in cell_mats.iter().enumerate() {
+        let Some(mat) = mat else { continue };
+        let has_left = cell % columns > 0;
+        let has_right = cell % columns + 1 < columns;
         // Neighbours on the right, and on the left, in the middle and on the right of the next row.
         let neighbours =
             [(has_right, 1), (has_left, columns - 1), (true, columns), (has_right, columns + 1)];
         for (_, step) in neighbours.into_iter().filter(|(exists, _)| *exists) {
-            if let Some(Some(other)) = owners.get(place + step)
-                && other != owner
+            if let Some(Some(other_mat)) = cell_mats.get(cell + step)
+                && other_mat != mat
             {
-                return Err(PlanError::TooClose { mats: [*owner, *other], pitch }.into());
+                return Err(PlanError::TooClose { mats: [*mat, *other_mat], pitch }.into());
             }
         }
     }
@@ -213,16 +220,17 @@ pub(super) fn check_apart(owners: &[Option<usize>], columns: usize, pitch: [f64;
 
 /// Sorts cells by mats.
 ///
-/// Mats come in the order of their first cells, and the cells of each in the order of the list. Cells that touch, also
+/// Mats are in the order of their first cells, and the cells of each mat in the order of `cells`. Cells that touch, also
 /// at corners, belong to one mat.
-pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
-    let places: HashMap<_, _> = cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
+pub(super) fn sort_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let cell_indices: HashMap<_, _> =
+        cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
     let mut mats = Partition::new(cells.len());
     for (cell, [i, j]) in cells.iter().enumerate() {
         for step in 0..9 {
-            let around = [(i + step % 3).checked_sub(1), (j + step / 3).checked_sub(1)];
-            let [Some(column), Some(row)] = around else { continue };
-            if let Some(&other) = places.get(&[column, row]) {
+            let neighbour = [(i + step % 3).checked_sub(1), (j + step / 3).checked_sub(1)];
+            let [Some(column), Some(row)] = neighbour else { continue };
+            if let Some(&other) = cell_indices.get(&[column, row]) {
                 mats.join(cell, other);
             }
         }
@@ -237,19 +245,19 @@ mod tests {
     /// Two mats beside each other, and a third whose rows end between theirs.
     #[test]
     fn cells_of_a_mat_follow_one_another() {
-        let sorted = mat_by_mat(&cells("##.###.#.....##.", 4));
+        let sorted = sort_by_mat(&cells("##.###.#.....##.", 4));
         let expected = [[0, 0], [1, 0], [0, 1], [1, 1], [3, 0], [3, 1], [1, 3], [2, 3]];
         assert_eq!(sorted, expected);
         // A ring and cells that share corners are one mat.
         for text in ["####.##.", "#..##..#"] {
             let cells = cells(text, 3);
-            assert_eq!(mat_by_mat(&cells), cells, "{text}");
+            assert_eq!(sort_by_mat(&cells), cells, "{text}");
         }
     }
 
     /// Cells marked by `#` in rows of `columns` characters.
     fn cells(text: &str, columns: usize) -> Vec<[usize; 2]> {
         let marked = text.bytes().enumerate().filter(|(_, mark)| *mark == b'#');
-        marked.map(|(place, _)| [place % columns, place / columns]).collect()
+        marked.map(|(index, _)| [index % columns, index / columns]).collect()
     }
 }

@@ -1,87 +1,96 @@
-//! Form factors of a lattice on panels of wavenumbers, and their integrals beyond the last.
+//! Form factors of a lattice on panels of wavenumbers, and their integrals beyond the last panel.
 //!
-//! Panels are so narrow that forms turn by at most 16 radians, which 16 Gauss points resolve. They are tabulated
-//! up to the largest K in use. The first panels are sums over directions, and all others are waves from corners, so
-//! that a table takes a time proportional to K*. Beyond K only the top layer contributes to the surface compliance, a
-//! power series in q₂/k². All integrals there follow from
+//! The phase of the forms changes by at most 16 radians over a panel, which 16 Gauss points resolve. The table reaches up
+//! to the largest K in use, where K is the end of the numerical integrals at a Laplace variable. On the first panels forms
+//! are sums over directions, on all others [waves from corners](super::corner_waves). The time for a table is then
+//! proportional to its end K*. Beyond K only the top layer contributes to the surface compliance, a power series in q₂/k².
+//! All integrals beyond K follow from
 //!
 //! `T_j`(K) = ∫_K^∞ k^(−2j) g dk.
 //!
-//! These are sums over the same points with a factor that fades out towards K*. The rest is known: ∫₀^∞ g dk has a
-//! closed form, and beyond K* g is replaced by its mean, a power k⁻³.
+//! These integrals are sums over the same Gauss points with a factor that decreases to zero towards K*. The removed part
+//! follows from two facts: ∫₀^∞ g dk has a closed form, and beyond K* the mean of g is a power k⁻³.
 
 use std::sync::OnceLock;
 
 use super::corner_waves::{CornerWaves, WaveBuffers};
 use super::forms::{AngularMeans, FORM_COUNT, integrals};
-use crate::bem::layered::{LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, threads};
+use crate::bem::layered::{
+    LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, thread_count,
+};
 use crate::error::{GroundError, ProgressReporter, Result, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 
-/// Terms of the series beyond K, including the static one.
+/// Number of terms of the series beyond K, with the static term.
 ///
-/// At the smallest K the next is 2e-11 of the first or less for Poisson's ratios from 0 on, 1e-8 for -0.9.
+/// At the smallest K the first neglected term is at most 2e-11 of the static term for Poisson's ratios from 0 on, and 1e-8
+/// for -0.9.
 pub(super) const TAIL_TERMS: usize = 16;
-/// Smallest K relative to |√q₂|.
-const MIN_RATIO_TO_ROOT: f64 = 2.5;
-/// Angle by which forms turn over a panel.
+/// Smallest K relative to |√q₂|, for a fast decay of the series.
+const MIN_K_PER_ROOT: f64 = 2.5;
+/// Largest change of a form's phase over a panel, radians: 16 Gauss points resolve it to rounding.
 const PANEL_PHASE: f64 = 16.0;
-/// Smallest K × shorter side of a cell: static forms at larger wavenumbers are small enough.
-const MIN_RESOLVED_SIDE: f64 = 8.0;
-/// K* × shorter side of a cell if |√q₂| is 2/side.
+/// Smallest K × shorter side of a cell: at larger wavenumbers static forms are small.
+const MIN_K_SIDE: f64 = 8.0;
+/// K* × shorter side of a cell if |√q₂| is 2/side: the error beyond K* is then small.
 const TABLE_END_SIDE: f64 = 64.0;
-/// Smallest ratio of K* to |√q₂|.
-const MIN_END_RATIO: f64 = 4.0;
-/// Number of panels whose forms are computed before they are summed.
+/// Smallest ratio of K* to |√q₂|, for a fast decay of the series beyond K*.
+const MIN_END_PER_ROOT: f64 = 4.0;
+/// Smallest ratio of K* to the largest K, so that sums beyond K have panels over which to decrease to zero.
+const MIN_END_PER_K: f64 = 1.2;
+/// Number of panels whose forms are computed in parallel before their summation.
 const PANEL_BATCH_SIZE: usize = 32;
-/// Number of panels on which forms are sums over directions; beyond, they are waves from corners.
+/// Smallest number of panels on which forms are sums over directions: they are faster there than waves from corners.
 const DIRECT_PANEL_COUNT: usize = 64;
-/// Largest number of operations for a table and for the compliances that use it: a minute or two.
+/// Largest number of operations for a table and its compliances: a minute or two of computation.
 const MAX_OPERATIONS: f64 = 3e11;
-/// Operations for waves from a corner at one point, with the compliances of some 500 Laplace variables there.
+/// Operations for a corner's waves at one point, and for the compliances of some 500 Laplace variables there.
 const OPERATIONS_PER_WAVE: f64 = 2e3;
-/// Number of cells that cost as much as the surface compliance.
+/// Number of cells whose forms need as much time as the surface compliance.
 const CELLS_PER_SURFACE_COMPLIANCE: f64 = 80.0;
-/// Number of points for Legendre coefficients of the forms.
+/// Number of Gauss points for Legendre coefficients of the forms: eight more than coefficients, for their precision.
 const LEGENDRE_POINT_COUNT: usize = LEGENDRE_DEGREES + 8;
 
 /// Rows of forms: form by form, row by row, all classes.
 #[derive(Debug)]
 pub(super) struct FormRows {
     forms: [Vec<f64>; FORM_COUNT],
-    classes: usize,
+    class_count: usize,
 }
 
 impl FormRows {
-    fn new(count: usize, classes: usize) -> Self {
-        Self { forms: [(); FORM_COUNT].map(|()| vec![0.0; count * classes]), classes }
+    fn new(row_count: usize, class_count: usize) -> Self {
+        let forms = [(); FORM_COUNT].map(|()| vec![0.0; row_count * class_count]);
+        Self { forms, class_count }
     }
 
     /// Overwrites a row with values, form by form, all classes.
     fn set(&mut self, row: usize, values: &[f64]) {
-        let range = row * self.classes..(row + 1) * self.classes;
-        for (form, values) in self.forms.iter_mut().zip(values.chunks_exact(self.classes)) {
-            form[range.clone()].copy_from_slice(values);
+        let range = row * self.class_count..(row + 1) * self.class_count;
+        for (form, form_values) in self.forms.iter_mut().zip(values.chunks_exact(self.class_count))
+        {
+            form[range.clone()].copy_from_slice(form_values);
         }
     }
 
     /// Adds factor × values to a row.
-    fn add(&mut self, row: usize, factor: f64, values: &[f64]) {
-        let range = row * self.classes..(row + 1) * self.classes;
-        for (form, values) in self.forms.iter_mut().zip(values.chunks_exact(self.classes)) {
-            for (sum, value) in form[range.clone()].iter_mut().zip(values) {
+    fn add_scaled(&mut self, row: usize, factor: f64, values: &[f64]) {
+        let range = row * self.class_count..(row + 1) * self.class_count;
+        for (form, form_values) in self.forms.iter_mut().zip(values.chunks_exact(self.class_count))
+        {
+            for (sum, value) in form[range.clone()].iter_mut().zip(form_values) {
                 *sum += factor * value;
             }
         }
     }
 
-    /// Adds Σ weight × row of one form to sums, for the first rows: `weights` has a column for each sum.
+    /// Adds Σ weight × row of one form to sums; `weights` has a row for each of the first rows, a column for each sum.
     pub(super) fn combine(&self, form: usize, weights: &[f64], sums: &mut [f64]) {
-        let rows = weights.len() * self.classes / sums.len();
-        let rows = &self.forms[form][..rows * self.classes];
-        add_combined_rows(weights, rows, self.classes, 1.0, sums);
+        let row_count = weights.len() * self.class_count / sums.len();
+        let rows = &self.forms[form][..row_count * self.class_count];
+        add_combined_rows(weights, rows, self.class_count, 1.0, sums);
     }
 }
 
@@ -90,17 +99,17 @@ impl FormRows {
 struct TabulatedForms {
     /// Forms at the Gauss points, panel by panel.
     values: FormRows,
-    /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
+    /// For each number of panels up to K: rows j of ∫ (k/κ)^(−2j) g dk, from K on for j > 0 and from zero on for j = 0.
     tails: Vec<(usize, FormRows)>,
 }
 
-/// TabulatedForms forms of a lattice.
+/// Table of the forms of a lattice, for integrals over the wavenumber.
 #[derive(Debug)]
 pub(super) struct FormTable {
     lattice: Lattice,
-    pub(super) classes: usize,
+    pub(super) class_count: usize,
     /// Width of a panel, 1/m.
-    pub(super) width: f64,
+    pub(super) panel_width: f64,
     pub(super) rule: Rule,
     /// Legendre polynomials at the Gauss points.
     pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
@@ -108,16 +117,16 @@ pub(super) struct FormTable {
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<FormRows>>,
     /// Smallest K at which the bottom of the top layer does not affect the surface, 1/m.
-    deep: f64,
+    top_layer_wavenumber: f64,
     /// Number of panels up to K*.
     pub(super) panel_count: usize,
     /// Number of the first panels, on which forms are sums over directions.
-    pub(super) direct_panels: usize,
+    pub(super) direct_panel_count: usize,
     /// Forms on the other panels.
     waves: CornerWaves,
 }
 
-/// Forms at points of one panel after the other.
+/// Buffers of a thread for forms at points of a panel.
 struct PanelForms<'a> {
     table: &'a FormTable,
     means: AngularMeans,
@@ -136,7 +145,7 @@ impl<'a> PanelForms<'a> {
         let Self { table, means, wavenumbers, waves } = self;
         wavenumbers.clear();
         wavenumbers.extend(nodes.iter().map(|x| table.wavenumber(panel, *x)));
-        if panel < table.direct_panels {
+        if panel < table.direct_panel_count {
             waves.values.clear();
             for k in wavenumbers {
                 waves.values.extend_from_slice(means.at(*k));
@@ -149,74 +158,86 @@ impl<'a> PanelForms<'a> {
 }
 
 impl FormTable {
-    /// Empty table for `lattice`, for Laplace variables with |√q₂| up to `root` and K from `deep` on (1/m).
+    /// Empty table for `lattice` and Laplace variables with |√q₂| up to `max_root` (1/m).
+    ///
+    /// `top_layer_wavenumber`: smallest K (1/m) at which the bottom of the top layer does not affect the surface.
     ///
     /// # Errors
     /// [`GroundError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
-    pub(super) fn new(lattice: &Lattice, root: f64, deep: f64) -> Result<Self> {
-        let classes = lattice.classes().len();
-        let width = PANEL_PHASE / lattice.diagonal();
+    pub(super) fn new(lattice: &Lattice, max_root: f64, top_layer_wavenumber: f64) -> Result<Self> {
+        let class_count = lattice.classes().len();
+        let panel_width = PANEL_PHASE / lattice.diagonal();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
-        let panels_before_waves = (CornerWaves::min_wavenumber(lattice) / width).ceil() as usize;
-        let direct_panels = DIRECT_PANEL_COUNT.max(panels_before_waves);
+        let panels_before_waves =
+            (CornerWaves::min_wavenumber(lattice) / panel_width).ceil() as usize;
+        let direct_panel_count = DIRECT_PANEL_COUNT.max(panels_before_waves);
         let mut table = Self {
             lattice: lattice.clone(),
-            classes,
-            width,
+            class_count,
+            panel_width,
             rule: Rule::new(PANEL_POINTS),
             polynomials: vec![],
             tabulated: OnceLock::new(),
             legendre: vec![],
-            deep,
+            top_layer_wavenumber,
             panel_count: 0,
-            direct_panels,
+            direct_panel_count,
             waves: CornerWaves::new(lattice, 0.0, 0.0),
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let side = lattice.finest();
-        let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
-        let max_k = (MIN_RESOLVED_SIDE / side).max(deep).max(MIN_RATIO_TO_ROOT * root);
-        // Beyond K* an error of about q₂ K*⁻⁵ is left. Compliances fall like 1/|√q₂| from |√q₂| = 2/side on.
-        let size = 0.5 * root * side;
-        let end = TABLE_END_SIDE / side * size.powf(if size < 1.0 { 0.4 } else { 0.6 });
-        let end = end.max(MIN_END_RATIO * root).max(1.2 * max_k);
-        let span = lattice.diagonal();
-        let direct_end = direct_panels as f64 * width;
-        let direct_operations = cells * (direct_end.min(end) * span).powi(2);
-        let max_end = if direct_operations < MAX_OPERATIONS {
-            let per_wavenumber =
-                OPERATIONS_PER_WAVE * (cells + CELLS_PER_SURFACE_COMPLIANCE) * span;
-            direct_end + (MAX_OPERATIONS - direct_operations) / per_wavenumber
-        } else {
-            (MAX_OPERATIONS / cells).sqrt() / span
-        };
-        if end.is_nan() || end > max_end {
-            return Err(GroundError::TooFine { span, wavenumber: end, most: max_end }.into());
-        }
-        // Values at all points, and rows of tails, which are fewer.
-        let bytes = 8.0 * (FORM_COUNT * PANEL_POINTS * classes) as f64 * 2.0 * max_k / width;
-        memory::check("cells of a mat", cells, bytes)?;
-        let max_panels_to_k = table.panels(root);
+        let cell_count = (lattice.counts[0] * lattice.counts[1]) as f64;
+        let max_k = (MIN_K_SIDE / side).max(top_layer_wavenumber).max(MIN_K_PER_ROOT * max_root);
+        // The error beyond K* is about q₂ K*⁻⁵. Compliances decrease like 1/|√q₂| from |√q₂| = 2/side on.
+        let relative_root = 0.5 * max_root * side;
+        let exponent = if relative_root < 1.0 { 0.4 } else { 0.6 };
+        let accurate_end = TABLE_END_SIDE / side * relative_root.powf(exponent);
+        let table_end = accurate_end.max(MIN_END_PER_ROOT * max_root).max(MIN_END_PER_K * max_k);
+        let direct_end = direct_panel_count as f64 * panel_width;
+        table.check_operations(table_end, direct_end, cell_count)?;
+        // The table has values at all points, and rows of tails, which are fewer.
+        let bytes =
+            8.0 * (FORM_COUNT * PANEL_POINTS * class_count) as f64 * 2.0 * max_k / panel_width;
+        memory::check("cells of a mat", cell_count, bytes)?;
+        let max_panels_to_k = table.panels_to_k(max_root);
         table.legendre = (0..max_panels_to_k).map(|_| OnceLock::new()).collect();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
-        let panel_count = (end / width).ceil() as usize;
+        let panel_count = (table_end / panel_width).ceil() as usize;
         table.panel_count = panel_count.max(max_panels_to_k + 1);
-        table.waves = CornerWaves::new(lattice, direct_end, table.panel_count as f64 * width);
+        let waves_end = table.panel_count as f64 * panel_width;
+        table.waves = CornerWaves::new(lattice, direct_end, waves_end);
         Ok(table)
     }
 
+    /// Error for a table up to `table_end` (1/m) that would need too many operations.
+    fn check_operations(&self, table_end: f64, direct_end: f64, cell_count: f64) -> Result<()> {
+        let span = self.span();
+        let direct_operations = cell_count * (direct_end.min(table_end) * span).powi(2);
+        let max_end = if direct_operations < MAX_OPERATIONS {
+            let operations_per_wavenumber =
+                OPERATIONS_PER_WAVE * (cell_count + CELLS_PER_SURFACE_COMPLIANCE) * span;
+            direct_end + (MAX_OPERATIONS - direct_operations) / operations_per_wavenumber
+        } else {
+            (MAX_OPERATIONS / cell_count).sqrt() / span
+        };
+        if table_end.is_nan() || table_end > max_end {
+            return Err(GroundError::TooFine { span, wavenumber: table_end, most: max_end }.into());
+        }
+        Ok(())
+    }
+
     /// Number of panels up to K for a |√q₂|.
-    pub(super) fn panels(&self, root: f64) -> usize {
-        let resolved = MIN_RESOLVED_SIDE / self.lattice.finest();
-        let min_k = resolved.max(self.deep).max(MIN_RATIO_TO_ROOT * root);
+    pub(super) fn panels_to_k(&self, root: f64) -> usize {
+        let resolved_wavenumber = MIN_K_SIDE / self.lattice.finest();
+        let min_k = resolved_wavenumber.max(self.top_layer_wavenumber).max(MIN_K_PER_ROOT * root);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        let count = (min_k / self.width).ceil() as usize;
+        let count = (min_k / self.panel_width).ceil() as usize;
         on_grid(count)
     }
 
     /// Wavenumber at a `node` in −1 … 1 of a panel, 1/m.
     fn wavenumber(&self, panel: usize, node: f64) -> f64 {
-        self.width * (panel as f64 + 0.5 * (1.0 + node))
+        self.panel_width * (panel as f64 + 0.5 * (1.0 + node))
     }
 
     /// Diagonal of all cells, m.
@@ -229,12 +250,12 @@ impl FormTable {
         self.legendre.len()
     }
 
-    /// κ, 1/m.
-    pub(super) fn unit(&self) -> f64 {
+    /// Wavenumber κ that scales the tail integrals, 1/m.
+    pub(super) fn wavenumber_scale(&self) -> f64 {
         1.0 / self.lattice.finest()
     }
 
-    /// Computes forms at all points, from the last panel to the first, and the sums beyond each K.
+    /// Computes forms at all points, from the last panel to the first, and the integrals beyond each K.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
@@ -242,105 +263,113 @@ impl FormTable {
         if self.tabulated.get().is_some() {
             return Ok(());
         }
-        let classes = self.classes;
-        let unit = self.unit();
+        let class_count = self.class_count;
+        let scale = self.wavenumber_scale();
         // Numbers of panels up to K of all Laplace variables.
-        let panels_to_k = self.panels(0.0)..=self.max_panels_to_k();
+        let panels_to_k = self.panels_to_k(0.0)..=self.max_panels_to_k();
         let max_panels_to_k = *panels_to_k.end();
-        let values = FormRows::new(max_panels_to_k * PANEL_POINTS, classes);
+        let values = FormRows::new(max_panels_to_k * PANEL_POINTS, class_count);
         let mut tabulated = TabulatedForms { values, tails: vec![] };
-        let mut sums = FormRows::new(TAIL_TERMS, classes);
-        // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
-        let fade_start = self.width * max_panels_to_k.max(self.panel_count / 2) as f64;
-        let fade_end = self.width * self.panel_count as f64;
-        let mut power = 1.0;
-        let mut faded = [0.0; TAIL_TERMS];
-        for (term, faded) in faded.iter_mut().enumerate() {
-            power *= (unit / fade_end).powi(2);
-            *faded = 0.5 * power / (term as f64 + 1.0);
-        }
-        self.for_each_panel_backwards(progress, |panel, values| {
-            let rows = values.chunks_exact(FORM_COUNT * classes);
-            for (i, (node, values)) in self.rule.nodes.iter().zip(rows).enumerate() {
+        let mut sums = FormRows::new(TAIL_TERMS, class_count);
+        // The factor of the sums decreases to zero towards K*: a sharp end would leave oscillations of the forms.
+        let fade_start = self.panel_width * max_panels_to_k.max(self.panel_count / 2) as f64;
+        let fade_end = self.panel_width * self.panel_count as f64;
+        let mut removed_integrals = integrals_beyond(fade_end, scale);
+        self.for_each_panel_backwards(progress, |panel, panel_values| {
+            let rows = panel_values.chunks_exact(FORM_COUNT * class_count);
+            for (i, (node, point_values)) in self.rule.nodes.iter().zip(rows).enumerate() {
                 let k = self.wavenumber(panel, *node);
                 if panel < max_panels_to_k {
-                    tabulated.values.set(panel * PANEL_POINTS + i, values);
+                    tabulated.values.set(panel * PANEL_POINTS + i, point_values);
                 }
-                let fading = smooth_step((k - fade_start) / (fade_end - fade_start));
-                let mut weight = 0.5 * self.width * self.rule.weights[i];
-                let terms = if panel >= *panels_to_k.start() { TAIL_TERMS } else { 1 };
-                for term in 0..terms {
-                    sums.add(term, weight * (1.0 - fading), values);
-                    faded[term] += weight * fading * (unit / k).powi(2) / k;
-                    weight *= (unit / k).powi(2);
+                let removed_fraction = smooth_step((k - fade_start) / (fade_end - fade_start));
+                let mut weight = 0.5 * self.panel_width * self.rule.weights[i];
+                let term_count = if panel >= *panels_to_k.start() { TAIL_TERMS } else { 1 };
+                for term in 0..term_count {
+                    sums.add_scaled(term, weight * (1.0 - removed_fraction), point_values);
+                    removed_integrals[term] += weight * removed_fraction * (scale / k).powi(2) / k;
+                    weight *= (scale / k).powi(2);
                 }
             }
             if panels_to_k.contains(&panel) && on_grid(panel) == panel {
                 let forms = sums.forms.clone();
-                tabulated.tails.push((panel, FormRows { forms, classes }));
+                tabulated.tails.push((panel, FormRows { forms, class_count }));
             }
         })?;
-        // The integral beyond K* is the known total minus the sum.
-        for (class, offset) in self.lattice.classes().iter().enumerate() {
-            let totals = integrals(self.lattice.pitch, *offset);
-            for (form, total) in totals.into_iter().enumerate() {
-                let difference = total - sums.forms[form][class];
-                for (_, rows) in &mut tabulated.tails {
-                    rows.forms[form][class] = total;
-                    for term in 1..TAIL_TERMS {
-                        let beyond = difference * faded[term] / faded[0];
-                        rows.forms[form][term * classes + class] += beyond;
-                    }
-                }
-            }
-        }
-        // Another thread may have been first, with the same result.
+        self.add_removed_parts(&sums, &removed_integrals, &mut tabulated.tails);
+        // If another thread has stored the table first, both tables are equal.
         let _ = self.tabulated.set(tabulated);
         Ok(())
     }
 
-    /// Calls `take` with each panel up to K*, from the last to the first, and its forms at all points.
+    /// Adds the removed parts to the tails; `sums` over all panels leave them out.
+    ///
+    /// The removed part of a form is its total, in closed form, minus its sum. Forms are like k⁻³ there, so that all terms
+    /// are in proportion to `removed_integrals`, the integrals of k⁻³.
+    fn add_removed_parts(
+        &self,
+        sums: &FormRows,
+        removed_integrals: &[f64; TAIL_TERMS],
+        tails: &mut [(usize, FormRows)],
+    ) {
+        for (class, offset) in self.lattice.classes().iter().enumerate() {
+            let totals = integrals(self.lattice.pitch, *offset);
+            for (form, total) in totals.into_iter().enumerate() {
+                let difference = total - sums.forms[form][class];
+                for (_, rows) in &mut *tails {
+                    rows.forms[form][class] = total;
+                    for term in 1..TAIL_TERMS {
+                        let removed_part =
+                            difference * removed_integrals[term] / removed_integrals[0];
+                        rows.forms[form][term * self.class_count + class] += removed_part;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Calls `use_panel` with each panel up to K*, from the last to the first, and its forms at all points.
     fn for_each_panel_backwards(
         &self,
         progress: &mut ProgressReporter,
-        mut take: impl FnMut(usize, &[f64]),
+        mut use_panel: impl FnMut(usize, &[f64]),
     ) -> Result<()> {
         let panels: Vec<_> = (0..self.panel_count).rev().collect();
-        let mut batch = vec![vec![]; PANEL_BATCH_SIZE];
-        for panels in panels.chunks(PANEL_BATCH_SIZE) {
+        let mut batch_values = vec![vec![]; PANEL_BATCH_SIZE];
+        for batch in panels.chunks(PANEL_BATCH_SIZE) {
             let fill = |forms: &mut Option<_>, (panel, values): (&usize, &mut Vec<f64>)| {
-                let forms = forms.get_or_insert_with(|| PanelForms::new(self));
+                let panel_forms = forms.get_or_insert_with(|| PanelForms::new(self));
                 values.clear();
-                values.extend_from_slice(forms.forms(*panel, &self.rule.nodes));
+                values.extend_from_slice(panel_forms.forms(*panel, &self.rule.nodes));
                 Ok(())
             };
-            on_threads(threads(), panels.iter().zip(&mut batch), fill, |_| progress.reach(0))?;
-            for (panel, values) in panels.iter().zip(&batch) {
-                take(*panel, values);
+            let jobs = batch.iter().zip(&mut batch_values);
+            on_threads(thread_count(), jobs, fill, |_| progress.reach(0))?;
+            for (panel, values) in batch.iter().zip(&batch_values) {
+                use_panel(*panel, values);
             }
         }
         Ok(())
     }
 
-    /// Forms at all points, and integrals beyond the last of `panels`; `None` before [`FormTable::tabulate`].
-    pub(super) fn tabulated(&self, panels: usize) -> Option<[&FormRows; 2]> {
+    /// Forms at all points, and integrals beyond `panel_count` panels; `None` before [`FormTable::tabulate`].
+    pub(super) fn tabulated(&self, panel_count: usize) -> Option<[&FormRows; 2]> {
         let TabulatedForms { values, tails } = self.tabulated.get()?;
-        let (_, tail) = tails.iter().find(|(count, _)| *count == panels)?;
+        let (_, tail) = tails.iter().find(|(count, _)| *count == panel_count)?;
         Some([values, tail])
     }
 
-    /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.
+    /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of the moments ∫ C Pₙ dk.
     pub(super) fn legendre(&self, panel: usize) -> &FormRows {
         self.legendre[panel].get_or_init(|| {
             let mut panel_forms = PanelForms::new(self);
             let rule = Rule::new(LEGENDRE_POINT_COUNT);
-            let mut rows = FormRows::new(LEGENDRE_DEGREES, self.classes);
+            let mut rows = FormRows::new(LEGENDRE_DEGREES, self.class_count);
             let forms = panel_forms.forms(panel, &rule.nodes);
-            for ((x, weight), values) in
-                rule.points().zip(forms.chunks_exact(FORM_COUNT * self.classes))
-            {
+            let point_forms = forms.chunks_exact(FORM_COUNT * self.class_count);
+            for ((x, weight), values) in rule.points().zip(point_forms) {
                 for (degree, polynomial) in legendre(x).into_iter().enumerate() {
-                    rows.add(degree, (degree as f64 + 0.5) * weight * polynomial, values);
+                    rows.add_scaled(degree, (degree as f64 + 0.5) * weight * polynomial, values);
                 }
             }
             rows
@@ -348,8 +377,19 @@ impl FormTable {
     }
 }
 
+/// Integrals ∫ (k/κ)^(−2j) κ² k⁻³ dk from `start` on, for `scale` κ.
+fn integrals_beyond(start: f64, scale: f64) -> [f64; TAIL_TERMS] {
+    let mut power = 1.0;
+    let mut integrals = [0.0; TAIL_TERMS];
+    for (term, integral) in integrals.iter_mut().enumerate() {
+        power *= (scale / start).powi(2);
+        *integral = 0.5 * power / (term as f64 + 1.0);
+    }
+    integrals
+}
+
 /// Transition from 0 at x ≤ 0 to 1 at x ≥ 1, three times differentiable.
 fn smooth_step(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x.powi(4) * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)))
+    let t = x.clamp(0.0, 1.0);
+    t.powi(4) * (35.0 + t * (-84.0 + t * (70.0 - 20.0 * t)))
 }

@@ -1,13 +1,13 @@
 //! Dynamic stiffness of rigid mats in plan.
 //!
-//! Without damping, poles lie on the path of the integrals at s = iω. The stiffness is still analytic there, so it
-//! is evaluated at iω + η, 2η, … 8η and extrapolated.
+//! Without damping, poles lie on the path of the integrals at s = iω. The stiffness is still analytic at this s. It is
+//! therefore computed at iω + η, iω + 2η, … iω + 8η and extrapolated.
 
 use super::cells::Plan;
 use super::integrals::{CellIntegrals, CellWorkspace};
 use super::sectors::{RIGID_MOTION_COUNT, Sectors};
 use crate::bem::layered::{
-    Compliances, StripContact, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+    Compliances, StripContact, extrapolated_stiffnesses, impedance_progress, laplace_variables,
 };
 use crate::error::{Observer, PlanError, Result};
 use crate::geometry::SERIES_PER_OFFSET;
@@ -27,35 +27,36 @@ pub struct PlanImpedance {
     pub frequency: f64,
     /// Forces and moments (rows) due to translations and rotations (columns), N/m, N and N m.
     ///
-    /// Along x, y, z and about these axes; symmetric. The real part is stiffness (minus the inertia of the soil
-    /// that moves along), the imaginary part damping by radiation and in the soil.
+    /// The order is along x, y, z and about these axes; the matrix is symmetric. The real part is the stiffness minus the
+    /// inertia of the soil. The imaginary part is the damping by radiation and in the soil.
     pub matrix: [[Complex; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
 }
 
 impl PlanImpedance {
-    /// Springs Re K.
+    /// Spring stiffnesses Re K, N/m, N and N m.
     pub fn stiffnesses(&self) -> [[f64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT] {
         self.matrix.map(|row| row.map(|k| k.re))
     }
 
-    /// Dashpots Im K/ω parallel to these springs, N s/m and so on; NaN at frequency zero.
+    /// Dashpot coefficients Im K/ω parallel to the springs, N s/m, N s and N m s; NaN at frequency zero.
     pub fn dashpots(&self) -> [[f64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT] {
         self.matrix.map(|row| row.map(|k| k.im / (std::f64::consts::TAU * self.frequency)))
     }
 }
 
-/// Relative tolerance of the cells' compliances; the error of the cells themselves is far larger.
+/// Relative tolerance of the cells' compliances: far below the discretisation error.
 const COMPLIANCE_TOLERANCE: f64 = 1e-9;
-/// Smallest number of cells in a wavelength.
+/// Smallest number of cells per wavelength: tractions are constant over a cell.
 const MIN_CELLS_PER_WAVELENGTH: f64 = 6.0;
 /// Number of entries of a stiffness matrix.
 const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
 
 /// Dynamic stiffness of the rigid mats of `plan` on `profile` at each of `frequencies` (Hz).
 ///
-/// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic; without damping they take
-/// eight times as long. In relaxed contact, vertical motions and rocking have no shear, and horizontal motions and
-/// torsion no pressure. Tractions are constant over the contact elements, either cells or unions of them.
+/// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic damping; without damping the
+/// computation takes eight times as long. In relaxed contact, vertical motions and rocking cause no shear tractions, and
+/// horizontal motions and torsion no pressure. Tractions are constant over the contact elements, which are cells or
+/// unions of cells.
 /// The observer counts points of the Laplace plane, eight per frequency.
 ///
 /// ```
@@ -64,17 +65,17 @@ const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
 /// use basemat::{Soil, unobserved};
 /// let soil = Soil::new(1.0, 0.25, 1.0)?;
 /// let mat = Plan::rectangle(-1.0..1.0, -1.0..1.0, 8)?;
-/// let found = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Relaxed, &mut unobserved)?;
-/// // A square punch of side 2: 4.6092 μ/(1 − ν).
-/// assert!((found[0].matrix[2][2].re * 0.75 / 4.6092 - 1.0).abs() < 2e-3);
+/// let impedances = impedances_in_plan(&soil.into(), &mat, &[0.0], StripContact::Relaxed, &mut unobserved)?;
+/// // The static stiffness of a square punch of side 2 is 4.6092 μ/(1 − ν).
+/// assert!((impedances[0].matrix[2][2].re * 0.75 / 4.6092 - 1.0).abs() < 2e-3);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
-/// for less than six cells in a shear wave of the top layer;
+/// for less than six cells per wavelength of shear waves in the top layer;
 /// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) without damping at a frequency at which guided
-/// waves begin; [`GroundError::TooFine`](crate::bem::GroundError::TooFine) for a top layer too thin relative to the mat;
+/// waves begin; [`GroundError::TooFine`](crate::bem::GroundError::TooFine) for a top layer that is too thin relative to the mat;
 /// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped) by the observer.
 pub fn impedances_in_plan(
     profile: &SoilProfile,
@@ -83,7 +84,7 @@ pub fn impedances_in_plan(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    let progress = &mut impedance_watch(frequencies, observer);
+    let progress = &mut impedance_progress(frequencies, observer);
     profile.check()?;
     let mut variables = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
@@ -100,10 +101,10 @@ pub fn impedances_in_plan(
     let sectors = Sectors::new(plan);
     let diagonal: [usize; RIGID_MOTION_COUNT] =
         std::array::from_fn(|i| (RIGID_MOTION_COUNT + 1) * i);
-    let mut work = CellWorkspace::default();
-    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
+    let mut workspace = CellWorkspace::default();
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.class_count];
     let stiffnesses = extrapolated_stiffnesses(&variables, &diagonal, progress, |s| {
-        integrals.compliance(profile, s, &mut work, &mut values)?;
+        integrals.compliance(profile, s, &mut workspace, &mut values)?;
         let matrix = sectors.stiffness(&values, coupled_components)?;
         let mut entries = [Complex::default(); MATRIX_ENTRY_COUNT];
         entries.copy_from_slice(matrix.as_flattened());
@@ -118,7 +119,7 @@ pub fn impedances_in_plan(
     Ok(impedances)
 }
 
-/// Error for cells that do not resolve the waves of a frequency.
+/// Error for cells that do not resolve the shear waves at a frequency.
 fn check_resolution(profile: &SoilProfile, plan: &Plan, frequency: f64) -> Result<()> {
     let speed = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
     let wavelength = speed / frequency;

@@ -1,7 +1,7 @@
 //! Compliances of the cells of a lattice by integrals over the wavenumber.
 //!
-//! With C the surface compliance of a profile (`C_rr` along the wavenumber, `C_tt` across it) and g the
-//! [means](super::forms) over its direction, integrals over receiver and source are
+//! C is the surface compliance of a profile, `C_rr` along the wavenumber and `C_tt` normal to it. g are the
+//! [form factors](super::forms). Integrals over receiver and source are
 //!
 //! | series | 2π × |
 //! |---|---|
@@ -10,31 +10,31 @@
 //! | `F_xy` | ∫ (`C_rr` − `C_tt`) `g_cs` k dk |
 //! | `F_zx`, `F_zy` | −∫ `C_zr` `g_c` k dk, −∫ `C_zr` `g_s` k dk (down due to shear) |
 //!
-//! The static part of the top layer's half-space is integrated in closed form. k times the rest is integrated up
-//! to K, beyond which its series is used. Panels are halved until the rest is a polynomial. The values on halves
-//! reach the cells through Legendre moments over the whole panel, so that only C is evaluated more often. For Re s
-//! > 0 no pole lies on the axis, and k = 0 needs no regularisation.
+//! The static part, the half-space of the top layer, is integrated in closed form. The dynamic part, k times the
+//! difference, is integrated up to K, and by its series beyond K. Panels are halved until the dynamic part is a
+//! polynomial on each. Values on halves enter through Legendre moments over the whole panel, so that forms need no
+//! further evaluation. For Re s > 0 no pole lies on the axis, and k = 0 needs no regularisation.
 
 use super::form_table::{FormRows, FormTable, TAIL_TERMS};
 use super::forms::FORM_COUNT;
 use crate::bem::layered::{
     Compliances, LEGENDRE_DEGREES, LayeredCompliance, PANEL_POINTS, PANEL_TOLERANCE_EXPONENT,
-    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, by_halves, deep, last_coefficients, legendre, median,
-    surface_outlook, surface_series, unresolved,
+    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, append_surface_surrogate, by_halves,
+    last_coefficients, legendre, median, surface_series, top_layer_wavenumber, unresolved,
 };
 use crate::error::{GroundError, ProgressReporter, Result};
 use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Number of kernels: zz, rr, tt and zr.
+/// Number of components of the surface compliance: zz, rr, tt and zr.
 const KERNEL_COUNT: usize = 4;
-/// C minus its static value, times k; or moments of it.
+/// Surface compliance minus its static part, times k; or moments of this difference.
 type CellKernel = [Complex; KERNEL_COUNT];
 
-/// For each form: the first series to which it contributes, and the factor of each kernel there and in the next.
+/// For each form: its first series, and the factors of the kernels in this series and in the next.
 ///
-/// Series count twice, for real and imaginary parts: zz, xx, yy, xy, zx, zy.
+/// The series zz, xx, yy, xy, zx and zy have two indices each, for real and imaginary parts.
 const KERNEL_FACTORS: [(usize, &[[f64; KERNEL_COUNT]]); FORM_COUNT] = [
     (0, &[[1.0, 0.0, 0.0, 0.0]]),
     (2, &[[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]),
@@ -48,7 +48,9 @@ const KERNEL_FACTORS: [(usize, &[[f64; KERNEL_COUNT]]); FORM_COUNT] = [
 #[derive(Debug)]
 pub(in crate::bem) struct CellIntegrals {
     pub(super) table: FormTable,
-    pub(super) finest: f64,
+    /// Shorter side of a cell, m.
+    pub(super) shorter_side: f64,
+    /// Relative to the displacement of a cell due to a traction on itself.
     pub(super) tolerance: f64,
 }
 
@@ -62,41 +64,45 @@ pub(crate) struct CellWorkspace {
 /// Buffers for the panels of one integral after the other.
 #[derive(Debug, Default)]
 struct PanelBuffers {
-    /// Kernels at all points, with their weights.
+    /// Kernels at all points, times the weights of the points.
     kernels: Vec<CellKernel>,
+    /// Kernels at the points of each panel.
     samples: Vec<[CellKernel; PANEL_POINTS]>,
+    /// Stack of [`by_halves`].
     stack: Vec<(f64, f64, u32)>,
+    /// Weights of the rows of a form.
     weights: Vec<f64>,
+    /// 2π × the integrals: series by series, real and imaginary parts, all classes.
     sums: Vec<f64>,
-    /// Number of evaluations of C so far.
-    evaluations: usize,
+    /// Number of evaluations of C.
+    evaluation_count: usize,
 }
 
-/// Kernels of the ground at one Laplace variable, without their static values.
+/// Kernels of the ground at one Laplace variable, without their static parts.
 struct DynamicKernel<'a> {
     ground: &'a mut LayeredCompliance,
-    /// k C at s = 0.
+    /// k C of the top layer's half-space at s = 0.
     static_kernel: CellKernel,
 }
 
 impl DynamicKernel<'_> {
-    /// The kernels at the wavenumber `k`.
+    /// Kernels at the wavenumber `k`.
     fn at(&mut self, k: f64) -> CellKernel {
         let SurfaceCompliance { xx, zz, xz } = self.ground.at(k);
-        let all = [zz, xx, self.ground.across(), xz];
-        std::array::from_fn(|i| all[i].scale(k) - self.static_kernel[i])
+        let compliances = [zz, xx, self.ground.transverse(), xz];
+        std::array::from_fn(|i| compliances[i].scale(k) - self.static_kernel[i])
     }
 }
 
-/// Coefficients of the kernels' series at large wavenumbers: zz, rr, tt, zr.
+/// Coefficients dⱼ of the kernels' series at large wavenumbers, for zz, rr, tt and zr.
 ///
-/// dⱼ of C = Σ dⱼ (q₂/k²)ʲ/(μk) in the half-space of the top layer.
+/// C = Σ dⱼ (q₂/k²)ʲ/(μk) in the half-space of the top layer; `a2`: (c₂/c₁)².
 fn kernel_series(a2: f64) -> [[f64; KERNEL_COUNT]; TAIL_TERMS] {
-    let in_plane = surface_series(a2);
+    let plane_series = surface_series(a2);
     let mut tt = 1.0;
     std::array::from_fn(|j| {
-        let term = [in_plane[1][j], in_plane[0][j], tt, in_plane[2][j]];
-        // (1 + x)^(−½).
+        let term = [plane_series[1][j], plane_series[0][j], tt, plane_series[2][j]];
+        // Binomial series of (1 + x)^(−½).
         tt *= -(j as f64 + 0.5) / (j as f64 + 1.0);
         term
     })
@@ -106,8 +112,8 @@ fn kernel_series(a2: f64) -> [[f64; KERNEL_COUNT]; TAIL_TERMS] {
 impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
     type Workspace = CellWorkspace;
 
-    /// Errors are 0.4 to 4.8 with 8 × 8 cells on a half-space and a damped layer, two time steps, tolerances of 1e-13
-    /// to 1e-10, and up to 32 768 lags.
+    /// Measured factors are 0.4 to 4.8: 8 × 8 cells on a half-space and a damped layer, two time steps, tolerances of
+    /// 1e-13 to 1e-10, and up to 32 768 lags.
     const LATE_ERROR_FACTOR: f64 = 5.0;
 
     fn make_ready(&self, progress: &mut ProgressReporter) -> Result<()> {
@@ -118,34 +124,35 @@ impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut CellWorkspace,
+        workspace: &mut CellWorkspace,
         values: &mut [[Complex; SERIES_PER_OFFSET]],
     ) -> Result<()> {
-        let CellWorkspace { ground, panels } = work;
+        let CellWorkspace { ground, panels } = workspace;
         ground.set(profile, s)?;
         self.integrate(ground, s, panels)?;
-        let classes = self.table.classes;
-        let unit = 0.5 * std::f64::consts::FRAC_1_PI;
-        for (class, values) in values.iter_mut().enumerate() {
-            for (series, value) in values.iter_mut().enumerate() {
-                let re = panels.sums[2 * series * classes + class];
-                let im = panels.sums[(2 * series + 1) * classes + class];
-                *value = Complex::new(unit * re, unit * im);
+        let class_count = self.table.class_count;
+        let factor = 0.5 * std::f64::consts::FRAC_1_PI;
+        for (class, class_values) in values.iter_mut().enumerate() {
+            for (series, value) in class_values.iter_mut().enumerate() {
+                let re = panels.sums[2 * series * class_count + class];
+                let im = panels.sums[(2 * series + 1) * class_count + class];
+                *value = Complex::new(factor * re, factor * im);
             }
         }
         Ok(())
     }
 
-    fn outlook(
+    fn append_surrogate(
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut CellWorkspace,
+        workspace: &mut CellWorkspace,
         values: &mut Vec<Complex>,
     ) -> Result<()> {
-        work.ground.set(profile, s)?;
-        let sizes = [self.finest, self.table.span()];
-        work.panels.evaluations += surface_outlook(profile, &mut work.ground, sizes, values);
+        workspace.ground.set(profile, s)?;
+        let lengths = [self.shorter_side, self.table.span()];
+        workspace.panels.evaluation_count +=
+            append_surface_surrogate(profile, &mut workspace.ground, lengths, values);
         Ok(())
     }
 }
@@ -180,119 +187,120 @@ impl CellIntegrals {
         tolerance: f64,
     ) -> Result<Self> {
         let mut ground = LayeredCompliance::default();
-        let mut largest_root = 0.0_f64;
+        let mut max_root = 0.0_f64;
         for s in variables {
             ground.set(profile, s)?;
-            largest_root = largest_root.max(ground.root());
+            max_root = max_root.max(ground.root());
         }
-        let table = FormTable::new(lattice, largest_root, deep(profile))?;
-        Ok(Self { table, finest: lattice.finest(), tolerance })
+        let table = FormTable::new(lattice, max_root, top_layer_wavenumber(profile))?;
+        Ok(Self { table, shorter_side: lattice.finest(), tolerance })
     }
 
-    /// Overwrites `work.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.
+    /// Overwrites `buffers.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.
     fn integrate(
         &self,
         ground: &mut LayeredCompliance,
         s: Complex,
-        work: &mut PanelBuffers,
+        buffers: &mut PanelBuffers,
     ) -> Result<()> {
         let top = ground.top();
         let series = kernel_series(top.a2);
-        let softness = top.modulus.inverse();
-        let panels = self.table.panels(ground.root());
-        let Some([values, tail]) = self.table.tabulated(panels) else {
-            let width = self.table.width;
+        let top_compliance = top.modulus.inverse();
+        let panel_count = self.table.panels_to_k(ground.root());
+        let Some([values, tail]) = self.table.tabulated(panel_count) else {
+            let width = self.table.panel_width;
             let span = self.table.span();
-            let wavenumber = panels as f64 * width;
+            let wavenumber = panel_count as f64 * width;
             let most = self.table.panel_count as f64 * width;
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
-        work.sums.clear();
-        work.sums.resize(2 * SERIES_PER_OFFSET * self.table.classes, 0.0);
-        let ratio = top.q2.scale(self.table.unit().powi(-2));
-        let mut power = softness;
-        work.kernels.clear();
+        buffers.sums.clear();
+        buffers.sums.resize(2 * SERIES_PER_OFFSET * self.table.class_count, 0.0);
+        let ratio = top.q2.scale(self.table.wavenumber_scale().powi(-2));
+        let mut power = top_compliance;
+        buffers.kernels.clear();
         for term in series {
-            work.kernels.push(term.map(|d| power.scale(d)));
+            buffers.kernels.push(term.map(|d| power.scale(d)));
             power = power * ratio;
         }
-        self.add_products(tail, work);
-        let static_kernel = series[0].map(|d| softness.scale(d));
+        self.add_products(tail, buffers);
+        let static_kernel = series[0].map(|d| top_compliance.scale(d));
         let mut dynamic = DynamicKernel { ground, static_kernel };
-        self.integrate_panels(panels, work, &mut dynamic, &mut |panel, work| {
-            self.add_products(panel.map_or(values, |panel| self.table.legendre(panel)), work);
+        self.integrate_panels(panel_count, buffers, &mut dynamic, &mut |panel, buffers| {
+            self.add_products(panel.map_or(values, |panel| self.table.legendre(panel)), buffers);
         })
         .map_err(|wavenumber| unresolved(s, wavenumber))
     }
 
-    /// Calls `take` with kernels at the points of all panels up to K, and with moments of each halved panel.
+    /// Calls `use_kernels` with kernels at the points of all panels up to K, and with moments of each halved panel.
     ///
-    /// Returns as an error the wavenumber at which halving stopped without success.
+    /// # Errors
+    /// The wavenumber at which halving stopped without success.
     fn integrate_panels(
         &self,
-        panels: usize,
-        work: &mut PanelBuffers,
+        panel_count: usize,
+        buffers: &mut PanelBuffers,
         dynamic: &mut DynamicKernel,
-        take: &mut dyn FnMut(Option<usize>, &mut PanelBuffers),
+        use_kernels: &mut dyn FnMut(Option<usize>, &mut PanelBuffers),
     ) -> std::result::Result<(), f64> {
-        let width = self.table.width;
-        let half_width = 0.5 * self.table.width;
-        work.samples.clear();
-        let mut integral_size = 0.0;
-        for panel in 0..panels {
-            let left = panel as f64 * width;
-            let samples = self.kernel_samples(left, width, dynamic);
-            let size = median(samples.map(|c| c[0].abs() + c[1].abs()));
-            integral_size += half_width
-                * self.form_size(left + half_width)
-                * (size + dynamic.static_kernel[0].abs());
-            work.samples.push(samples);
+        let width = self.table.panel_width;
+        let half_width = 0.5 * self.table.panel_width;
+        buffers.samples.clear();
+        let mut integral_magnitude = 0.0;
+        for panel in 0..panel_count {
+            let start = panel as f64 * width;
+            let samples = self.kernel_samples(start, width, dynamic);
+            let magnitude = median(samples.map(|c| c[0].abs() + c[1].abs()));
+            integral_magnitude += half_width
+                * self.relative_form_magnitude(start + half_width)
+                * (magnitude + dynamic.static_kernel[0].abs());
+            buffers.samples.push(samples);
         }
-        work.evaluations += PANEL_POINTS * panels;
-        let max_error = self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_size;
+        buffers.evaluation_count += PANEL_POINTS * panel_count;
+        let max_error = self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_magnitude;
         let mut unresolved_panels = vec![];
-        work.kernels.clear();
-        for panel in 0..panels {
-            let samples = &work.samples[panel];
-            let left = panel as f64 * width;
-            if self.is_resolved(samples, dynamic, left, width, max_error) {
+        buffers.kernels.clear();
+        for panel in 0..panel_count {
+            let samples = &buffers.samples[panel];
+            let start = panel as f64 * width;
+            if self.is_resolved(samples, dynamic, start, width, max_error) {
                 for (sample, weight) in samples.iter().zip(&self.table.rule.weights) {
-                    work.kernels.push(sample.map(|c| c.scale(half_width * weight)));
+                    buffers.kernels.push(sample.map(|c| c.scale(half_width * weight)));
                 }
             } else {
                 unresolved_panels.push(panel);
-                work.kernels.extend([CellKernel::default(); PANEL_POINTS]);
+                buffers.kernels.extend([CellKernel::default(); PANEL_POINTS]);
             }
         }
-        take(None, work);
+        use_kernels(None, buffers);
         for panel in unresolved_panels {
-            self.halve_panel(panel, max_error, work, dynamic)?;
-            take(Some(panel), work);
+            self.halve_panel(panel, max_error, buffers, dynamic)?;
+            use_kernels(Some(panel), buffers);
         }
         Ok(())
     }
 
     /// Estimated ratio of the forms at a wavenumber to the forms at zero.
-    fn form_size(&self, k: f64) -> f64 {
-        (2.0 / (k * self.finest)).powi(2).min(1.0)
+    fn relative_form_magnitude(&self, k: f64) -> f64 {
+        (2.0 / (k * self.shorter_side)).powi(2).min(1.0)
     }
 
     /// Kernels at the Gauss points of a panel.
     fn kernel_samples(
         &self,
-        left: f64,
+        start: f64,
         width: f64,
         dynamic: &mut DynamicKernel,
     ) -> [CellKernel; PANEL_POINTS] {
-        std::array::from_fn(|i| dynamic.at(left + 0.5 * width * (1.0 + self.table.rule.nodes[i])))
+        std::array::from_fn(|i| dynamic.at(start + 0.5 * width * (1.0 + self.table.rule.nodes[i])))
     }
 
-    /// Whether the last two Legendre coefficients are small enough.
+    /// Whether the last two Legendre coefficients are small enough on a panel or a part of it.
     fn is_resolved(
         &self,
         samples: &[CellKernel; PANEL_POINTS],
         dynamic: &DynamicKernel,
-        left: f64,
+        start: f64,
         width: f64,
         max_error: f64,
     ) -> bool {
@@ -307,36 +315,36 @@ impl CellIntegrals {
                 largest_square = largest_square.max((*value + static_value).square());
             }
         }
-        error * width * self.form_size(left) <= max_error
+        error * width * self.relative_form_magnitude(start) <= max_error
             || error <= ROUNDING_FLOOR_FACTOR * largest_square.sqrt()
     }
 
-    /// Moments ∫ C Pₙ dk over one panel, by halves; written to `work.kernels`.
+    /// Overwrites `buffers.kernels` with the moments ∫ C Pₙ dk over one panel, by halves.
     fn halve_panel(
         &self,
         panel: usize,
         max_error: f64,
-        work: &mut PanelBuffers,
+        buffers: &mut PanelBuffers,
         dynamic: &mut DynamicKernel,
     ) -> std::result::Result<(), f64> {
-        let panel_width = self.table.width;
+        let panel_width = self.table.panel_width;
         let panel_range = [panel_width * panel as f64, panel_width];
-        let PanelBuffers { kernels, stack, evaluations, .. } = work;
+        let PanelBuffers { kernels, stack, evaluation_count, .. } = buffers;
         kernels.clear();
         kernels.resize(LEGENDRE_DEGREES, CellKernel::default());
-        let sample = |left: f64, width: f64| {
-            *evaluations += PANEL_POINTS;
-            let samples = self.kernel_samples(left, width, dynamic);
-            let is_resolved = self.is_resolved(&samples, dynamic, left, width, max_error);
+        let sample_part = |start: f64, width: f64| {
+            *evaluation_count += PANEL_POINTS;
+            let samples = self.kernel_samples(start, width, dynamic);
+            let is_resolved = self.is_resolved(&samples, dynamic, start, width, max_error);
             (samples, is_resolved)
         };
-        by_halves(panel_range, stack, sample, |[place, size], width, samples| {
+        by_halves(panel_range, stack, sample_part, |[part_start, part_size], width, samples| {
             for (sample, (x, weight)) in
                 samples.iter().zip(self.table.rule.points_on_unit_interval())
             {
-                let polynomials = legendre(2.0 * (place + size * x) - 1.0);
-                for (moment, polynomial) in kernels.iter_mut().zip(polynomials) {
-                    for (moment, value) in moment.iter_mut().zip(sample) {
+                let polynomials = legendre(2.0 * (part_start + part_size * x) - 1.0);
+                for (moments, polynomial) in kernels.iter_mut().zip(polynomials) {
+                    for (moment, value) in moments.iter_mut().zip(sample) {
                         *moment += value.scale(width * weight * polynomial);
                     }
                 }
@@ -344,10 +352,10 @@ impl CellIntegrals {
         })
     }
 
-    /// Adds Σ kernel × forms over the first of `rows` to the sums.
-    fn add_products(&self, rows: &FormRows, work: &mut PanelBuffers) {
-        let PanelBuffers { kernels, weights, sums, .. } = work;
-        for (form, (first, series_factors)) in KERNEL_FACTORS.into_iter().enumerate() {
+    /// Adds Σ kernel × forms over the first rows of `rows` to the sums.
+    fn add_products(&self, rows: &FormRows, buffers: &mut PanelBuffers) {
+        let PanelBuffers { kernels, weights, sums, .. } = buffers;
+        for (form, (first_series, series_factors)) in KERNEL_FACTORS.into_iter().enumerate() {
             weights.clear();
             for kernel in &*kernels {
                 for factors in series_factors {
@@ -358,9 +366,10 @@ impl CellIntegrals {
                     weights.extend([sum.re, sum.im]);
                 }
             }
-            let classes = self.table.classes;
-            let range = first * classes..(first + 2 * series_factors.len()) * classes;
-            rows.combine(form, weights, &mut sums[range]);
+            let class_count = self.table.class_count;
+            let end_series = first_series + 2 * series_factors.len();
+            let form_sums = &mut sums[first_series * class_count..end_series * class_count];
+            rows.combine(form, weights, form_sums);
         }
     }
 }

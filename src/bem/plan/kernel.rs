@@ -15,21 +15,21 @@ use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Largest number of cells of which the passivity check tests all.
+/// Largest number of cells for a passivity check of all cells: the time grows with the cube of the number.
 const MAX_CELLS_CHECKED: usize = 512;
-/// Number of cells, chosen at random, that the passivity check tests of more.
+/// Number of random cells that the passivity check tests if there are more.
 const SAMPLED_CELL_COUNT: usize = 256;
-/// Number of points of the half circle at which the largest Laplace variable is sought.
+/// Number of points of the half circle for the search of the largest Laplace variable: the margin covers their distance.
 const CIRCLE_POINT_COUNT: usize = 256;
-/// Factor of the largest Laplace variable at these points, for a maximum between them.
+/// Factor of the largest Laplace variable at these points, because the maximum may lie between two points.
 const LAPLACE_RADIUS_MARGIN: f64 = 1.02;
 
-/// Number of cells that the passivity check samples, and of all cells; `None` if it checks all.
+/// Number of cells that the passivity check samples, and number of all cells; `None` if it checks all cells.
 pub(in crate::bem) fn passivity_sample(plan: &Plan) -> Option<[usize; 2]> {
     (plan.count() > MAX_CELLS_CHECKED).then_some([SAMPLED_CELL_COUNT, plan.count()])
 }
 
-/// Overwrites `matrix` (3Q × 3Q, row-major, m/Pa) with the mean static displacements of the cells of a plan.
+/// Overwrites `matrix` (3Q × 3Q, row-major, m/Pa) with static displacements of a plan's cells due to unit tractions.
 pub(in crate::bem) fn static_compliance(
     profile: &SoilProfile,
     plan: &Plan,
@@ -60,7 +60,7 @@ fn cell_compliance(
 }
 
 impl Plan {
-    /// Contact elements that are not one whole cell each; `None` if all are.
+    /// Unions of cells and cut cells of the plan; `None` if each element is one whole cell.
     ///
     /// # Errors
     /// As for [`static_compliance`].
@@ -69,20 +69,21 @@ impl Plan {
         profile: &SoilProfile,
         tolerance: f64,
     ) -> Result<Option<Unions>> {
-        if self.owners.is_none() && self.cuts.is_empty() {
+        if self.cell_elements.is_none() && self.cut_cells.is_empty() {
             return Ok(None);
         }
-        let owners: Vec<_> = (0..self.count()).map(|cell| self.owner(cell)).collect();
-        let unions = Unions::new(&owners);
-        if self.cuts.is_empty() {
+        let cell_elements: Vec<_> = (0..self.count()).map(|cell| self.element_of(cell)).collect();
+        let unions = Unions::new(&cell_elements);
+        if self.cut_cells.is_empty() {
             return Ok(Some(unions));
         }
-        let whole = cell_compliance(profile, self.pitch(), tolerance)?;
-        Ok(Some(unions.with_cuts(self.cuts.iter().map(|cut| (cut.size, cut.softness)), whole)))
+        let whole_cell_compliance = cell_compliance(profile, self.pitch(), tolerance)?;
+        let cut_cells = self.cut_cells.iter().map(|cell| (cell.area_ratio, cell.spring_ratio));
+        Ok(Some(unions.with_cut_cells(cut_cells, whole_cell_compliance)))
     }
 }
 
-/// Convolution weights of a layered ground under cells, with six series.
+/// Convolution weights of a layered ground under the cells of a lattice.
 pub(in crate::bem) type LatticeKernel = QuadratureWeights<CellIntegrals, SERIES_PER_OFFSET>;
 
 impl LatticeKernel {
@@ -104,12 +105,12 @@ impl LatticeKernel {
         positive("time step", time_step)?;
         profile.check()?;
         profile.check_causal()?;
-        // λ is analytic in the unit disc, and so is √q₂: their largest values lie on its edge.
+        // λ and √q₂ are analytic in the unit disc, so that their largest magnitudes lie on the unit circle.
         let mut variables = vec![];
         for point in 0..=CIRCLE_POINT_COUNT {
             let angle = std::f64::consts::PI * point as f64 / CIRCLE_POINT_COUNT as f64;
-            let CirclePoint { z, rest } = on_circle(0.0, angle);
-            let nodes = stages.nodes(z, rest);
+            let CirclePoint { z, one_less_z } = on_circle(0.0, angle);
+            let nodes = stages.nodes(z, one_less_z);
             variables
                 .extend(nodes.map(|node| node.lambda.scale(LAPLACE_RADIUS_MARGIN / time_step)));
         }
@@ -124,30 +125,33 @@ impl LatticeKernel {
         let quadrature =
             Quadrature::over(profile, integrals, self_pairs, stages, time_step, tolerance);
         let Lattice { pitch, counts } = &plan.lattice;
-        let sample = match passivity_sample(plan) {
+        let checked_classes = match passivity_sample(plan) {
             Some(_) => {
                 let cells = random_sample(&plan.cells);
                 Some(PairClasses::in_plan(plan.lattice.clone(), cells, [0.0; 2])?)
             }
             None => None,
         };
-        let mesh = pitch.iter().copied().chain(counts.iter().map(|count| *count as f64)).collect();
-        Ok(Self::new(quadrature, classes, sample, mesh, file))
+        let counts_as_numbers = counts.iter().map(|count| *count as f64);
+        let mesh_numbers = pitch.iter().copied().chain(counts_as_numbers).collect();
+        Ok(Self::new(quadrature, classes, checked_classes, mesh_numbers, file))
     }
 }
 
-/// Some of many cells, without a pattern that a lattice could have; the same at every call.
+/// Random sample of cells for the passivity check; the same at every call.
+///
+/// A regular sample could miss an error with the period of the sample.
 fn random_sample(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut order: Vec<_> = (0..cells.len()).collect();
     let mut state = 1_u64;
-    for place in 0..SAMPLED_CELL_COUNT.min(cells.len()) {
+    for position in 0..SAMPLED_CELL_COUNT.min(cells.len()) {
         // Linear congruential generator (Knuth, MMIX).
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let random = usize::try_from(state >> 33).unwrap_or(0);
-        order.swap(place, place + random % (cells.len() - place));
+        order.swap(position, position + random % (cells.len() - position));
     }
-    order.into_iter().take(SAMPLED_CELL_COUNT).map(|place| cells[place]).collect()
+    order.into_iter().take(SAMPLED_CELL_COUNT).map(|cell| cells[cell]).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Ground under mats in plan, in three dimensions.
 //!
-//! Mats lie on the cells of one lattice. Every coefficient is an integral over the wavenumber of the compliance of
-//! the [layered ground](super::layered) in its plane, and of one more scalar for waves across it. Its form factors
-//! are means over the direction of the wavenumber.
+//! All mats lie on the cells of one lattice. The compliance of a pair of cells is an integral over the wavenumber. Its
+//! integrand is the surface compliance of the [layered ground](super::layered), in the plane of the wave and normal to
+//! it, times form factors of the cells. Form factors are means over the direction of the wavenumber.
 //!
 //! x points to the right, y away from the reader, z up; rotations are right-handed about these axes.
 //!

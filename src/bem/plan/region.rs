@@ -3,10 +3,12 @@
 use crate::geometry::span;
 use crate::linalg::gauss::Rule;
 
-/// Area that counts as rounding, in cells.
+/// Area below which a part of a cell is rounding, in cells.
 const AREA_TOLERANCE: f64 = 1e-9;
+/// Number of Gauss points between two levels: exact for moments of segments whose ends are linear in y.
+const LEVEL_POINT_COUNT: usize = 3;
 
-/// Lattice with its place: corner (m), sides of a cell (m), columns and rows.
+/// Lattice in plan: its corner (m), sides of a cell (m), and numbers of columns and rows.
 #[derive(Clone, Copy)]
 pub(super) struct PlanGrid {
     pub(super) corner: [f64; 2],
@@ -14,26 +16,30 @@ pub(super) struct PlanGrid {
     pub(super) counts: [usize; 2],
 }
 
-/// Points about which closed lines turn counter-clockwise at least once, row by row of a lattice.
+/// Inside of closed lines, for the areas of the cells of a lattice in it.
+///
+/// A point is inside if the lines turn about it counter-clockwise at least once.
 pub(super) struct Region {
-    /// Edges of the lines in each row, from its first corner in units of the cells' sides.
+    /// Edges of the lines in each row, relative to the row's first corner in units of the cells' sides.
     rows: Vec<Vec<CellEdge>>,
 }
 
-/// Ends of an edge.
+/// Ends of an edge, in units of the cells' sides.
 type CellEdge = [[f64; 2]; 2];
 
-/// Part of a unit cell.
+/// Part of a unit cell inside an outline.
 #[derive(Clone, Copy)]
 pub(super) struct CellPart {
+    /// Area, in cells.
     pub(super) area: f64,
+    /// Centre of area, from the cell's first corner in units of its sides.
     pub(super) center: [f64; 2],
     pub(super) is_rectangle: bool,
 }
 
 impl PlanGrid {
-    /// A point in units of the cells' sides.
-    fn place(&self, point: [f64; 2]) -> [f64; 2] {
+    /// Coordinates of a point from the corner, in units of the cells' sides.
+    fn cell_coordinates(&self, point: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| (point[k] - self.corner[k]) / self.pitch[k])
     }
 }
@@ -44,12 +50,12 @@ impl Region {
         let mut rows = vec![vec![]; grid.counts[1]];
         for corners in lines {
             for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                let edge = [a, b].map(|p| grid.place(*p));
-                let rows_of_edge = span(edge.iter().map(|p| p[1]));
+                let edge = [a, b].map(|point| grid.cell_coordinates(*point));
+                let y_range = span(edge.iter().map(|point| point[1]));
                 for (row, edges) in rows.iter_mut().enumerate() {
-                    let row = row as f64;
-                    if rows_of_edge[0] <= row + 1.0 && rows_of_edge[1] >= row {
-                        edges.push(edge.map(|[x, y]| [x, y - row]));
+                    let row_start = row as f64;
+                    if y_range[0] <= row_start + 1.0 && y_range[1] >= row_start {
+                        edges.push(edge.map(|[x, y]| [x, y - row_start]));
                     }
                 }
             }
@@ -59,43 +65,43 @@ impl Region {
 
     /// The part inside the lines of the cell in this column and row.
     pub(super) fn part(&self, [column, row]: [usize; 2]) -> CellPart {
-        let column = column as f64;
+        let column_start = column as f64;
         let edges: Vec<CellEdge> =
-            self.rows[row].iter().map(|edge| edge.map(|[x, y]| [x - column, y])).collect();
-        let levels = levels(&edges);
+            self.rows[row].iter().map(|edge| edge.map(|[x, y]| [x - column_start, y])).collect();
         let mut area = 0.0;
         let mut moments = [0.0; 2];
-        let mut across = [f64::INFINITY, 0.0_f64];
-        let mut along = [f64::INFINITY, 0.0_f64];
-        let rule = Rule::new(3);
+        let mut x_extent = [f64::INFINITY, 0.0_f64];
+        let mut y_extent = [f64::INFINITY, 0.0_f64];
+        let rule = Rule::new(LEVEL_POINT_COUNT);
         let mut crossings = Vec::with_capacity(edges.len());
-        // Between levels the ends of each span are linear in y.
-        for pair in levels.windows(2).filter(|pair| pair[1] > pair[0]) {
-            for (x, weight) in rule.points_on_unit_interval() {
-                let y = pair[0] + x * (pair[1] - pair[0]);
-                let weight = weight * (pair[1] - pair[0]);
-                cross(&edges, y, &mut crossings);
-                let mut turns = 0;
-                let mut begin = 0.0;
+        // Between levels the ends of each segment inside are linear in y.
+        for interval in levels(&edges).windows(2).filter(|ends| ends[1] > ends[0]) {
+            for (fraction, rule_weight) in rule.points_on_unit_interval() {
+                let y = interval[0] + fraction * (interval[1] - interval[0]);
+                let weight = rule_weight * (interval[1] - interval[0]);
+                find_crossings(&edges, y, &mut crossings);
+                let mut turn_count = 0;
+                let mut segment_start = 0.0;
                 for &(x, turn) in &crossings {
-                    let was_inside = turns > 0;
-                    turns += turn;
+                    let was_inside = turn_count > 0;
+                    turn_count += turn;
                     if !was_inside {
-                        begin = x;
+                        segment_start = x;
                     }
-                    let low = begin.clamp(0.0, 1.0);
-                    let high = x.clamp(0.0, 1.0);
-                    if was_inside && turns <= 0 && high > low {
-                        area += weight * (high - low);
-                        moments[0] += weight * 0.5 * (high * high - low * low);
-                        moments[1] += weight * (high - low) * y;
-                        across = [across[0].min(low), across[1].max(high)];
-                        along = [along[0].min(pair[0]), along[1].max(pair[1])];
+                    let min_x = segment_start.clamp(0.0, 1.0);
+                    let max_x = x.clamp(0.0, 1.0);
+                    if was_inside && turn_count <= 0 && max_x > min_x {
+                        area += weight * (max_x - min_x);
+                        moments[0] += weight * 0.5 * (max_x * max_x - min_x * min_x);
+                        moments[1] += weight * (max_x - min_x) * y;
+                        x_extent = [x_extent[0].min(min_x), x_extent[1].max(max_x)];
+                        y_extent = [y_extent[0].min(interval[0]), y_extent[1].max(interval[1])];
                     }
                 }
             }
         }
-        let is_rectangle = area > (across[1] - across[0]) * (along[1] - along[0]) - AREA_TOLERANCE;
+        let rectangle_area = (x_extent[1] - x_extent[0]) * (y_extent[1] - y_extent[0]);
+        let is_rectangle = area > rectangle_area - AREA_TOLERANCE;
         CellPart { area, center: moments.map(|moment| moment / area), is_rectangle }
     }
 }
@@ -112,26 +118,28 @@ impl CellPart {
     }
 }
 
-/// Heights in the unit cell at which edges end, cross its sides or each other, ascending, with its lower and upper end.
+/// Values of y between which no edge in the unit cell ends, crosses a side of the cell or crosses another edge.
+///
+/// Ascending, from 0 to 1.
 fn levels(edges: &[CellEdge]) -> Vec<f64> {
-    let beside = |edge: &CellEdge| {
-        let columns = span(edge.iter().map(|p| p[0]));
-        columns[1] >= 0.0 && columns[0] <= 1.0
+    let overlaps_cell = |edge: &CellEdge| {
+        let x_range = span(edge.iter().map(|point| point[0]));
+        x_range[1] >= 0.0 && x_range[0] <= 1.0
     };
-    let near: Vec<&CellEdge> = edges.iter().filter(|edge| beside(edge)).collect();
+    let cell_edges: Vec<&CellEdge> = edges.iter().filter(|edge| overlaps_cell(edge)).collect();
     let mut levels = vec![0.0, 1.0];
-    for (k, [a, b]) in near.iter().enumerate() {
-        let step = [b[0] - a[0], b[1] - a[1]];
+    for (k, [a, b]) in cell_edges.iter().enumerate() {
+        let edge = [b[0] - a[0], b[1] - a[1]];
         levels.extend([a[1], b[1]]);
-        levels.extend([0.0, 1.0].map(|x| a[1] + (x - a[0]) / step[0] * step[1]));
-        for [c, d] in &near[..k] {
-            let other = [d[0] - c[0], d[1] - c[1]];
-            let sine = step[0] * other[1] - step[1] * other[0];
-            let apart = [c[0] - a[0], c[1] - a[1]];
-            let ratio = (apart[0] * other[1] - apart[1] * other[0]) / sine;
-            let beyond = (apart[0] * step[1] - apart[1] * step[0]) / sine;
-            if [ratio, beyond].iter().all(|part| (0.0..=1.0).contains(part)) {
-                levels.push(a[1] + ratio * step[1]);
+        levels.extend([0.0, 1.0].map(|x| a[1] + (x - a[0]) / edge[0] * edge[1]));
+        for [c, d] in &cell_edges[..k] {
+            let other_edge = [d[0] - c[0], d[1] - c[1]];
+            let sine = edge[0] * other_edge[1] - edge[1] * other_edge[0];
+            let offset = [c[0] - a[0], c[1] - a[1]];
+            let fraction = (offset[0] * other_edge[1] - offset[1] * other_edge[0]) / sine;
+            let other_fraction = (offset[0] * edge[1] - offset[1] * edge[0]) / sine;
+            if (0.0..=1.0).contains(&fraction) && (0.0..=1.0).contains(&other_fraction) {
+                levels.push(a[1] + fraction * edge[1]);
             }
         }
     }
@@ -140,8 +148,10 @@ fn levels(edges: &[CellEdge]) -> Vec<f64> {
     levels
 }
 
-/// Places where edges cross a line of constant y, from left to right, and by how much the turns about a point rise there.
-fn cross(edges: &[CellEdge], y: f64, crossings: &mut Vec<(f64, i32)>) {
+/// Overwrites `crossings` with the x at which edges cross a line of constant y, ascending.
+///
+/// Each crossing has the change of the number of turns about points to its right: 1 or −1.
+fn find_crossings(edges: &[CellEdge], y: f64, crossings: &mut Vec<(f64, i32)>) {
     crossings.clear();
     for [a, b] in edges {
         if (a[1] < y) != (b[1] < y) {

@@ -22,21 +22,22 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
         let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
         checked.push(MatFace::new(number, &corners)?);
     }
-    let near = checked.iter().map(MatFace::near).fold(0.0, f64::max);
-    let mut points = PointIndex::new(near);
+    let touch_distance = checked.iter().map(MatFace::touch_distance).fold(0.0, f64::max);
+    let mut points = PointIndex::new(touch_distance);
     let mut first: Vec<&BaseNode> = vec![];
     let mut torn = BTreeSet::new();
     let mut edges = vec![];
     for (face, checked) in faces.iter().zip(&checked) {
         for node in face {
-            let number = points.number(node.place());
+            let number = points.index_of(node.place());
             match first.get(number) {
                 Some(other) if differ(node, &[(other, 1.0)]) => _ = torn.insert(number),
                 Some(_) => {}
                 None => first.push(node),
             }
         }
-        let corners: Vec<_> = checked.corners().iter().map(|place| points.number(*place)).collect();
+        let corners: Vec<_> =
+            checked.corners().iter().map(|place| points.index_of(*place)).collect();
         edges.extend((0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]));
     }
     for on in points.on_edges(&without_pairs(edges)) {
@@ -49,7 +50,7 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
             }
         }
     }
-    Ok(torn.first().map(|number| (torn.len(), points.place(*number))))
+    Ok(torn.first().map(|number| (torn.len(), points.point(*number))))
 }
 
 /// Whether a node rises otherwise than this mean of others for some degrees of freedom.

@@ -146,8 +146,8 @@ fn eigenvalues_keep_their_numbers() {
             let mut previous: Vec<Complex> = vec![];
             for point in 0..4000 {
                 let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 4000.0;
-                let CirclePoint { z, rest } = on_circle(logarithm, angle);
-                let roots: Vec<_> = stages.nodes(z, rest).map(|node| node.lambda).collect();
+                let CirclePoint { z, one_less_z } = on_circle(logarithm, angle);
+                let roots: Vec<_> = stages.nodes(z, one_less_z).map(|node| node.lambda).collect();
                 for (one, two) in previous.iter().zip(&roots) {
                     assert!((*one - *two).abs() < 0.02, "{stages:?} {point} {one:?} {two:?}");
                 }

@@ -2,7 +2,7 @@
 
 use crate::linalg::Complex;
 
-/// A complex 2 × 2 matrix, row by row.
+/// Complex 2 × 2 matrix, row by row, for waves of a layer.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Square(pub(super) [Complex; 4]);
 
@@ -14,7 +14,7 @@ impl Square {
         Self([one, zero, zero, one])
     };
 
-    /// diag(1, −1) A: displacements of the mirrored waves.
+    /// diag(1, −1) A, the displacements of waves in the opposite vertical direction.
     pub(super) fn mirrored(self) -> Self {
         let Self([a, b, c, d]) = self;
         Self([a, b, -c, -d])
@@ -47,19 +47,25 @@ impl Square {
         Self([a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h])
     }
 
-    /// A⁻¹ B.
+    /// A⁻¹ B, the solution of A X = B.
     pub(super) fn solve(self, other: Self) -> Self {
         let Self([a, b, c, d]) = self;
-        let scale = (a * d - b * c).inverse();
+        let inverse_determinant = (a * d - b * c).inverse();
         let Self([e, f, g, h]) = other;
-        Self([d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x * scale))
+        Self(
+            [d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f]
+                .map(|x| x * inverse_determinant),
+        )
     }
 
     /// A B⁻¹.
     pub(super) fn times_inverse(self, other: Self) -> Self {
         let Self([e, f, g, h]) = other;
-        let scale = (e * h - f * g).inverse();
+        let inverse_determinant = (e * h - f * g).inverse();
         let Self([a, b, c, d]) = self;
-        Self([a * h - b * g, b * e - a * f, c * h - d * g, d * e - c * f].map(|x| x * scale))
+        Self(
+            [a * h - b * g, b * e - a * f, c * h - d * g, d * e - c * f]
+                .map(|x| x * inverse_determinant),
+        )
     }
 }

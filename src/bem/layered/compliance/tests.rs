@@ -3,29 +3,30 @@
 use super::*;
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil};
 
-/// A constant complex modulus, as in the tables.
+/// Constant complex modulus with a loss factor, as in the tables.
 #[derive(Debug)]
-struct Loss(f64);
+struct LossFactor(f64);
 
-impl Relaxation for Loss {
+impl Relaxation for LossFactor {
     fn modulus(&self, _s: Complex) -> Complex {
         Complex::new(1.0, self.0)
     }
 }
 
-fn profile(layers: &str, rigid: bool) -> SoilProfile {
+/// Profile of a table's text, `density:re:im:poisson:thickness` for each layer.
+fn profile(layers: &str, has_rigid_bedrock: bool) -> SoilProfile {
     let mut rows: Vec<Vec<f64>> = vec![];
     for layer in layers.split('|') {
         rows.push(layer.split(':').map(|x| x.parse().unwrap()).collect());
     }
     let mut profile = SoilProfile::on_rigid_bedrock();
-    if !rigid {
+    if !has_rigid_bedrock {
         let last = rows.pop().unwrap();
-        let loss = Loss(last[2] / last[1]);
+        let loss = LossFactor(last[2] / last[1]);
         profile = SoilProfile::on_half_plane(soil(&last)).with_bedrock_damping(loss);
     }
     for row in &rows {
-        let loss = Loss(row[2] / row[1]);
+        let loss = LossFactor(row[2] / row[1]);
         profile = profile.with_layer(soil(row), row[4]).unwrap().with_damping(loss);
     }
     profile
@@ -39,7 +40,7 @@ fn soil(row: &[f64]) -> Soil {
 /// Published digits: `kernel_C_ks.csv`, 80 random rows of 60-digit arithmetic.
 #[test]
 fn agrees_with_sixty_digits() {
-    agrees(include_str!("../../../../tests/data/layered/kernel_C_ks.csv"), 80);
+    agrees_with_table(include_str!("../../../../tests/data/layered/kernel_C_ks.csv"), 80);
 }
 
 /// `contrasts_C_ks.csv`: slabs up to 1e8 times as stiff as the ground below, static and dynamic.
@@ -47,42 +48,43 @@ fn agrees_with_sixty_digits() {
 /// The reference uses matrix exponentials with 120 digits.
 #[test]
 fn stiff_layers_over_soft_ground_keep_their_digits() {
-    agrees(include_str!("../../../../tests/data/layered/contrasts_C_ks.csv"), 144);
+    agrees_with_table(include_str!("../../../../tests/data/layered/contrasts_C_ks.csv"), 144);
 }
 
-fn agrees(table: &str, count: usize) {
-    let mut worst = 0.0_f64;
-    let mut worst_xz = 0.0_f64;
-    let mut rows = 0;
-    for line in table.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit())) {
+/// Compares the compliance at each row of a table with the table's values.
+fn agrees_with_table(table: &str, expected_rows: usize) {
+    let mut max_error = 0.0_f64;
+    let mut max_xz_error = 0.0_f64;
+    let mut row_count = 0;
+    for line in table.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
         let (numbers, layers) = line.rsplit_once(',').unwrap();
-        let n: Vec<f64> = numbers.split(',').map(|x| x.parse().unwrap()).collect();
-        let profile = profile(layers, n[3] == 1.0);
+        let row: Vec<f64> = numbers.split(',').map(|x| x.parse().unwrap()).collect();
+        let profile = profile(layers, row[3] == 1.0);
         let mut compliance = LayeredCompliance::default();
-        compliance.set(&profile, Complex::new(n[1], n[2])).unwrap();
-        let found = compliance.at(n[0]);
-        let wanted = [4, 6, 8].map(|i| Complex::new(n[i], n[i + 1]));
-        let size = wanted.iter().map(|c| c.abs()).fold(0.0, f64::max);
-        for (found, wanted) in [found.xx, found.zz, found.xz].into_iter().zip(wanted) {
-            worst = worst.max((found - wanted).abs() / size);
+        compliance.set(&profile, Complex::new(row[1], row[2])).unwrap();
+        let computed = compliance.at(row[0]);
+        let expected = [4, 6, 8].map(|i| Complex::new(row[i], row[i + 1]));
+        let max_compliance = expected.iter().map(|c| c.abs()).fold(0.0, f64::max);
+        for (a, b) in [computed.xx, computed.zz, computed.xz].into_iter().zip(expected) {
+            max_error = max_error.max((a - b).abs() / max_compliance);
         }
-        worst_xz = worst_xz.max((found.xz - wanted[2]).abs() / wanted[2].abs());
-        rows += 1;
+        max_xz_error = max_xz_error.max((computed.xz - expected[2]).abs() / expected[2].abs());
+        row_count += 1;
     }
-    println!("{rows} rows: {worst:e} of max|C|, {worst_xz:e} of C_xz");
-    assert_eq!(rows, count);
-    assert!(worst < 1e-12, "{worst:e}");
+    println!("{row_count} row_count: {max_error:e} of max|C|, {max_xz_error:e} of C_xz");
+    assert_eq!(row_count, expected_rows);
+    assert!(max_error < 1e-12, "{max_error:e}");
 }
 
 #[test]
 fn identical_layers_are_one_half_plane() {
-    let mut worst = 0.0_f64;
+    let mut max_error = 0.0_f64;
     for nu in [-0.9, 0.0, 0.25, 0.4999] {
         let soil = Soil::new(2.0, nu, 1.5).unwrap();
-        let one = SoilProfile::on_half_plane(soil);
-        let mut many = one.clone();
-        for h in [0.3, 2.0, 0.01, 0.7] {
-            many = many.with_layer(soil, h).unwrap();
+        let half_plane = SoilProfile::on_half_plane(soil);
+        let mut layered = half_plane.clone();
+        for thickness in [0.3, 2.0, 0.01, 0.7] {
+            layered = layered.with_layer(soil, thickness).unwrap();
         }
         for s in [
             Complex::real(1e-6),
@@ -91,17 +93,17 @@ fn identical_layers_are_one_half_plane() {
             Complex::new(1.0, -30.0),
         ] {
             for k in [1e-5, 1e-3, 0.1, 1.0, 7.0, 100.0] {
-                let a = surface_compliance(&one, s, k);
-                let b = surface_compliance(&many, s, k);
-                let size = a.xx.abs().max(a.zz.abs());
+                let a = surface_compliance(&half_plane, s, k);
+                let b = surface_compliance(&layered, s, k);
+                let max_compliance = a.xx.abs().max(a.zz.abs());
                 for (a, b) in [(a.xx, b.xx), (a.zz, b.zz), (a.xz, b.xz)] {
-                    worst = worst.max((a - b).abs() / size);
+                    max_error = max_error.max((a - b).abs() / max_compliance);
                 }
             }
         }
     }
-    println!("{worst:e}");
-    assert!(worst < 1e-11, "{worst:e}");
+    println!("{max_error:e}");
+    assert!(max_error < 1e-11, "{max_error:e}");
 }
 
 fn surface_compliance(profile: &SoilProfile, s: Complex, k: f64) -> SurfaceCompliance {
@@ -110,9 +112,9 @@ fn surface_compliance(profile: &SoilProfile, s: Complex, k: f64) -> SurfaceCompl
     compliance.at(k)
 }
 
-/// Closed form of Lamb's problem: C = [β, α] q₂/(μ R), R = (2k² + q₂)² − 4k²αβ.
+/// The half-plane agrees with the closed form of Lamb's problem: C = [β, α] q₂/(μ R), R = (2k² + q₂)² − 4k²αβ.
 #[test]
-fn half_plane_is_lambs() {
+fn half_plane_agrees_with_lambs_solution() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     let s = Complex::new(0.7, 2.0);
     let mut compliance = LayeredCompliance::default();
@@ -122,13 +124,15 @@ fn half_plane_is_lambs() {
         let k2 = Complex::real(k * k);
         let alpha = (k2 + q2.scale(soil.speed_ratio_squared())).sqrt();
         let beta = (k2 + q2).sqrt();
-        let sum = k2.scale(2.0) + q2;
-        let r = (sum * sum - (alpha * beta).scale(4.0 * k * k)).scale(2.0);
-        let found = compliance.at(k);
-        assert!((found.xx - q2 * beta / r).abs() < 1e-12 * found.xx.abs());
-        assert!((found.zz - q2 * alpha / r).abs() < 1e-12 * found.zz.abs());
-        let coupling = (sum - (alpha * beta).scale(2.0)).scale(k) / r;
-        assert!((found.xz - coupling).abs() < 1e-12 * found.zz.abs());
+        let two_k_squared_plus_q2 = k2.scale(2.0) + q2;
+        let denominator = (two_k_squared_plus_q2 * two_k_squared_plus_q2
+            - (alpha * beta).scale(4.0 * k * k))
+        .scale(2.0);
+        let computed = compliance.at(k);
+        assert!((computed.xx - q2 * beta / denominator).abs() < 1e-12 * computed.xx.abs());
+        assert!((computed.zz - q2 * alpha / denominator).abs() < 1e-12 * computed.zz.abs());
+        let coupling = (two_k_squared_plus_q2 - (alpha * beta).scale(2.0)).scale(k) / denominator;
+        assert!((computed.xz - coupling).abs() < 1e-12 * computed.zz.abs());
     }
 }
 
@@ -144,9 +148,9 @@ fn extremes_are_finite() {
             .unwrap(),
         SoilProfile::on_rigid_bedrock().with_layer(soft, 2.0).unwrap(),
     ] {
-        for s in [0.0, 1e-9, 1e-3, 1.0, 1e4] {
+        for re in [0.0, 1e-9, 1e-3, 1.0, 1e4] {
             for im in [0.0, 1e-6, 1.0, 1e5] {
-                let s = Complex::new(s, im);
+                let s = Complex::new(re, im);
                 let mut compliance = LayeredCompliance::default();
                 if s.re == 0.0 && im > 0.0 {
                     continue;
@@ -163,29 +167,33 @@ fn extremes_are_finite() {
     }
 }
 
-/// k → 0 on rigid bedrock: shear and pressure columns, tanh(sh/c)/(ρcs).
+/// For k → 0 on rigid bedrock the compliances are tanh(sh/c)/(ρcs) of columns in shear and in compression.
 #[test]
-fn long_waves_see_a_column() {
+fn long_waves_have_the_compliance_of_a_column() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();
     for s in [0.1, 1.0, 5.0] {
         let mut compliance = LayeredCompliance::default();
         compliance.set(&profile, Complex::real(s)).unwrap();
-        let found = compliance.at(1e-7);
-        for (found, speed) in
-            [(found.xx, soil.shear_wave_speed()), (found.zz, soil.pressure_wave_speed())]
+        let surface = compliance.at(1e-7);
+        for (computed, speed) in
+            [(surface.xx, soil.shear_wave_speed()), (surface.zz, soil.pressure_wave_speed())]
         {
-            let wanted = (s * 2.0 / speed).tanh() / (1.5 * speed * s);
-            assert!((found.re - wanted).abs() < 1e-13 * wanted, "{s} {found:?} {wanted}");
+            let expected = (s * 2.0 / speed).tanh() / (1.5 * speed * s);
+            assert!(
+                (computed.re - expected).abs() < 1e-13 * expected,
+                "{s} {computed:?} {expected}"
+            );
         }
     }
 }
 
-fn across(profile: &SoilProfile, s: Complex, k: f64) -> Complex {
+/// Transverse compliance at the wavenumber `k`.
+fn transverse(profile: &SoilProfile, s: Complex, k: f64) -> Complex {
     let mut ground = LayeredCompliance::default();
     ground.set(profile, s).unwrap();
     ground.at(k);
-    ground.across()
+    ground.transverse()
 }
 
 fn damped() -> GeneralizedMaxwell {
@@ -209,49 +217,49 @@ fn with_two_layers(profile: SoilProfile) -> SoilProfile {
 
 /// Identical layers, thick or thin, equal one half-space.
 #[test]
-fn cut_half_space_is_whole_across() {
+fn equal_layers_have_the_transverse_compliance_of_a_half_space() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
-    let one = SoilProfile::on_half_plane(soil);
-    let mut many = one.clone();
+    let half_space = SoilProfile::on_half_plane(soil);
+    let mut layered = half_space.clone();
     for thickness in [0.1, 1e-4, 1.0, 40.0] {
-        many = many.with_layer(soil, thickness).unwrap();
+        layered = layered.with_layer(soil, thickness).unwrap();
     }
     for s in [Complex::new(0.3, 1.0), Complex::new(1e-4, 3.0), Complex::real(20.0)] {
         for k in [1e-5, 0.1, 0.9, 4.0, 300.0] {
             let beta = (Complex::real(k * k) + (s * s).scale(0.75)).sqrt();
-            let wanted = beta.scale(2.0).inverse();
-            for profile in [&one, &many] {
-                let error = (across(profile, s, k) - wanted).abs() / wanted.abs();
+            let expected = beta.scale(2.0).inverse();
+            for profile in [&half_space, &layered] {
+                let error = (transverse(profile, s, k) - expected).abs() / expected.abs();
                 assert!(error < 1e-12, "{s:?} {k} {error:e}");
             }
         }
     }
 }
 
-/// As k → 0, shear along and across the wavenumber has the same vertical wave; compares both recursions.
+/// As k → 0, shear along and normal to the wavenumber causes the same vertical wave: both recursions agree.
 #[test]
-fn long_waves_are_those_along_the_wavenumber() {
+fn both_shear_compliances_agree_for_long_waves() {
     for profile in damped_profiles() {
         for s in [Complex::new(0.05, 0.4), Complex::new(1.0, 7.0), Complex::real(3.0)] {
             let mut ground = LayeredCompliance::default();
             ground.set(&profile, s).unwrap();
             let k = 1e-8;
-            let wanted = ground.at(k).xx;
-            let found = ground.across();
-            let error = (found - wanted).abs() / wanted.abs();
+            let expected = ground.at(k).xx;
+            let computed = ground.transverse();
+            let error = (computed - expected).abs() / expected.abs();
             assert!(error < 1e-13, "{s:?} {error:e}");
         }
     }
 }
 
-/// μβ u = τ cosh/sinh of a layer on rigid bedrock, by the differential equation: u″ = β²u through its power series.
+/// A layer on rigid bedrock agrees with the power series of its differential equation u″ = β²u.
 #[test]
 fn layer_on_rigid_base_solves_its_equation() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     for (k, h) in [(0.3, 0.5), (2.0, 1.3), (0.7, 1e-3)] {
         let s = Complex::new(0.2, 1.4);
         let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, h).unwrap();
-        let square = Complex::real(k * k) + (s * s).scale(0.75);
+        let beta_squared = Complex::real(k * k) + (s * s).scale(0.75);
         // sinh(βh)/β and cosh(βh).
         let mut term = Complex::real(1.0);
         let mut u = Complex::default();
@@ -260,10 +268,10 @@ fn layer_on_rigid_base_solves_its_equation() {
             let n = f64::from(n);
             slope += term;
             u += term.scale(h / (2.0 * n + 1.0));
-            term = (term * square).scale(h * h / ((2.0 * n + 1.0) * (2.0 * n + 2.0)));
+            term = (term * beta_squared).scale(h * h / ((2.0 * n + 1.0) * (2.0 * n + 2.0)));
         }
-        let wanted = u / slope.scale(2.0);
-        let error = (across(&profile, s, k) - wanted).abs() / wanted.abs();
+        let expected = u / slope.scale(2.0);
+        let error = (transverse(&profile, s, k) - expected).abs() / expected.abs();
         assert!(error < 1e-13, "{k} {h} {error:e}");
     }
 }

@@ -1,4 +1,4 @@
-//! Places and areas of the cells and contact elements of a plan.
+//! Positions and areas of the cells and contact elements of a plan.
 
 use std::collections::HashSet;
 
@@ -8,8 +8,8 @@ use crate::geometry::{ContactElement, Lattice, middle};
 impl Plan {
     /// Ends of a cell's contact element along x and y, m.
     pub(in crate::bem::plan) fn ends(&self, cell: usize) -> [[f64; 2]; 2] {
-        if let Some(cut) = self.cuts.get(cell) {
-            return cut.ends;
+        if let Some(cut_cell) = self.cut_cells.get(cell) {
+            return cut_cell.ends;
         }
         [0, 1].map(|axis| {
             [0, 1].map(|end| {
@@ -18,31 +18,31 @@ impl Plan {
         })
     }
 
-    /// Centre of a cell's contact element from the middle of the plan, m.
+    /// Lever arms along x and y: centre of a cell's contact element from the middle of the plan, m.
     pub(in crate::bem::plan) fn arms(&self, cell: usize) -> [f64; 2] {
-        if let Some(cut) = self.cuts.get(cell) {
-            return [0, 1].map(|axis| middle(cut.ends[axis]) - self.middle()[axis]);
+        if let Some(cut_cell) = self.cut_cells.get(cell) {
+            return [0, 1].map(|axis| middle(cut_cell.ends[axis]) - self.middle()[axis]);
         }
         let Lattice { pitch, counts } = &self.lattice;
-        let place = self.cells[cell];
+        let column_and_row = self.cells[cell];
         [0, 1].map(|axis| {
-            let half_sides = 2.0 * place[axis] as f64 + 1.0 - counts[axis] as f64;
-            0.5 * half_sides * pitch[axis]
+            let half_side_count = 2.0 * column_and_row[axis] as f64 + 1.0 - counts[axis] as f64;
+            0.5 * half_side_count * pitch[axis]
         })
     }
 
-    /// Compliance in series with a cell, relative to the cell's static compliance.
-    pub(in crate::bem::plan) fn softness(&self, cell: usize) -> f64 {
-        self.cuts.get(cell).map_or(0.0, |cut| cut.softness)
+    /// Compliance of the spring in series with a cell, relative to the cell's static compliance.
+    pub(in crate::bem::plan) fn spring_ratio(&self, cell: usize) -> f64 {
+        self.cut_cells.get(cell).map_or(0.0, |cut_cell| cut_cell.spring_ratio)
     }
 
-    /// The contact elements.
+    /// Contact elements of the plan, for grounds and structures.
     pub fn elements(&self) -> Vec<ContactElement> {
         let mut element_ends: Vec<[[f64; 2]; 2]> = vec![];
         for cell in 0..self.count() {
             let cell_ends = self.ends(cell);
-            // Cells of a mat come row by row, and the first cell of an element before its others.
-            match element_ends.get_mut(self.owner(cell)) {
+            // Cells of a mat are sorted row by row, so that the first cell of an element precedes its other cells.
+            match element_ends.get_mut(self.element_of(cell)) {
                 Some(ends) => {
                     for axis in 0..2 {
                         ends[axis][1] = ends[axis][1].max(cell_ends[axis][1]);
@@ -52,24 +52,27 @@ impl Plan {
             }
         }
         let mut elements = Vec::with_capacity(element_ends.len());
-        for ([along, across], [inside, whole]) in element_ends.into_iter().zip(self.areas()) {
-            let fraction = (inside / whole).min(1.0);
-            elements.push(ContactElement::in_plan(along, across).with_fraction_inside(fraction));
+        for ([x_ends, y_ends], [area_inside, total_area]) in
+            element_ends.into_iter().zip(self.areas())
+        {
+            let fraction = (area_inside / total_area).min(1.0);
+            elements.push(ContactElement::in_plan(x_ends, y_ends).with_fraction_inside(fraction));
         }
         elements
     }
 
-    /// Area of each contact element inside the outline, and of all its cells or parts of cells, m².
+    /// Areas of each contact element (m²): inside the outline, and in total.
     pub(super) fn areas(&self) -> Vec<[f64; 2]> {
         let cell_area = self.cell_area();
-        let mut sums: Vec<[f64; 2]> = vec![];
-        for (cell, inside) in self.inside().into_iter().enumerate() {
-            let owner = self.owner(cell);
-            sums.resize(sums.len().max(owner + 1), [0.0; 2]);
-            sums[owner][0] += inside;
-            sums[owner][1] += cell_area * self.cuts.get(cell).map_or(1.0, |cut| cut.size);
+        let mut element_areas: Vec<[f64; 2]> = vec![];
+        for (cell, area_inside) in self.areas_inside_outline().into_iter().enumerate() {
+            let element = self.element_of(cell);
+            let area_ratio = self.cut_cells.get(cell).map_or(1.0, |cut_cell| cut_cell.area_ratio);
+            element_areas.resize(element_areas.len().max(element + 1), [0.0; 2]);
+            element_areas[element][0] += area_inside;
+            element_areas[element][1] += cell_area * area_ratio;
         }
-        sums
+        element_areas
     }
 
     /// Area of a whole cell, m².
@@ -77,11 +80,12 @@ impl Plan {
         self.lattice.pitch[0] * self.lattice.pitch[1]
     }
 
-    /// Area of each cell that is inside the outline, m².
-    pub(super) fn inside(&self) -> Vec<f64> {
+    /// Area of each cell inside the outline, m².
+    pub(super) fn areas_inside_outline(&self) -> Vec<f64> {
         let cell_area = self.cell_area();
-        if !self.cuts.is_empty() {
-            return self.cuts.iter().map(|cut| cell_area * cut.size * cut.inside).collect();
+        if !self.cut_cells.is_empty() {
+            let cut_cells = self.cut_cells.iter();
+            return cut_cells.map(|c| cell_area * c.area_ratio * c.inside_fraction).collect();
         }
         let cells: HashSet<_> = self.cells.iter().copied().collect();
         let mut areas = Vec::with_capacity(self.cells.len());
@@ -91,21 +95,22 @@ impl Plan {
         areas
     }
 
-    /// Fraction of a whole cell inside an outline along x and y, which the overhang cuts off at free sides.
+    /// Fraction of a cell inside an outline along x and y: all but the overhang at sides without a neighbour.
     fn fraction_of_whole_cell(&self, cells: &HashSet<[usize; 2]>, [i, j]: [usize; 2]) -> f64 {
         let overhang = self.overhang;
-        // Whether the neighbour is a cell; offsets 0, 1 and 2 are before, beside and after.
-        let has = |right: usize, away: usize| {
-            let column = (i + right).checked_sub(1);
-            let row = (j + away).checked_sub(1);
+        // Column and row steps 0, 1 and 2 are before, at and after the cell.
+        let has_cell = |column_step: usize, row_step: usize| {
+            let column = (i + column_step).checked_sub(1);
+            let row = (j + row_step).checked_sub(1);
             column.zip(row).is_some_and(|(column, row)| cells.contains(&[column, row]))
         };
-        let cut_off = |has_neighbour: bool| if has_neighbour { 0.0 } else { overhang };
-        let width = 1.0 - cut_off(has(0, 1)) - cut_off(has(2, 1));
-        let depth = 1.0 - cut_off(has(1, 0)) - cut_off(has(1, 2));
-        // Reentrant corners of the outline.
-        let corners = [[0, 0], [0, 2], [2, 0], [2, 2]].into_iter();
-        let notches = corners.filter(|[x, y]| has(*x, 1) && has(1, *y) && !has(*x, *y)).count();
-        width * depth - overhang * overhang * notches as f64
+        let side_overhang = |has_neighbour: bool| if has_neighbour { 0.0 } else { overhang };
+        let x_fraction = 1.0 - side_overhang(has_cell(0, 1)) - side_overhang(has_cell(2, 1));
+        let y_fraction = 1.0 - side_overhang(has_cell(1, 0)) - side_overhang(has_cell(1, 2));
+        let reentrant_corner_count = [[0, 0], [0, 2], [2, 0], [2, 2]]
+            .into_iter()
+            .filter(|[x, y]| has_cell(*x, 1) && has_cell(1, *y) && !has_cell(*x, *y))
+            .count();
+        x_fraction * y_fraction - overhang * overhang * reentrant_corner_count as f64
     }
 }

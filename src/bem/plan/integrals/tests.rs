@@ -1,4 +1,4 @@
-//! Compliances of cells against a table and themselves.
+//! Compliances of cells against a table, plain sums and limits.
 
 use std::f64::consts::PI;
 
@@ -11,11 +11,11 @@ use crate::geometry::offset;
 use crate::linalg::gauss::Rule;
 use crate::soil::Soil;
 
-/// Compliances, and what they cost.
+/// Compliances, and the number of evaluations of the ground.
 struct CellCompliances {
     values: Vec<[Complex; SERIES_PER_OFFSET]>,
     /// Number of wavenumbers at which the ground was evaluated.
-    evaluations: usize,
+    evaluation_count: usize,
 }
 
 fn compliances(
@@ -26,14 +26,14 @@ fn compliances(
 ) -> CellCompliances {
     let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(lattice, profile, [s], tolerance, &mut progress).unwrap();
-    let mut work = CellWorkspace::default();
-    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
-    integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    CellCompliances { values, evaluations: work.panels.evaluations }
+    let mut workspace = CellWorkspace::default();
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.class_count];
+    integrals.compliance(profile, s, &mut workspace, &mut values).unwrap();
+    CellCompliances { values, evaluation_count: workspace.panels.evaluation_count }
 }
 
-/// The complex number in the first two columns.
-fn number(row: &[&str]) -> Complex {
+/// Complex number in the first two columns of a row.
+fn complex_number(row: &[&str]) -> Complex {
     Complex::new(row[0].parse().unwrap(), row[1].parse().unwrap())
 }
 
@@ -41,110 +41,116 @@ fn half_space() -> SoilProfile {
     SoilProfile::on_half_plane(Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap())
 }
 
-/// `compliance_4x4.csv` is from another program, accurate to about 1e-8.
+/// `compliance_4x4.csv` is from another program, accurate receiver about 1e-8.
 #[test]
 fn agrees_with_the_table_of_sixteen_cells() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [4, 4] };
     let table = include_str!("../../../../tests/data/plan/compliance_4x4.csv");
-    let mut worst = [0.0_f64; 2];
+    let mut max_errors = [0.0_f64; 2];
     let rows: Vec<Vec<&str>> = table.lines().skip(2).map(|l| l.split(',').collect()).collect();
     for group in rows.chunk_by(|a, b| a[..3] == b[..3]) {
-        let layered = group[0][0] == "layer_rock";
-        let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
-        let s = number(&group[0][1..]);
-        let CellCompliances { values, evaluations } = compliances(&lattice, &profile, s, 1e-10);
-        let largest = lattice.block(&values, [0, 0])[1][1].abs();
+        let is_layered = group[0][0] == "layer_rock";
+        let profile = if is_layered { p1(gmb(5), gmb(1)) } else { half_space() };
+        let s = complex_number(&group[0][1..]);
+        let CellCompliances { values, evaluation_count } =
+            compliances(&lattice, &profile, s, 1e-10);
+        let max_compliance = lattice.block(&values, [0, 0])[1][1].abs();
         let mut errors = [0.0_f64; SERIES_PER_OFFSET];
         for row in group {
             let i = row[4].parse::<isize>().unwrap();
             let j = row[5].parse::<isize>().unwrap();
             let block = lattice.block(&values, [i, j]);
             let mut components = row[3].chars().map(|letter| "zxy".find(letter).unwrap());
-            let to = components.next().unwrap();
-            let from = components.next().unwrap();
-            let wanted = number(&row[6..]);
-            let error = (block[to][from] - wanted).abs() / largest;
-            let pair = (2 * to + from).min(5);
-            errors[pair] = errors[pair].max(error);
-            worst[usize::from(layered)] = worst[usize::from(layered)].max(error);
+            let receiver = components.next().unwrap();
+            let source = components.next().unwrap();
+            let expected = complex_number(&row[6..]);
+            let error = (block[receiver][source] - expected).abs() / max_compliance;
+            let series = (2 * receiver + source).min(5);
+            errors[series] = errors[series].max(error);
+            let profile_error = &mut max_errors[usize::from(is_layered)];
+            *profile_error = profile_error.max(error);
         }
-        println!("{} {s:?} {errors:?} {evaluations}", group[0][0]);
+        println!("{} {s:?} {errors:?} {evaluation_count}", group[0][0]);
     }
-    println!("{worst:?}");
-    assert!(worst[0].max(worst[1]) < 1e-8, "{worst:?}");
+    println!("{max_errors:?}");
+    assert!(max_errors[0].max(max_errors[1]) < 1e-8, "{max_errors:?}");
 }
 
+/// Largest difference, relative to the first compliance along x.
 fn largest_difference(
-    one: &[[Complex; SERIES_PER_OFFSET]],
-    two: &[[Complex; SERIES_PER_OFFSET]],
+    expected: &[[Complex; SERIES_PER_OFFSET]],
+    computed: &[[Complex; SERIES_PER_OFFSET]],
 ) -> f64 {
-    let pairs = one.as_flattened().iter().zip(two.as_flattened());
-    pairs.map(|(one, two)| (*one - *two).abs()).fold(0.0, f64::max) / one[0][1].abs()
+    let pairs = expected.as_flattened().iter().zip(computed.as_flattened());
+    pairs.map(|(a, b)| (*a - *b).abs()).fold(0.0, f64::max) / expected[0][1].abs()
 }
 
-/// A half-space cut into layers has the same compliance, although its integrals end and its tail begins elsewhere.
+/// Layers of equal soil have the compliance of a half-space, with other limits of integrals and tails.
 #[test]
-fn cut_half_space_is_whole() {
+fn equal_layers_are_a_half_space() {
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
-    let one = SoilProfile::on_half_plane(soil);
+    let half_space = SoilProfile::on_half_plane(soil);
     let lattice = Lattice { pitch: [0.5, 0.4], counts: [4, 3] };
     for s in
         [Complex::new(0.2, 1.5), Complex::new(3.0, 8.0), Complex::real(12.0), Complex::default()]
     {
-        let wanted = compliances(&lattice, &one, s, 1e-11).values;
+        let expected = compliances(&lattice, &half_space, s, 1e-11).values;
         for thickness in [0.25, 3.0] {
-            let cut = one.clone().with_layer(soil, thickness).unwrap();
-            let found = compliances(&lattice, &cut.with_layer(soil, 0.6).unwrap(), s, 1e-11).values;
-            let error = largest_difference(&wanted, &found);
+            let layered = half_space.clone().with_layer(soil, thickness).unwrap();
+            let computed =
+                compliances(&lattice, &layered.with_layer(soil, 0.6).unwrap(), s, 1e-11).values;
+            let error = largest_difference(&expected, &computed);
             println!("{s:?} {thickness} {error:e}");
             assert!(error < 2e-9, "{s:?} {thickness} {error:e}");
         }
     }
 }
 
-/// Short waves: panels up to a far wavenumber and a static rest in closed form, without tables, tails or halved panels.
+/// Compliances of short waves agree with plain sums up to a far wavenumber, plus static integrals in closed form.
 #[test]
-fn compliances_of_short_waves_are_plain_sums() {
+fn compliances_of_short_waves_agree_with_plain_sums() {
     let lattice = Lattice { pitch: [0.5, 0.4], counts: [2, 1] };
     let rule = Rule::new(16);
     let width = 8.0;
-    let panels = 750;
+    let panel_count = 750;
     for (profile, s) in [
         (half_space(), Complex::real(30.0)),
         (half_space(), Complex::new(12.0, 25.0)),
         (p1(gmb(5), gmb(1)), Complex::new(10.0, 40.0)),
     ] {
-        let found = compliances(&lattice, &profile, s, 3e-12).values;
+        let computed = compliances(&lattice, &profile, s, 3e-12).values;
         let mut ground = LayeredCompliance::default();
         ground.set(&profile, s).unwrap();
         let top = ground.top();
         let a2 = top.a2;
-        let unit = top.modulus.inverse();
-        // zz, rr, tt and zr at rest, times k.
-        let rest = [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| unit.scale(0.5 * d / (1.0 - a2)));
-        let mut wanted = vec![[Complex::default(); SERIES_PER_OFFSET]; found.len()];
-        for (wanted, offset) in wanted.iter_mut().zip(lattice.classes()) {
-            add_products(wanted, rest, integrals(lattice.pitch, offset));
+        let top_compliance = top.modulus.inverse();
+        // Static compliances zz, rr, tt and zr, times k.
+        let static_kernel =
+            [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| top_compliance.scale(0.5 * d / (1.0 - a2)));
+        let mut expected = vec![[Complex::default(); SERIES_PER_OFFSET]; computed.len()];
+        for (series, offset) in expected.iter_mut().zip(lattice.classes()) {
+            add_products(series, static_kernel, integrals(lattice.pitch, offset));
         }
         let mut means = AngularMeans::new(&lattice);
-        for panel in 0..panels {
+        for panel in 0..panel_count {
             for (x, weight) in rule.points_on_unit_interval() {
                 let k = width * (f64::from(panel) + x);
                 let SurfaceCompliance { xx, zz, xz } = ground.at(k);
-                let dynamic = [zz, xx, ground.across(), xz];
-                let kernel: CellKernel =
-                    std::array::from_fn(|i| (dynamic[i].scale(k) - rest[i]).scale(width * weight));
+                let compliances_at_k = [zz, xx, ground.transverse(), xz];
+                let kernel: CellKernel = std::array::from_fn(|i| {
+                    (compliances_at_k[i].scale(k) - static_kernel[i]).scale(width * weight)
+                });
                 let forms = means.at(k);
-                for (class, wanted) in wanted.iter_mut().enumerate() {
+                for (class, series) in expected.iter_mut().enumerate() {
                     add_products(
-                        wanted,
+                        series,
                         kernel,
-                        std::array::from_fn(|form| forms[form * found.len() + class]),
+                        std::array::from_fn(|form| forms[form * computed.len() + class]),
                     );
                 }
             }
         }
-        let error = largest_difference(&found, &wanted);
+        let error = largest_difference(&computed, &expected);
         println!("{s:?} {error:e}");
         assert!(error < 3e-10, "{s:?} {error:e}");
     }
@@ -165,35 +171,35 @@ fn add_products(
     sums[5] += zr.scale(-g_s);
 }
 
-/// Slow motions tend to the static values, and a layer is stiffer than a half-space.
+/// Compliances of slow motions tend to the static compliances.
 #[test]
 fn statics_are_the_limit_of_slow_motions() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [5, 3] };
     let profile = p1(gmb(5), gmb(1));
-    let still = compliances(&lattice, &profile, Complex::default(), 1e-11).values;
-    let slow = compliances(&lattice, &profile, Complex::real(1e-6), 1e-11).values;
-    let error = largest_difference(&still, &slow);
+    let static_values = compliances(&lattice, &profile, Complex::default(), 1e-11).values;
+    let slow_values = compliances(&lattice, &profile, Complex::real(1e-6), 1e-11).values;
+    let error = largest_difference(&static_values, &slow_values);
     assert!(error < 1e-5, "{error:e}");
-    assert!(still.as_flattened().iter().all(|value| value.im == 0.0));
+    assert!(static_values.as_flattened().iter().all(|value| value.im == 0.0));
 }
 
-/// All cells: factor × F.
+/// Matrix factor × F of all cells.
 fn assembled(
     lattice: &Lattice,
     values: &[[Complex; SERIES_PER_OFFSET]],
     factor: Complex,
 ) -> Vec<Complex64> {
-    let count = lattice.counts[0] * lattice.counts[1];
+    let cell_count = lattice.counts[0] * lattice.counts[1];
     let cells: Vec<_> =
-        (0..count).map(|n| [n % lattice.counts[0], n / lattice.counts[0]]).collect();
-    let order = 3 * count;
+        (0..cell_count).map(|n| [n % lattice.counts[0], n / lattice.counts[0]]).collect();
+    let order = 3 * cell_count;
     let mut matrix = vec![Complex64::default(); order * order];
-    for p in 0..count {
-        for q in 0..count {
-            let offset = offset(cells[p], cells[q]);
+    for receiver in 0..cell_count {
+        for source in 0..cell_count {
+            let offset = offset(cells[receiver], cells[source]);
             for (i, row) in lattice.block(values, offset).into_iter().enumerate() {
                 for (j, value) in row.into_iter().enumerate() {
-                    matrix[(3 * p + i) * order + 3 * q + j] = (factor * value).inner();
+                    matrix[(3 * receiver + i) * order + 3 * source + j] = (factor * value).inner();
                 }
             }
         }
@@ -201,11 +207,11 @@ fn assembled(
     matrix
 }
 
-/// Herm(sF) ≥ 0 for Re s > 0: random layers, damping, lattices; for masks and unions it is a congruence.
+/// Herm(sF) ≥ 0 for Re s > 0, for random layers, damping and lattices; masks and unions then follow by congruence.
 #[test]
 fn mobility_is_passive() {
     let mut random = RandomNumbers(7);
-    let mut smallest_ratio = f64::INFINITY;
+    let mut min_ratio = f64::INFINITY;
     for case in 0..200 {
         let mut profile = if case % 4 == 0 {
             SoilProfile::on_rigid_bedrock()
@@ -226,24 +232,24 @@ fn mobility_is_passive() {
         let matrix = assembled(&lattice, &values, s);
         let order = 3 * lattice.counts[0] * lattice.counts[1];
         let eigenvalues = crate::linalg::hermitian_range(&matrix, order).unwrap();
-        smallest_ratio = smallest_ratio.min(eigenvalues[0] / eigenvalues[1]);
+        min_ratio = min_ratio.min(eigenvalues[0] / eigenvalues[1]);
         assert!(eigenvalues[0] > -1e-10 * eigenvalues[1], "{case} {s:?} {eigenvalues:?}");
     }
-    println!("smallest/largest {smallest_ratio:e}");
-    assert!(smallest_ratio > 0.0);
+    println!("smallest/largest {min_ratio:e}");
+    assert!(min_ratio > 0.0);
 }
 
 /// Random numbers of a linear congruential generator (Knuth, MMIX).
 struct RandomNumbers(u64);
 
 impl RandomNumbers {
-    /// Number with an even distribution of its logarithm.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    /// Number between two bounds, with a uniform distribution of its logarithm.
+    fn between(&mut self, min: f64, max: f64) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
-        low * (high / low).powf((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+        min * (max / min).powf((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
     fn soil(&mut self) -> Soil {
