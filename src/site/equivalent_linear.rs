@@ -7,8 +7,8 @@ use super::SiteWarning;
 use super::iteration::{
     ColumnAccelerations, ConvergedProperties, EquivalentLinearOptions, Iteration, LayerProperties,
 };
+use super::part_progress::PartProgress;
 use super::soil_column::SoilColumn;
-use super::transform::PartProgress;
 use crate::error::{Observer, ProgressReporter, Result};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};

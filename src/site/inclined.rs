@@ -3,10 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use super::oblique::{InclinedControl, SurfaceFunctions, WaveKind};
+use super::part_progress::PartProgress;
 use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
 use super::slowness::IncidentWave;
-use super::transform::{Contour, ContourPoint, PartProgress};
+use super::transform::{Contour, ContourPoint};
 use crate::error::{
     Error, Observer, ProgressReporter, Result, SoilError, finite, not_negative, positive,
 };

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::part_progress::{PartProgress, after_filter};
 use super::site_motion::SiteMotion;
 use super::soil_column::SoilColumn;
-use super::transform::{FILTER_PROGRESS_FRACTION, PartProgress, Transform};
+use super::transform::Transform;
 use super::vertical::{ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Error, ProgressReporter, Result, positive, require, require_part, same_length};
 use crate::motion::Record;
@@ -324,11 +325,6 @@ impl<'a> Iteration<'a> {
             properties = relaxed_properties;
         }
     }
-}
-
-/// Progress of a part after its spectra are filtered, from the finished fraction of the rest.
-fn after_filter(fraction: f64) -> f64 {
-    FILTER_PROGRESS_FRACTION + (1.0 - FILTER_PROGRESS_FRACTION) * fraction
 }
 
 /// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969).

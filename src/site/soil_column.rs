@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use super::part_progress::PartProgress;
 use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
-use super::transform::{Contour, ContourPoint, PartProgress, Transform};
+use super::transform::{Contour, ContourPoint, Transform};
 use super::vertical::{ColumnFunctions, ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Observer, ProgressReporter, Result, not_negative};
 use crate::linalg::Complex;

@@ -12,10 +12,9 @@ use std::sync::Arc;
 use basemat_fourier::num_complex::Complex64;
 use basemat_fourier::{ComplexToReal, RealPlanner};
 
+use super::part_progress::{FILTER_PROGRESS_FRACTION, PartProgress};
 use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
-use crate::error::{
-    Error, ProgressReporter, Result, finite, memory, positive, require, same_length,
-};
+use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
 /// ηT: wrap-around is reduced to e^(−24).
@@ -38,8 +37,6 @@ const ZERO_FREQUENCY_STEPS: f64 = 1e-3;
 const FREQUENCIES_PER_BLOCK: usize = 64;
 /// Bytes of a filtered spectrum, and of one value of the filters, for each sample of the transform.
 const BYTES_PER_FILTERED_SAMPLE: f64 = 12.0;
-/// Fraction of a part's progress after which its spectra are filtered; the rest are inverse transforms.
-pub(super) const FILTER_PROGRESS_FRACTION: f64 = 0.5;
 /// Number of samples after which responses of the transition end.
 const TRANSITION_SAMPLES: usize = 2000;
 
@@ -394,34 +391,5 @@ impl SpectrumSums {
             self.amplified_power += power;
             self.lowest_amplified_frequency.get_or_insert(omega / std::f64::consts::TAU);
         }
-    }
-}
-
-/// Reports the progress of one of the equal parts of a call.
-pub(super) struct PartProgress<'p, 'w> {
-    reporter: &'p mut ProgressReporter<'w>,
-    /// Number of steps of the call before this part.
-    first_step: usize,
-}
-
-impl<'p, 'w> PartProgress<'p, 'w> {
-    /// Number of steps into which each part is divided for the observer.
-    pub(super) const STEPS_PER_PART: usize = 1000;
-
-    /// Progress of a call of one part.
-    pub(super) fn of_whole_call(reporter: &'p mut ProgressReporter<'w>) -> Self {
-        Self::of_part(reporter, 0)
-    }
-
-    /// Progress of the part with this index, from 0.
-    pub(super) fn of_part(reporter: &'p mut ProgressReporter<'w>, part_index: usize) -> Self {
-        Self { reporter, first_step: part_index.saturating_mul(Self::STEPS_PER_PART) }
-    }
-
-    /// Reports the finished fraction of the part.
-    pub(super) fn report(&mut self, fraction: f64) -> Result<()> {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
-        let done = (Self::STEPS_PER_PART as f64 * fraction.clamp(0.0, 1.0)) as usize;
-        self.reporter.reach(self.first_step.saturating_add(done))
     }
 }

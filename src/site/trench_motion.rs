@@ -1,6 +1,6 @@
 //! Waves from below at the faces of a trench.
 
-use super::transform::PartProgress;
+use super::part_progress::PartProgress;
 use super::trench_waves::{LevelRecords, SurfaceRecords, TrenchWaves, VALUES_PER_LEVEL};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;

@@ -6,7 +6,8 @@
 use std::f64::consts::PI;
 
 use super::below_surface::{FieldMedium, WaveField};
-use super::transform::{Contour, PartProgress, Transform};
+use super::part_progress::PartProgress;
+use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};
 use crate::error::{ProgressReporter, Result, memory, require, require_part};
