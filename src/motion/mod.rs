@@ -24,4 +24,6 @@ pub use free_field::{
 };
 pub use plane_wave::PlaneWave;
 pub(crate) use plane_wave::check_prescribed;
+#[cfg(feature = "embedded")]
+pub(crate) use travelling_wave::SlownessAndOrigin;
 pub use travelling_wave::TravellingWave;

@@ -20,13 +20,25 @@ use crate::error::{Result, finite, require};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct TravellingWave {
+    /// Motion at the origin.
     field: Box<dyn FreeField>,
+    /// Slowness in the direction of the wave, s/m.
     slowness: f64,
+    /// Coordinate in the direction of the wave at which it has the motion of `field`, m.
     origin: f64,
     /// Cosine of the azimuth.
     cos: f64,
     /// Sine of the azimuth.
     sin: f64,
+}
+
+/// Slowness and origin of a wave that runs along x.
+#[cfg(feature = "embedded")]
+pub(crate) struct SlownessAndOrigin {
+    /// Slowness along x, s/m.
+    pub(crate) slowness: f64,
+    /// The x at which the wave has the motion of its record, m.
+    pub(crate) origin: f64,
 }
 
 short_debug! {
@@ -84,15 +96,16 @@ impl TravellingWave {
         Ok(Self { cos: azimuth.cos(), sin: azimuth.sin(), ..self })
     }
 
-    /// Slowness (s/m) along x and origin (m) of a wave that runs along x.
+    /// Slowness and origin of a wave that runs along x, or an error.
     #[cfg(feature = "embedded")]
-    pub(crate) fn along(&self) -> Result<[f64; 2]> {
-        let needed = "none: waves of a ground in the plane run along x and move it along x and up";
+    pub(crate) fn slowness_along_x(&self) -> Result<SlownessAndOrigin> {
+        let needed =
+            "none: waves of a ground in the plane run along x and move the ground along x and up";
         require_part("motion of a wave along y", !self.moves_across(), needed)?;
-        Ok([self.slowness * self.cos, self.origin * self.cos])
+        Ok(SlownessAndOrigin { slowness: self.slowness * self.cos, origin: self.origin * self.cos })
     }
 
-    /// Time (s) that the wave takes from `origin` to a place.
+    /// Time (s) that the wave takes from the origin to a point.
     fn delay(&self, [x, y]: [f64; 2]) -> f64 {
         self.slowness * (self.cos * x + self.sin * y - self.origin)
     }
@@ -106,10 +119,10 @@ impl FreeField for TravellingWave {
 
     fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
         let Self { cos, sin, .. } = *self;
-        let place_in_field = [self.origin, cos * y - sin * x];
-        let [along, across, up] =
-            self.field.displacement_at(place_in_field, time - self.delay([x, y]));
-        [cos * along - sin * across, sin * along + cos * across, up]
+        let point_in_field = [self.origin, cos * y - sin * x];
+        let [radial, transverse, up] =
+            self.field.displacement_at(point_in_field, time - self.delay([x, y]));
+        [cos * radial - sin * transverse, sin * radial + cos * transverse, up]
     }
 
     fn moves_across(&self) -> bool {

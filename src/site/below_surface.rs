@@ -22,17 +22,18 @@ use crate::soil::Soil;
 /// Displacements and impulses of stresses at one depth.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct WaveField {
-    /// u_x.
+    /// Displacement to the right, u_x.
     pub(super) right: Complex,
-    /// u_z.
+    /// Displacement down, u_z.
     pub(super) down: Complex,
-    /// τ.
+    /// Impulse of the shear stress, τ.
     pub(super) shear: Complex,
-    /// σ.
+    /// Impulse of the vertical stress, σ.
     pub(super) normal: Complex,
 }
 
 impl WaveField {
+    /// This field times a factor.
     fn times(self, factor: Complex) -> Self {
         Self {
             right: self.right * factor,
@@ -42,6 +43,7 @@ impl WaveField {
         }
     }
 
+    /// Sum of two fields.
     fn plus(self, other: Self) -> Self {
         Self {
             right: self.right + other.right,
@@ -52,16 +54,20 @@ impl WaveField {
     }
 }
 
-/// Size of a term at which the series of an exponential ends: rounding.
+/// Bound of a term, relative to the field, at which the series of an exponential ends: rounding.
 const SERIES_TOLERANCE: f64 = 1e-17;
 
-/// Soil at one s, for waves of one horizontal slowness.
+/// Soil for waves of one s and one horizontal slowness.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FieldMedium {
+    /// ρ.
     density: f64,
+    /// p.
     slowness: f64,
-    /// 1/μ and 1/c.
-    compliances: [Complex; 2],
+    /// 1/μ.
+    shear_compliance: Complex,
+    /// 1/c.
+    pressure_compliance: Complex,
     /// λ/c.
     lateral_ratio: f64,
     /// E.
@@ -69,56 +75,59 @@ pub(super) struct FieldMedium {
 }
 
 impl FieldMedium {
+    /// Medium of a soil with this complex shear modulus.
     pub(super) fn new(soil: Soil, modulus: Complex, slowness: f64) -> Self {
-        let ratio = soil.speed_ratio_squared();
-        let shear = modulus.inverse();
+        let speed_ratio_squared = soil.speed_ratio_squared();
+        let shear_compliance = modulus.inverse();
         Self {
             density: soil.density(),
             slowness,
-            compliances: [shear, shear.scale(ratio)],
-            lateral_ratio: 1.0 - 2.0 * ratio,
-            plane_strain_modulus: modulus.scale(4.0 * (1.0 - ratio)),
+            shear_compliance,
+            pressure_compliance: shear_compliance.scale(speed_ratio_squared),
+            lateral_ratio: 1.0 - 2.0 * speed_ratio_squared,
+            plane_strain_modulus: modulus.scale(4.0 * (1.0 - speed_ratio_squared)),
         }
     }
 
-    /// q.
+    /// Impulse of the horizontal stress, q.
     pub(super) fn horizontal_stress(&self, field: WaveField) -> Complex {
         field.normal.scale(self.lateral_ratio)
             - self.plane_strain_modulus * field.right.scale(self.slowness)
     }
 
-    /// Derivative of a field over depth, over s.
+    /// Derivative of a field with respect to depth, divided by s.
     fn rate(&self, field: WaveField) -> WaveField {
         let WaveField { right, down, shear, normal } = field;
         let p = self.slowness;
         WaveField {
-            right: shear * self.compliances[0] + down.scale(p),
-            down: normal * self.compliances[1] + right.scale(p * self.lateral_ratio),
+            right: shear * self.shear_compliance + down.scale(p),
+            down: normal * self.pressure_compliance + right.scale(p * self.lateral_ratio),
             shear: right.scale(self.density) + self.horizontal_stress(field).scale(p),
             normal: down.scale(self.density) + shear.scale(p),
         }
     }
 
-    /// The field `height` (m) below `field`.
-    pub(super) fn below(&self, s: Complex, height: f64, mut field: WaveField) -> WaveField {
-        let slowness = (self.density * self.compliances[0].abs()).sqrt() + self.slowness.abs();
-        let travel = s.abs() * height * slowness;
-        let mut remaining = travel;
-        while remaining > 0.0 {
-            // Series of the exponential, in steps of at most one.
-            let step = remaining.min(1.0);
-            let length = s.scale(height * (step / travel));
+    /// The field at a depth that is `depth_step` (m) below that of `field`.
+    pub(super) fn below(&self, s: Complex, depth_step: f64, mut field: WaveField) -> WaveField {
+        let max_slowness =
+            (self.density * self.shear_compliance.abs()).sqrt() + self.slowness.abs();
+        let total_phase = s.abs() * depth_step * max_slowness;
+        let mut remaining_phase = total_phase;
+        while remaining_phase > 0.0 {
+            // The series of the exponential converges fast for phases of at most one.
+            let phase_step = remaining_phase.min(1.0);
+            let s_depth_step = s.scale(depth_step * (phase_step / total_phase));
             let mut term = field;
-            let mut term_size = 1.0;
+            let mut term_bound = 1.0;
             let mut order = 0.0;
-            while term_size > SERIES_TOLERANCE {
+            while term_bound > SERIES_TOLERANCE {
                 order += 1.0;
-                term_size *= step / order;
-                let factor = length.scale(1.0 / order);
+                term_bound *= phase_step / order;
+                let factor = s_depth_step.scale(1.0 / order);
                 term = self.rate(term).times(factor);
                 field = field.plus(term);
             }
-            remaining -= step;
+            remaining_phase -= phase_step;
         }
         field
     }
@@ -155,28 +164,29 @@ mod tests {
             let medium = FieldMedium::new(soil, modulus, p);
             let surface = WaveField { right: x, down: z, ..WaveField::default() };
             let upper = medium.below(s, 1.1, surface);
-            let found = medium.below(s, 0.6, upper);
+            let computed = medium.below(s, 0.6, upper);
             // Σ over waves up (e = 1) and down (e = −1).
-            let mut wanted = [Complex::default(); 4];
+            let mut expected = [Complex::default(); 4];
             let mut horizontal_stress = Complex::default();
             let c = modulus.scale(1.0 / soil.speed_ratio_squared());
-            let pressing = c.scale(p * p) + (c - modulus.scale(2.0)) * a * a;
+            let normal_stiffness = c.scale(p * p) + (c - modulus.scale(2.0)) * a * a;
             for e in [1.0, -1.0] {
                 let p_travel = (s * a.scale(1.7 * e)).exp();
                 let s_travel = (s * b.scale(1.7 * e)).exp();
                 let pressure = (p_even + p_odd.scale(e)).scale(0.5) * p_travel;
                 let shear = (s_even + s_odd.scale(e)).scale(0.5) * s_travel;
-                wanted[0] += pressure.scale(p) + shear * b;
-                wanted[1] += shear.scale(e * p) - pressure * a.scale(e);
-                wanted[2] += modulus * (pressure * a.scale(2.0 * p * e) + shear * g.scale(e));
-                wanted[3] += modulus * (shear * b.scale(2.0 * p) - pressure * g);
-                horizontal_stress += -(pressure * pressing) - shear * modulus * b.scale(2.0 * p);
+                expected[0] += pressure.scale(p) + shear * b;
+                expected[1] += shear.scale(e * p) - pressure * a.scale(e);
+                expected[2] += modulus * (pressure * a.scale(2.0 * p * e) + shear * g.scale(e));
+                expected[3] += modulus * (shear * b.scale(2.0 * p) - pressure * g);
+                horizontal_stress +=
+                    -(pressure * normal_stiffness) - shear * modulus * b.scale(2.0 * p);
             }
-            let values = [found.right, found.down, found.shear, found.normal];
-            for (found, wanted) in values.into_iter().zip(wanted) {
-                assert!((found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
+            let values = [computed.right, computed.down, computed.shear, computed.normal];
+            for (computed, expected) in values.into_iter().zip(expected) {
+                assert!((computed - expected).abs() < 1e-12, "{p}: {computed:?} {expected:?}");
             }
-            assert!((medium.horizontal_stress(found) - horizontal_stress).abs() < 1e-12);
+            assert!((medium.horizontal_stress(computed) - horizontal_stress).abs() < 1e-12);
         }
     }
 
@@ -210,14 +220,16 @@ mod tests {
             // P along (p, −a), S along (b, p), upwards.
             let g = b * b - p * p;
             let c = 0.5 * rock.shear_wave_speed().powi(2);
-            let along = (x.scale(2.0 * p) - normal) + (shear.scale(p) - z.scale(g)).scale(1.0 / a);
-            let across = (x.scale(g) + normal.scale(p)).scale(1.0 / b) + (z.scale(2.0 * p) + shear);
-            let found = [
-                across.scale(c / rock.shear_wave_speed()),
-                along.scale(c / rock.pressure_wave_speed()),
+            let p_amplitude =
+                (x.scale(2.0 * p) - normal) + (shear.scale(p) - z.scale(g)).scale(1.0 / a);
+            let s_amplitude =
+                (x.scale(g) + normal.scale(p)).scale(1.0 / b) + (z.scale(2.0 * p) + shear);
+            let computed = [
+                s_amplitude.scale(c / rock.shear_wave_speed()),
+                p_amplitude.scale(c / rock.pressure_wave_speed()),
             ];
-            assert!((found[kind].abs() - 1.0).abs() < 1e-11, "{found:?}");
-            assert!(found[1 - kind].abs() < 1e-11, "{found:?}");
+            assert!((computed[kind].abs() - 1.0).abs() < 1e-11, "{computed:?}");
+            assert!(computed[1 - kind].abs() < 1e-11, "{computed:?}");
         }
     }
 }

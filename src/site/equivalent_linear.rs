@@ -5,16 +5,19 @@ use std::fmt;
 
 use super::SiteWarning;
 use super::iteration::{
-    ColumnAccelerations, Converged, EquivalentLinearOptions, Iteration, LayerProperties,
+    ColumnAccelerations, ConvergedProperties, EquivalentLinearOptions, Iteration, LayerProperties,
 };
+use super::part_progress::PartProgress;
 use super::soil_column::SoilColumn;
-use super::transform::PartProgress;
 use crate::error::{Observer, ProgressReporter, Result};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
 use crate::soil::{
     Bedrock, Elastic, GeneralizedMaxwell, ResolvedCurves, SoilProfile, StrainCurves,
 };
+
+/// Motion cut off, relative to the peak, above which a warning says so.
+const CUT_OFF_LIMIT: f64 = 0.01;
 
 /// Strain-compatible properties of one layer, and its strains.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,9 +55,9 @@ pub struct EquivalentLinear {
     ///
     /// Each has as many samples as the motion.
     pub accelerations: Vec<Vec<f64>>,
-    /// Largest absolute acceleration at each of these places, m/s².
+    /// Largest absolute acceleration at each of these tops, m/s².
     pub peak_accelerations: Vec<f64>,
-    /// Linear calculations made.
+    /// Number of linear calculations.
     pub iterations: usize,
     /// Estimated largest relative change of a modulus or damping ratio by all further iterations.
     pub last_change: f64,
@@ -112,19 +115,20 @@ impl SoilColumn {
         options: &EquivalentLinearOptions,
         observer: &mut Observer<'_>,
     ) -> Result<EquivalentLinear> {
-        let total = options
+        let step_count = options
             .most_iterations
             .saturating_add(1)
             .saturating_mul(PartProgress::STEPS_PER_PART);
-        let mut watch = ProgressReporter::new("equivalent-linear response", total, observer);
+        let mut reporter =
+            ProgressReporter::new("equivalent-linear response", step_count, observer);
         let mut iteration = Iteration::new(self, motion, curves, options)?;
-        let Converged { properties, strains, iterations, last_change } =
-            iteration.converged(&mut watch)?;
-        let mut progress = PartProgress::part(&mut watch, iterations);
-        let ColumnAccelerations { surface, tops } =
+        let ConvergedProperties { properties, strains, iterations, last_change } =
+            iteration.run(&mut reporter)?;
+        let mut progress = PartProgress::of_part(&mut reporter, iterations);
+        let ColumnAccelerations { surface, top_accelerations } =
             iteration.accelerations(&properties, &mut progress)?;
-        let peak_accelerations = tops.iter().map(|series| largest(series)).collect();
-        let cut_off = surface.before.max(surface.after) / surface.peak();
+        let peak_accelerations = top_accelerations.iter().map(|samples| largest(samples)).collect();
+        let cut_off_ratio = surface.before.max(surface.after) / surface.peak();
         let mut depth = 0.0;
         let mut layers = Vec::with_capacity(strains.len());
         let converged_layers = self.profile.layers().iter().zip(&properties).zip(&strains);
@@ -141,33 +145,37 @@ impl SoilColumn {
         }
         let mut result = EquivalentLinear {
             layers,
-            profile: self.causal(&properties, options)?,
+            profile: self.causal_profile(&properties, options)?,
             surface: Record::new(motion.time_step(), surface.samples)?,
-            accelerations: tops,
+            accelerations: top_accelerations,
             peak_accelerations,
             iterations,
             last_change,
             warnings: vec![],
         };
-        result.warn(options.tolerance, &iteration.curves, cut_off);
-        watch.reach(total)?;
+        result.warn(options.tolerance, &iteration.curves, cut_off_ratio);
+        reporter.reach(step_count)?;
         Ok(result)
     }
 
-    /// Profile with these properties by causal damping laws, with the same moduli at its first frequency.
-    fn causal(
+    /// Profile with causal damping laws, and these properties at its first frequency.
+    fn causal_profile(
         &self,
         properties: &[LayerProperties],
         options: &EquivalentLinearOptions,
     ) -> Result<SoilProfile> {
         let EquivalentLinearOptions { band, complex_modulus, .. } = *options;
-        let soft = self.compatible(properties, complex_modulus, |_| Ok(Elastic))?;
-        let reference = soft.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
-        let causal_law = |ratio| GeneralizedMaxwell::constant_q(ratio, band, reference);
-        let profile = self.compatible(properties, complex_modulus, causal_law)?;
+        let elastic_profile =
+            self.compatible_profile(properties, complex_modulus, |_| Ok(Elastic))?;
+        let reference_frequency =
+            elastic_profile.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
+        let causal_law = |damping_ratio| {
+            GeneralizedMaxwell::constant_q(damping_ratio, band, reference_frequency)
+        };
+        let profile = self.compatible_profile(properties, complex_modulus, causal_law)?;
         match profile.bedrock() {
             Bedrock::HalfPlane { damping, .. } if !damping.is_causal() => {
-                let modulus = damping.modulus(Complex::new(0.0, TAU * reference));
+                let modulus = damping.modulus(Complex::new(0.0, TAU * reference_frequency));
                 let bedrock_law = causal_law(0.5 * modulus.im / modulus.re)?;
                 Ok(profile.with_bedrock_damping(bedrock_law))
             }
@@ -177,17 +185,22 @@ impl SoilColumn {
 }
 
 impl EquivalentLinear {
-    fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off: f64) {
-        for (k, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
-            let layer = k + 1;
-            let largest = curves.largest();
+    /// Adds the warnings.
+    fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off_ratio: f64) {
+        for (index, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
+            let layer = index + 1;
+            let curve_end = curves.largest();
             let strain = response.largest_strain;
             if strain > SiteWarning::STRAIN_LIMIT {
                 self.warnings.push(SiteWarning::LargeStrain { layer, strain });
             }
-            let strain = response.effective_strain;
-            if strain > largest {
-                self.warnings.push(SiteWarning::Extrapolated { layer, strain, largest });
+            let effective_strain = response.effective_strain;
+            if effective_strain > curve_end {
+                self.warnings.push(SiteWarning::Extrapolated {
+                    layer,
+                    strain: effective_strain,
+                    largest: curve_end,
+                });
             }
         }
         if self.last_change > tolerance {
@@ -196,8 +209,8 @@ impl EquivalentLinear {
                 iterations: self.iterations,
             });
         }
-        if cut_off > 0.01 {
-            self.warnings.push(SiteWarning::CutOff { share: cut_off });
+        if cut_off_ratio > CUT_OFF_LIMIT {
+            self.warnings.push(SiteWarning::CutOff { share: cut_off_ratio });
         }
     }
 }
@@ -226,9 +239,12 @@ impl fmt::Display for EquivalentLinear {
         }
         let bedrock = peaks.next().unwrap_or(f64::NAN);
         writeln!(f, "{:>9.2} {:>60} {bedrock:>8.3}", self.profile.depth(), "bedrock, within")?;
-        let count = self.iterations;
-        let change = 100.0 * self.last_change;
-        write!(f, "{count} iterations, to {change:.2} % of strain-compatible properties")?;
+        let iterations = self.iterations;
+        let change_percent = 100.0 * self.last_change;
+        write!(
+            f,
+            "{iterations} iterations, to {change_percent:.2} % of strain-compatible properties"
+        )?;
         self.warnings.iter().try_for_each(|warning| write!(f, "\n{warning}"))
     }
 }

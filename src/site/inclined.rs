@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::oblique::{InclinedControl, SurfaceFunctions, WaveKind};
+use super::part_progress::PartProgress;
 use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
 use super::slowness::IncidentWave;
-use super::transform::PartProgress;
 use super::transform::{Contour, ContourPoint};
 use crate::error::{
     Error, Observer, ProgressReporter, Result, SoilError, finite, not_negative, positive,
@@ -46,11 +46,14 @@ use crate::soil::{Bedrock, Soil, SoilProfile};
 /// ```
 #[derive(Debug, Clone)]
 pub struct InclinedWave {
+    /// Layers, and the half-plane below.
     profile: SoilProfile,
+    /// Soil of the half-plane.
     base: Soil,
-    kind: WaveKind,
+    wave_kind: WaveKind,
+    /// Horizontal slowness, s/m.
     slowness: f64,
-    incident: IncidentWave,
+    incident_wave: IncidentWave,
     /// Plane wave in the base without layers.
     outcrop: PlaneWave,
 }
@@ -103,23 +106,31 @@ impl InclinedWave {
         Self::new(profile, angle, WaveKind::P)
     }
 
-    fn new(profile: SoilProfile, angle: f64, kind: WaveKind) -> Result<Self> {
+    /// Wave of this kind at `angle` (rad) from the vertical in the base.
+    fn new(profile: SoilProfile, angle: f64, wave_kind: WaveKind) -> Result<Self> {
         let Bedrock::HalfPlane { soil: base, .. } = *profile.bedrock() else {
             let needed = "waves at an angle come from a half-plane below the layers, not from rigid bedrock \
                           (site::SoilColumn takes the motion of rigid bedrock to the surface)";
             return Err(Error::Scene { quantity: "inclined wave", needed });
         };
-        let outcrop = match kind {
+        let outcrop = match wave_kind {
             WaveKind::Sv => PlaneWave::sv(base, angle)?,
             WaveKind::P => PlaneWave::p(base, angle)?,
             WaveKind::Sh => PlaneWave::sh(base, angle)?,
         };
-        let speed = match kind {
+        let wave_speed = match wave_kind {
             WaveKind::Sv | WaveKind::Sh => base.shear_wave_speed(),
             WaveKind::P => base.pressure_wave_speed(),
         };
-        let incident = IncidentWave { slowness: 1.0 / speed, cosine: angle.cos() };
-        Ok(Self { profile, base, kind, slowness: angle.sin() / speed, incident, outcrop })
+        let incident_wave = IncidentWave { slowness: 1.0 / wave_speed, cosine: angle.cos() };
+        Ok(Self {
+            profile,
+            base,
+            wave_kind,
+            slowness: angle.sin() / wave_speed,
+            incident_wave,
+            outcrop,
+        })
     }
 
     /// Velocity (m/s) of the wave along the surface, positive to the right.
@@ -139,12 +150,12 @@ impl InclinedWave {
     /// free surface wave of an undamped layer); as for damping laws that are not passive.
     pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
         not_negative("frequency of a transfer function", frequency)?;
-        self.check(control)?;
-        let mut found = [Complex::default(); 2];
-        let place = ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency));
-        self.functions(control).evaluate_at(&place, &mut found)?;
-        check_motion(&found)?;
-        Ok(found)
+        self.check_control(control)?;
+        let mut motion = [Complex::default(); 2];
+        let point = ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency));
+        self.functions(control).evaluate_at(&point, &mut motion)?;
+        check_motion(&motion)?;
+        Ok(motion)
     }
 
     /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x.
@@ -162,36 +173,36 @@ impl InclinedWave {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<[SiteMotion; 2]> {
-        let watch = &mut ProgressReporter::new(
+        let reporter = &mut ProgressReporter::new(
             "motion of the surface",
             PartProgress::STEPS_PER_PART,
             observer,
         );
-        let mut found = self.filtered(control, time_step, motion, watch)?;
-        for found in &mut found {
-            found.cut(motion.len());
+        let mut components = self.filtered(control, time_step, motion, reporter)?;
+        for component in &mut components {
+            component.truncate(motion.len());
         }
-        Ok(found)
+        Ok(components)
     }
 
-    /// [`InclinedWave::to_surface`] with the motion after the end of the samples.
+    /// Motion of the surface, also after the end of the samples.
     fn filtered(
         &self,
         control: InclinedControl,
         time_step: f64,
         motion: &[f64],
-        watch: &mut ProgressReporter<'_>,
+        reporter: &mut ProgressReporter<'_>,
     ) -> Result<[SiteMotion; 2]> {
         positive("time step of a motion", time_step)?;
-        self.check(control)?;
+        self.check_control(control)?;
         self.profile.check_causal()?;
-        self.check_beginning(PI / time_step)?;
+        self.check_first_arrival(PI / time_step)?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
         let functions = self.functions(control).sampled(contour.end()?)?;
         let mut moduli = vec![];
-        contour.filtered(motion, &mut PartProgress::whole(watch), |places, found| {
-            evaluate(&functions, places, &mut moduli, found)?;
-            check_motion(found)
+        contour.filtered(motion, &mut PartProgress::of_whole_call(reporter), |points, values| {
+            evaluate(&functions, points, &mut moduli, values)?;
+            check_motion(values)
         })
     }
 
@@ -225,57 +236,66 @@ impl InclinedWave {
         record: &Record,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let mut watch =
+        let mut reporter =
             ProgressReporter::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
-        self.surface(control, record, &mut watch)
+        self.surface(control, record, &mut reporter)
     }
 
+    /// Records of the surface until the layers are at rest.
     fn surface(
         &self,
         control: InclinedControl,
         record: &Record,
-        watch: &mut ProgressReporter<'_>,
+        reporter: &mut ProgressReporter<'_>,
     ) -> Result<Triaxial> {
-        let step = record.time_step();
+        let time_step = record.time_step();
         let [mut horizontal, mut vertical] =
-            self.filtered(control, step, record.accelerations(), watch)?;
-        let count = horizontal.duration().max(vertical.duration()).max(record.len());
-        horizontal.cut(count);
-        vertical.cut(count);
-        let horizontal = Some(Record::new(step, horizontal.samples)?);
-        if self.kind == WaveKind::Sh {
+            self.filtered(control, time_step, record.accelerations(), reporter)?;
+        let sample_count = horizontal
+            .moving_sample_count()
+            .max(vertical.moving_sample_count())
+            .max(record.len());
+        horizontal.truncate(sample_count);
+        vertical.truncate(sample_count);
+        let horizontal = Some(Record::new(time_step, horizontal.samples)?);
+        if self.wave_kind == WaveKind::Sh {
             return Ok(Triaxial { y: horizontal, ..Triaxial::default() });
         }
-        let up = Some(Record::new(step, vertical.samples)?);
+        let up = Some(Record::new(time_step, vertical.samples)?);
         Ok(Triaxial { x: horizontal, up, y: None })
     }
 
     /// Error if the prescribed component of the outcrop is too small.
-    fn check(&self, control: InclinedControl) -> Result<()> {
-        let amplification = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
-        let x = amplification[0] + self.outcrop.amplification_across();
-        let up = amplification[1];
+    fn check_control(&self, control: InclinedControl) -> Result<()> {
+        let amplitudes = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
+        let horizontal = amplitudes[0] + self.outcrop.amplification_across();
+        let vertical = amplitudes[1];
         match control {
-            InclinedControl::OutcropHorizontal => {
-                check_prescribed("horizontal motion of the outcrop over the largest", x, up)
-            }
-            InclinedControl::OutcropVertical => {
-                check_prescribed("vertical motion of the outcrop over the largest", up, x)
-            }
+            InclinedControl::OutcropHorizontal => check_prescribed(
+                "horizontal motion of the outcrop over the largest",
+                horizontal,
+                vertical,
+            ),
+            InclinedControl::OutcropVertical => check_prescribed(
+                "vertical motion of the outcrop over the largest",
+                vertical,
+                horizontal,
+            ),
             InclinedControl::Incident => Ok(()),
         }
     }
 
-    /// Error if waves are evanescent in a layer: motion would precede its cause.
+    /// Error if waves are evanescent in a layer, where motion would precede its cause.
     ///
-    /// Layers stiffen with frequency, so the highest frequency decides.
-    fn check_beginning(&self, highest: f64) -> Result<()> {
+    /// `highest_frequency`: rad/s. Waves are fastest at the highest frequency, since layers are stiffest there.
+    fn check_first_arrival(&self, highest_frequency: f64) -> Result<()> {
         let mut moduli = vec![];
-        let s = Complex::real(finite("highest frequency of a motion", highest)?);
+        let s = Complex::real(finite("highest frequency of a motion", highest_frequency)?);
         self.profile.moduli(s, &mut moduli)?;
         for (index, ((soil, _), modulus)) in self.profile.soils().zip(&moduli).enumerate() {
-            let fastest = if self.kind == WaveKind::Sh { 1.0 } else { soil.speed_ratio_squared() };
-            let limit = (soil.density() * fastest / modulus.re).sqrt();
+            let squared_speed_ratio =
+                if self.wave_kind == WaveKind::Sh { 1.0 } else { soil.speed_ratio_squared() };
+            let limit = (soil.density() * squared_speed_ratio / modulus.re).sqrt();
             let slowness = self.slowness.abs();
             if slowness >= limit {
                 let layer = index + 1;
@@ -287,14 +307,15 @@ impl InclinedWave {
 
     /// Motion of the surface, horizontal and up, as functions of s.
     fn functions(&self, control: InclinedControl) -> SurfaceFunctions<'_> {
-        let Self { profile, base, kind, slowness, incident, .. } = self;
-        SurfaceFunctions::exact(profile, *base, *kind, control, *slowness, *incident)
+        let Self { profile, base, wave_kind, slowness, incident_wave, .. } = self;
+        SurfaceFunctions::exact(profile, *base, *wave_kind, control, *slowness, *incident_wave)
     }
 }
 
-fn check_motion(found: &[Complex]) -> Result<()> {
-    for x in found {
-        finite("motion of the surface under an inclined wave", x.re + x.im)?;
+/// Error for a motion that is not finite.
+fn check_motion(values: &[Complex]) -> Result<()> {
+    for value in values {
+        finite("motion of the surface under an inclined wave", value.re + value.im)?;
     }
     Ok(())
 }

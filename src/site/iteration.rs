@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::part_progress::{PartProgress, after_filter};
 use super::site_motion::SiteMotion;
 use super::soil_column::SoilColumn;
-use super::transform::PartProgress;
 use super::transform::Transform;
 use super::vertical::{ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Error, ProgressReporter, Result, positive, require, require_part, same_length};
@@ -16,23 +16,23 @@ use crate::soil::{
 
 /// Smallest effective strain of the iteration, in place of zero.
 const MIN_EFFECTIVE_STRAIN: f64 = 1e-12;
-/// Limit of ξ for [`ComplexModulus::Magnitude`].
+/// Upper limit, excluded, of ξ for [`ComplexModulus::Magnitude`].
 ///
-/// There the equivalent ratio ξ' is nearly 1, the limit of damping laws.
+/// At this ξ the equivalent ratio ξ' is nearly 1, the limit of damping laws.
 const MAX_MAGNITUDE_DAMPING: f64 = 0.52;
-/// Smallest and largest relaxation factor.
-const RELAXATION_RANGE: [f64; 2] = [0.3, 20.0];
+/// Smallest relaxation factor: smaller ones delay the convergence of oscillating iterations.
+const MIN_RELAXATION_FACTOR: f64 = 0.3;
+/// Largest relaxation factor: larger ones extrapolate too far from two residuals.
+const MAX_RELAXATION_FACTOR: f64 = 20.0;
 
 /// Options of [`SoilColumn::equivalent_linear`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EquivalentLinearOptions {
-    /// Place of the given motion in the column.
+    /// Position of the input motion in the column.
     pub control: ControlPoint,
     /// Ratio of the effective strain to the largest strain, at most 1.
     pub strain_ratio: f64,
-    /// Largest remaining relative change of a modulus or damping ratio.
-    ///
-    /// It is estimated for all further iterations together.
+    /// Tolerance of the relative change of a modulus or damping ratio by all further iterations.
     pub tolerance: f64,
     /// Largest number of iterations, at least 1.
     pub most_iterations: usize,
@@ -44,8 +44,8 @@ pub struct EquivalentLinearOptions {
 
 /// Complex modulus of a layer from its shear modulus G and damping ratio ξ.
 ///
-/// The two forms differ by 2ξ² in the stiffness, so surface peaks differ by some per cent above about 10 %
-/// damping. Use the convention of the program with which you compare results.
+/// The stiffness of the two forms differs by 2ξ². Peaks at the surface therefore differ by some per cent above about
+/// 10 % damping. Use the convention of the program with which you compare results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -62,14 +62,19 @@ pub enum ComplexModulus {
 pub(super) struct LayerProperties {
     /// Ratio of the shear modulus to that at small strain.
     pub(super) modulus_ratio: f64,
+    /// Damping ratio ξ.
     pub(super) damping_ratio: f64,
 }
 
 impl ComplexModulus {
     /// The G' and ξ' for which G'(1 + 2iξ') is the complex modulus of a layer.
     ///
-    /// `index`: of the layer, from 0.
-    fn equivalent(self, index: usize, properties: LayerProperties) -> Result<LayerProperties> {
+    /// `layer_index`: from 0, for errors.
+    fn equivalent(
+        self,
+        layer_index: usize,
+        properties: LayerProperties,
+    ) -> Result<LayerProperties> {
         if self == Self::RealPart {
             return Ok(properties);
         }
@@ -78,20 +83,20 @@ impl ComplexModulus {
             let quantity = "strain-compatible damping ratio";
             let needed = "below 0.52 for a complex modulus by its magnitude";
             let error = Error::Input { quantity, value: damping_ratio, needed };
-            return Err(error.within(layer_name(index)));
+            return Err(error.within(layer_name(layer_index)));
         }
-        let square = damping_ratio * damping_ratio;
-        let real = 1.0 - 2.0 * square;
+        let squared_ratio = damping_ratio * damping_ratio;
+        let real_part = 1.0 - 2.0 * squared_ratio;
         Ok(LayerProperties {
-            modulus_ratio: modulus_ratio * real,
-            damping_ratio: damping_ratio * (1.0 - square).sqrt() / real,
+            modulus_ratio: modulus_ratio * real_part,
+            damping_ratio: damping_ratio * (1.0 - squared_ratio).sqrt() / real_part,
         })
     }
 }
 
-/// Outcrop of the rock, and G(1 + 2iξ) over 0.1 to 30 Hz.
+/// A motion of the rock outcrop, and the complex modulus G(1 + 2iξ).
 ///
-/// 0.65 of the largest strain, and a tolerance of 1e-3 in at most 50 iterations.
+/// The effective strain is 0.65 of the largest one, the tolerance 1e-3 in at most 50 iterations, the band 0.1 to 30 Hz.
 impl Default for EquivalentLinearOptions {
     fn default() -> Self {
         Self {
@@ -111,10 +116,16 @@ impl EquivalentLinearOptions {
         Self { strain_ratio: 0.1 * (magnitude - 1.0), ..Self::default() }
     }
 
+    /// Error for an option out of its range.
     fn check(&self) -> Result<()> {
-        let ratio = self.strain_ratio;
+        let strain_ratio = self.strain_ratio;
         let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
-        require("effective strain ratio", ratio, ratio > 0.0 && ratio <= 1.0, needed)?;
+        require(
+            "effective strain ratio",
+            strain_ratio,
+            strain_ratio > 0.0 && strain_ratio <= 1.0,
+            needed,
+        )?;
         let iterations = self.most_iterations;
         require("most iterations of a site", iterations as f64, iterations > 0, "at least 1")?;
         positive("tolerance of strain-compatible properties", self.tolerance)?;
@@ -123,21 +134,25 @@ impl EquivalentLinearOptions {
 }
 
 impl SoilColumn {
-    /// Profile with the given properties of the layers; `law` makes a damping law from a ratio.
-    pub(super) fn compatible<L: Relaxation + 'static>(
+    /// Profile whose layers have these properties.
+    ///
+    /// `law_of_ratio`: makes the damping law of a layer from its damping ratio.
+    pub(super) fn compatible_profile<L: Relaxation + 'static>(
         &self,
         properties: &[LayerProperties],
         complex_modulus: ComplexModulus,
-        law: impl Fn(f64) -> Result<L>,
+        law_of_ratio: impl Fn(f64) -> Result<L>,
     ) -> Result<SoilProfile> {
         let mut layers = Vec::with_capacity(properties.len());
-        for (k, (layer, properties)) in self.profile.layers().iter().zip(properties).enumerate() {
+        for (index, (layer, properties)) in self.profile.layers().iter().zip(properties).enumerate()
+        {
             let LayerProperties { modulus_ratio, damping_ratio } =
-                complex_modulus.equivalent(k, *properties)?;
+                complex_modulus.equivalent(index, *properties)?;
             let shear_modulus = modulus_ratio * layer.soil.shear_modulus();
             let soil = Soil::new(shear_modulus, layer.soil.poisson(), layer.soil.density());
-            let soil = soil.map_err(|error| layer_error(k, damping_ratio, error))?;
-            let law = law(damping_ratio).map_err(|error| layer_error(k, damping_ratio, error))?;
+            let soil = soil.map_err(|error| layer_error(index, damping_ratio, error))?;
+            let law = law_of_ratio(damping_ratio)
+                .map_err(|error| layer_error(index, damping_ratio, error))?;
             let thickness = layer.thickness;
             layers.push(SoilLayer { soil, thickness, damping: Arc::new(law) });
         }
@@ -145,32 +160,39 @@ impl SoilColumn {
     }
 }
 
-/// Input of an iteration: column, motion, curves of its layers and options.
+/// Iteration for strain-compatible properties of a column under a motion.
 pub(super) struct Iteration<'a> {
     column: &'a SoilColumn,
     motion: &'a Record,
+    /// Strain curves of the layers.
     pub(super) curves: Vec<ResolvedCurves>,
     options: &'a EquivalentLinearOptions,
-    /// Spectrum of the motion, on the contour of the last linear calculation.
+    /// Spectrum of the motion on the contour of the last linear calculation.
     transform: Option<Transform>,
 }
 
-/// Result of an iteration: properties of each layer, and its largest strain.
-pub(super) struct Converged {
+/// Result of an iteration.
+pub(super) struct ConvergedProperties {
+    /// Properties of each layer.
     pub(super) properties: Vec<LayerProperties>,
+    /// Largest strain of each layer.
     pub(super) strains: Vec<f64>,
+    /// Number of linear calculations.
     pub(super) iterations: usize,
+    /// Relative change of the properties in the last iteration.
     pub(super) last_change: f64,
 }
 
-/// Accelerations in a column, over the length of its input.
+/// Accelerations (m/s²) in a column, during its input motion.
 pub(super) struct ColumnAccelerations {
+    /// Motion of the surface.
     pub(super) surface: SiteMotion,
-    /// At the tops of the layers and of the base.
-    pub(super) tops: Vec<Vec<f64>>,
+    /// Accelerations at the tops of the layers and of the base.
+    pub(super) top_accelerations: Vec<Vec<f64>>,
 }
 
 impl<'a> Iteration<'a> {
+    /// Iteration with one of the `curves` for each layer.
     pub(super) fn new(
         column: &'a SoilColumn,
         motion: &'a Record,
@@ -181,17 +203,18 @@ impl<'a> Iteration<'a> {
         let is_shear = column.wave == VerticalWave::Shear;
         let needed = "strain curves are those of shear: shear waves are needed";
         require_part("soil column", is_shear, needed)?;
-        let layers = column.profile.layers().len();
-        same_length("list of strain curves, one for each layer,", curves.len(), layers)?;
+        let layer_count = column.profile.layers().len();
+        same_length("list of strain curves, one for each layer,", curves.len(), layer_count)?;
         let base = column.profile.bedrock();
-        let reflects_all =
+        let has_total_reflection =
             matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
-        let mut layer_curves = Vec::with_capacity(layers);
-        for (index, curves) in curves.iter().enumerate() {
-            let resolved = curves.resolved().map_err(|error| error.within(layer_name(index)))?;
-            if reflects_all && resolved.at(0.0)[1] == 0.0 {
+        let mut layer_curves = Vec::with_capacity(layer_count);
+        for (index, layer_curve) in curves.iter().enumerate() {
+            let resolved =
+                layer_curve.resolved().map_err(|error| error.within(layer_name(index)))?;
+            if has_total_reflection && resolved.at(0.0)[1] == 0.0 {
                 let quantity = "damping ratio at small strain";
-                let needed = "above 0 on rigid bedrock or under a motion within: nothing leaves";
+                let needed = "above 0 on rigid bedrock or under a motion within: no energy radiates into the base";
                 return Err(Error::Input { quantity, value: 0.0, needed }.within(layer_name(index)));
             }
             layer_curves.push(resolved);
@@ -199,11 +222,11 @@ impl<'a> Iteration<'a> {
         Ok(Self { column, motion, curves: layer_curves, options, transform: None })
     }
 
-    /// Properties of the layers at the logarithms of effective strains.
-    fn properties_at(&self, logs: &[f64]) -> Vec<LayerProperties> {
-        let mut properties = Vec::with_capacity(logs.len());
-        for (curves, log) in self.curves.iter().zip(logs) {
-            let [modulus_ratio, damping_ratio] = curves.at(log.exp());
+    /// Properties of the layers at effective strains, from their logarithms.
+    fn properties_at(&self, log_strains: &[f64]) -> Vec<LayerProperties> {
+        let mut properties = Vec::with_capacity(log_strains.len());
+        for (curves, log_strain) in self.curves.iter().zip(log_strains) {
+            let [modulus_ratio, damping_ratio] = curves.at(log_strain.exp());
             properties.push(LayerProperties { modulus_ratio, damping_ratio });
         }
         properties
@@ -216,8 +239,11 @@ impl<'a> Iteration<'a> {
         quantity: ColumnQuantity,
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<&mut Transform> {
-        let profile =
-            self.column.compatible(properties, self.options.complex_modulus, Hysteretic::new)?;
+        let profile = self.column.compatible_profile(
+            properties,
+            self.options.complex_modulus,
+            Hysteretic::new,
+        )?;
         let column = SoilColumn { profile, wave: self.column.wave };
         let samples = self.motion.accelerations();
         let contour = column.contour(self.motion.time_step(), samples.len())?;
@@ -236,12 +262,13 @@ impl<'a> Iteration<'a> {
         properties: &[LayerProperties],
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<Vec<f64>> {
-        let count = properties.len();
+        let layer_count = properties.len();
         let transform = self.response(properties, ColumnQuantity::Strains, progress)?;
-        let mut strains = Vec::with_capacity(count);
-        for k in 0..count {
-            strains.push(transform.peak(k)?);
-            progress.reach(0.5 + 0.5 * (k + 1) as f64 / count as f64)?;
+        let mut strains = Vec::with_capacity(layer_count);
+        for index in 0..layer_count {
+            strains.push(transform.peak(index)?);
+            let finished_fraction = (index + 1) as f64 / layer_count as f64;
+            progress.report(after_filter(finished_fraction))?;
         }
         Ok(strains)
     }
@@ -252,90 +279,103 @@ impl<'a> Iteration<'a> {
         properties: &[LayerProperties],
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<ColumnAccelerations> {
-        let samples = self.motion.len();
+        let sample_count = self.motion.len();
         let transform = self.response(properties, ColumnQuantity::Accelerations, progress)?;
         let mut surface = transform.motion(0)?;
-        surface.cut(samples);
-        let mut tops = vec![surface.samples.clone()];
-        for k in 1..=properties.len() {
-            tops.push(transform.samples(k)?);
-            progress.reach(0.5 + 0.5 * k as f64 / properties.len() as f64)?;
+        surface.truncate(sample_count);
+        let mut top_accelerations = vec![surface.samples.clone()];
+        for index in 1..=properties.len() {
+            top_accelerations.push(transform.samples(index)?);
+            progress.report(after_filter(index as f64 / properties.len() as f64))?;
         }
-        Ok(ColumnAccelerations { surface, tops })
+        Ok(ColumnAccelerations { surface, top_accelerations })
     }
 
-    /// Iterates moduli and damping ratios, starting at small strain.
-    pub(super) fn converged(&mut self, watch: &mut ProgressReporter<'_>) -> Result<Converged> {
+    /// Iterates moduli and damping ratios from their values at small strain.
+    pub(super) fn run(
+        &mut self,
+        reporter: &mut ProgressReporter<'_>,
+    ) -> Result<ConvergedProperties> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;
-        let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];
-        let mut properties = self.properties_at(&logs);
+        let mut log_strains = vec![f64::NEG_INFINITY; self.curves.len()];
+        let mut properties = self.properties_at(&log_strains);
         let mut aitken = Aitken::default();
         let mut iterations = 0;
         loop {
-            let strains = self.strains(&properties, &mut PartProgress::part(watch, iterations))?;
+            let strains =
+                self.strains(&properties, &mut PartProgress::of_part(reporter, iterations))?;
             iterations += 1;
-            let trial_logs: Vec<f64> = strains
+            let trial_log_strains: Vec<f64> = strains
                 .iter()
                 .map(|strain| (strain_ratio * strain).max(MIN_EFFECTIVE_STRAIN).ln())
                 .collect();
-            logs =
-                if iterations == 1 { trial_logs.clone() } else { aitken.next(&logs, &trial_logs) };
-            let unrelaxed = self.properties_at(&trial_logs);
-            let next = self.properties_at(&logs);
-            let last_change =
-                largest_change(&properties, &unrelaxed).max(largest_change(&properties, &next));
+            log_strains = if iterations == 1 {
+                trial_log_strains.clone()
+            } else {
+                aitken.next(&log_strains, &trial_log_strains)
+            };
+            let trial_properties = self.properties_at(&trial_log_strains);
+            let relaxed_properties = self.properties_at(&log_strains);
+            let last_change = max_change(&properties, &trial_properties)
+                .max(max_change(&properties, &relaxed_properties));
             if last_change <= tolerance || iterations == most_iterations {
-                return Ok(Converged { properties, strains, iterations, last_change });
+                return Ok(ConvergedProperties { properties, strains, iterations, last_change });
             }
-            properties = next;
+            properties = relaxed_properties;
         }
     }
 }
 
 /// Fixed-point iteration with one relaxation factor, from the last two residuals (Irons & Tuck 1969).
 ///
-/// The factor is about 1/(1 − ρ) if each iteration leaves the fraction ρ of the distance. The step then estimates
-/// the whole remaining distance.
+/// The factor is about 1/(1 − ρ) if each iteration reduces the distance to the solution by the factor ρ. The relaxed step
+/// then estimates the whole remaining distance.
 #[derive(Debug, Default)]
 struct Aitken {
+    /// Residual of the last iteration.
     residual: Vec<f64>,
-    factor: f64,
+    relaxation_factor: f64,
 }
 
 impl Aitken {
-    /// Next argument after `old`; `new` is the image of `old`.
-    fn next(&mut self, old: &[f64], new: &[f64]) -> Vec<f64> {
-        let residual: Vec<f64> = old.iter().zip(new).map(|(old, new)| new - old).collect();
+    /// Next argument of the iteration, from an argument and its image.
+    fn next(&mut self, argument: &[f64], image: &[f64]) -> Vec<f64> {
+        let residual: Vec<f64> =
+            argument.iter().zip(image).map(|(argument, image)| image - argument).collect();
         let mut product = 0.0;
         let mut change_square = 0.0;
-        for (before, now) in self.residual.iter().zip(&residual) {
-            let change = now - before;
-            product += before * change;
+        for (previous, residual) in self.residual.iter().zip(&residual) {
+            let change = residual - previous;
+            product += previous * change;
             change_square += change * change;
         }
-        let factor = -self.factor * product / change_square;
-        // Without an earlier residual, or if the last step diverged, the step is not relaxed.
-        self.factor = if factor > 0.0 {
-            factor.clamp(RELAXATION_RANGE[0], RELAXATION_RANGE[1])
+        let factor = -self.relaxation_factor * product / change_square;
+        // The step is not relaxed without a previous residual, or if the last step diverged.
+        self.relaxation_factor = if factor > 0.0 {
+            factor.clamp(MIN_RELAXATION_FACTOR, MAX_RELAXATION_FACTOR)
         } else {
             1.0
         };
-        let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
+        let next_argument = argument
+            .iter()
+            .zip(&residual)
+            .map(|(argument, residual)| argument + self.relaxation_factor * residual)
+            .collect();
         self.residual = residual;
-        next
+        next_argument
     }
 }
 
 /// Largest change of a modulus or damping ratio, relative to the new one.
-fn largest_change(old: &[LayerProperties], new: &[LayerProperties]) -> f64 {
-    let mut largest = 0.0;
+fn max_change(old: &[LayerProperties], new: &[LayerProperties]) -> f64 {
+    let mut max_so_far = 0.0;
     for (old, new) in old.iter().zip(new) {
         let modulus_change = relative_change(old.modulus_ratio, new.modulus_ratio);
         let damping_change = relative_change(old.damping_ratio, new.damping_ratio);
-        largest = modulus_change.max(damping_change).max(largest);
+        max_so_far = modulus_change.max(damping_change).max(max_so_far);
     }
-    largest
+    max_so_far
 }
 
 /// Change of a value relative to the new one; 0 for equal values, also if they are 0.
@@ -343,13 +383,17 @@ fn relative_change(old: f64, new: f64) -> f64 {
     if old == new { 0.0 } else { (new - old).abs() / new }
 }
 
-/// Adds the layer (`index` from 0) to an error.
+/// The error of a layer, with its name.
 ///
-/// For a damping ratio that no law represents, it adds the ratio too.
-fn layer_error(index: usize, ratio: f64, error: Error) -> Error {
-    let has_no_law = matches!(error, Error::Accuracy { .. });
+/// `index`: of the layer, from 0. The error of a damping ratio that no law represents states the ratio.
+fn layer_error(index: usize, damping_ratio: f64, error: Error) -> Error {
+    let has_no_damping_law = matches!(error, Error::Accuracy { .. });
     let quantity = "strain-compatible damping ratio";
     let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
-    let error = if has_no_law { Error::Input { quantity, value: ratio, needed } } else { error };
+    let error = if has_no_damping_law {
+        Error::Input { quantity, value: damping_ratio, needed }
+    } else {
+        error
+    };
     error.within(layer_name(index))
 }

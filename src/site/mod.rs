@@ -10,6 +10,7 @@ mod equivalent_linear;
 mod inclined;
 mod iteration;
 mod oblique;
+mod part_progress;
 mod sampled;
 mod site_motion;
 mod slowness;
@@ -33,11 +34,11 @@ pub use vertical::{ControlPoint, VerticalWave};
 
 use std::fmt;
 
-/// Warning that a site's response exceeds assumptions of its method.
+/// Warning that a site's response exceeds the assumptions of its method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SiteWarning {
-    /// Strain above 5·10⁻³: one modulus for the whole shaking becomes a poor approximation.
+    /// Strain above 5·10⁻³: one modulus for the whole motion becomes a poor approximation.
     LargeStrain {
         /// Layer, from 1 at the surface.
         layer: usize,
@@ -104,14 +105,14 @@ impl fmt::Display for SiteWarning {
             ),
             Self::CutOff { share } => write!(
                 f,
-                "motion of the surface outside the record's time, {:.1} % of its peak, is cut off: give \
-                 the record quiet time (padded)",
+                "motion of the surface outside the record's time, {:.1} % of its peak, is cut off: add quiet time \
+                 to the record (padded)",
                 100.0 * share
             ),
             Self::Amplified { frequency } => write!(
                 f,
-                "most of this motion is what the site amplifies more than a hundredfold, from {frequency:.1} Hz \
-                 on: filter the given motion below that (low_pass), or give the soil less damping or depth"
+                "the site amplifies most of this motion more than a hundredfold, from {frequency:.1} Hz on: remove higher \
+                 frequencies from the input motion (low_pass), or reduce damping or depth of the soil"
             ),
         }
     }

@@ -3,17 +3,15 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
-use super::slowness::{
-    IncidentWave, LayerWaves, WaveMedium, surface_motion, surface_motion_across,
-};
+use super::slowness::{IncidentWave, LayerWaves, WaveMedium, sh_surface_motion, surface_motion};
 use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
 
-/// Prescribed motion of an inclined wave, at the depth of the base's top.
+/// Motion that is prescribed under an inclined wave, at the top of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InclinedControl {
-    /// Horizontal motion of the base's free surface without layers above: rock outcrop.
+    /// Horizontal motion of the base as a free surface without layers: rock outcrop.
     #[default]
     OutcropHorizontal,
     /// Vertical motion of the same surface, positive up.
@@ -33,15 +31,17 @@ pub(super) enum WaveKind {
     Sh,
 }
 
-/// Motion of the surface, horizontal and up, for a unit motion of the control point.
+/// Motion of the surface, horizontal and up, per unit motion of the control point.
 pub(super) struct SurfaceFunctions<'a> {
+    /// Layers, and the half-plane below.
     profile: &'a SoilProfile,
     base: Soil,
-    kind: WaveKind,
+    wave_kind: WaveKind,
     control: InclinedControl,
-    /// Horizontal slowness of the wave.
+    /// Horizontal slowness of the wave, s/m.
     slowness: f64,
-    incident: IncidentWave,
+    incident_wave: IncidentWave,
+    /// Layers modified for samples.
     nyquist: NyquistLayers<2>,
 }
 
@@ -50,37 +50,38 @@ impl<'a> SurfaceFunctions<'a> {
     pub(super) fn exact(
         profile: &'a SoilProfile,
         base: Soil,
-        kind: WaveKind,
+        wave_kind: WaveKind,
         control: InclinedControl,
         slowness: f64,
-        incident: IncidentWave,
+        incident_wave: IncidentWave,
     ) -> Self {
         Self {
             profile,
             base,
-            kind,
+            wave_kind,
             control,
             slowness,
-            incident,
+            incident_wave,
             nyquist: NyquistLayers::default(),
         }
     }
 
-    /// These functions for layers modified for samples, on a contour that ends at s = `end`.
-    pub(super) fn sampled(self, end: Complex) -> Result<Self> {
-        let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
-            self.travels(index, end, modulus)
+    /// Functions of layers modified for samples, on a contour that ends at s = `contour_end`.
+    pub(super) fn sampled(self, contour_end: Complex) -> Result<Self> {
+        let nyquist = NyquistLayers::new(self.profile, contour_end, |index, modulus| {
+            self.phases(index, contour_end, modulus)
         })?;
         Ok(Self { nyquist, ..self })
     }
 
+    /// Complex phases s h a and s h b of P and S waves through a layer.
     #[inline(always)]
-    fn travels<C: ComplexArithmetic>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
+    fn phases<C: ComplexArithmetic>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
         let layer = &self.profile.layers()[index];
         let medium = WaveMedium::layer(layer.soil, modulus, s, self.slowness);
-        let time = s.scale(layer.thickness);
+        let s_thickness = s.scale(layer.thickness);
         let slownesses = medium.slownesses();
-        [time * slownesses[0], time * slownesses[1]]
+        [s_thickness * slownesses[0], s_thickness * slownesses[1]]
     }
 }
 
@@ -91,7 +92,7 @@ impl SiteFunctions for SurfaceFunctions<'_> {
         self.profile
     }
 
-    fn count(&self) -> usize {
+    fn function_count(&self) -> usize {
         2
     }
 
@@ -103,30 +104,35 @@ impl SiteFunctions for SurfaceFunctions<'_> {
         layer_values: &mut Vec<LayerWaves<C>>,
         results: &mut [C],
     ) {
-        let Self { profile, base, kind, control, slowness, incident, nyquist } = self;
-        let s = contour.direction;
+        let Self { profile, base, wave_kind, control, slowness, incident_wave, nyquist } = self;
+        let s = contour.nonzero_s;
         let p = *slowness;
-        let last = moduli.len() - 1;
-        let base =
-            WaveMedium::base(*base, nyquist.modulus(last, contour, moduli[last]), s, p, *incident);
+        let base_index = moduli.len() - 1;
+        let base_medium = WaveMedium::base(
+            *base,
+            nyquist.modulus(base_index, contour, moduli[base_index]),
+            s,
+            p,
+            *incident_wave,
+        );
         layer_values.clear();
         for (index, (layer, modulus)) in profile.layers().iter().zip(moduli).enumerate() {
-            let time = contour.s.scale(layer.thickness);
+            let s_thickness = contour.s.scale(layer.thickness);
             let mut medium = WaveMedium::layer(layer.soil, *modulus, s, p);
             let slownesses = medium.slownesses();
-            let mut travels = [time * slownesses[0], time * slownesses[1]];
+            let mut phases = [s_thickness * slownesses[0], s_thickness * slownesses[1]];
             if contour.is_in_band() {
-                travels = nyquist.travels(index, contour, travels);
+                phases = nyquist.phases(index, contour, phases);
                 medium =
                     WaveMedium::layer(layer.soil, nyquist.modulus(index, contour, *modulus), s, p);
             }
-            layer_values.push(LayerWaves { medium, travels });
+            layer_values.push(LayerWaves { medium, phases });
         }
         // Motions of surface and outcrop due to unit amplitudes.
-        let response = match kind {
-            WaveKind::Sh => across_response(layer_values, &base),
-            WaveKind::P => in_plane_response(layer_values, &base, 0),
-            WaveKind::Sv => in_plane_response(layer_values, &base, 1),
+        let response = match wave_kind {
+            WaveKind::Sh => sh_response(layer_values, &base_medium),
+            WaveKind::P => p_sv_response(layer_values, &base_medium, 0),
+            WaveKind::Sv => p_sv_response(layer_values, &base_medium, 1),
         };
         let scale = match control {
             InclinedControl::OutcropHorizontal => response.outcrop[0].inverse(),
@@ -140,41 +146,45 @@ impl SiteFunctions for SurfaceFunctions<'_> {
 
 /// Motions, horizontal and up, due to an incident wave of unit amplitude.
 struct UnitResponse<C> {
+    /// Motion of the surface.
     surface: [C; 2],
+    /// Motion of the outcrop.
     outcrop: [C; 2],
-    /// Amplitude of a wave of unit displacement.
+    /// Amplitude of a wave whose displacement is one.
     unit_amplitude: C,
 }
 
+/// Response to SH.
 #[inline(always)]
-fn across_response<C: ComplexArithmetic>(
+fn sh_response<C: ComplexArithmetic>(
     layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> UnitResponse<C> {
-    let zero = base.shear.like_real(0.0);
-    let one = base.shear.like_real(1.0);
+    let zero = base.squared_s_slowness.like_real(0.0);
+    let one = base.squared_s_slowness.like_real(1.0);
     UnitResponse {
-        surface: [surface_motion_across(layers, base), zero],
+        surface: [sh_surface_motion(layers, base), zero],
         outcrop: [one + one, zero],
         unit_amplitude: one,
     }
 }
 
-/// Response to P (`wave` 0) or SV (`wave` 1).
+/// Response to P (`wave_index` 0) or SV (`wave_index` 1).
 ///
-/// Their amplitudes belong to the vectors (p, a) and (b, p), whose length is 1/c.
+/// A unit amplitude displaces by the vector (p, a) or (b, p), whose length is 1/c.
 #[inline(always)]
-fn in_plane_response<C: ComplexArithmetic>(
+fn p_sv_response<C: ComplexArithmetic>(
     layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
-    wave: usize,
+    wave_index: usize,
 ) -> UnitResponse<C> {
-    let surface = surface_motion(layers, base);
-    let outcrop = base.free_surface();
-    let squared_slowness = if wave == 0 { base.pressure } else { base.shear };
+    let surface_matrix = surface_motion(layers, base);
+    let outcrop_matrix = base.free_surface();
+    let squared_slowness =
+        if wave_index == 0 { base.squared_p_slowness } else { base.squared_s_slowness };
     UnitResponse {
-        surface: [surface[wave], surface[2 + wave]],
-        outcrop: [outcrop[wave], outcrop[2 + wave]],
+        surface: [surface_matrix[wave_index], surface_matrix[2 + wave_index]],
+        outcrop: [outcrop_matrix[wave_index], outcrop_matrix[2 + wave_index]],
         unit_amplitude: squared_slowness.sqrt().inverse(),
     }
 }

@@ -6,7 +6,7 @@
 //! [`BAND_FRACTION`](super::transform::BAND_FRACTION) below that frequency. Within the band they change smoothly, until
 //! at its end
 //!
-//! * travel times are multiples of Δt: half a step off at most, from the surface to any depth,
+//! * travel times from the surface to any depth are multiples of Δt, with an error of at most half a step,
 //! * moduli are real: their values for growth at the same rate, s = π/Δt.
 //!
 //! Each layer is still passive, so a motion can pass through the site and back.
@@ -20,76 +20,94 @@ use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorized};
 use crate::soil::SoilProfile;
 
-/// Places on the contour, one in each lane.
+/// Points on the contour, one in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContourLanes<C> {
+    /// Laplace variable.
     pub(super) s: C,
     /// s, or i at frequency zero, which is the limit from above.
-    pub(super) direction: C,
+    pub(super) nonzero_s: C,
     /// Whether the moduli equal those in the previous call, with the same `layer_values`.
-    pub(super) repeats: bool,
-    /// Nearness and ratio of the places; `None` if none is in the band.
-    band: Option<[C; 2]>,
+    pub(super) has_same_moduli: bool,
+    /// Values in the transition band; `None` if no point is in the band.
+    band: Option<BandLanes<C>>,
+}
+
+/// Values of points in the transition band, one in each lane.
+#[derive(Debug, Clone, Copy)]
+struct BandLanes<C> {
+    /// Weight of the modified layers.
+    modified_weight: C,
+    /// Frequency relative to the highest one.
+    frequency_ratio: C,
 }
 
 impl<C> ContourLanes<C> {
-    /// Whether any of the places is in the band.
+    /// Whether a point is in the transition band.
     #[inline(always)]
     pub(super) fn is_in_band(&self) -> bool {
         self.band.is_some()
     }
 }
 
-fn direction(s: Complex) -> Complex {
+/// `s`, or i in place of zero.
+fn nonzero_s(s: Complex) -> Complex {
     if s == Complex::default() { Complex::new(0.0, 1.0) } else { s }
 }
 
 impl ContourLanes<Complex> {
-    fn single(place: &ContourPoint) -> Self {
-        let band = [place.nearness, place.ratio].map(Complex::real);
-        let direction = direction(place.s);
-        let band = (place.nearness > 0.0).then_some(band);
-        Self { s: place.s, direction, repeats: false, band }
+    /// A single point.
+    fn single(point: &ContourPoint) -> Self {
+        let band = BandLanes {
+            modified_weight: Complex::real(point.modified_weight),
+            frequency_ratio: Complex::real(point.frequency_ratio),
+        };
+        Self {
+            s: point.s,
+            nonzero_s: nonzero_s(point.s),
+            has_same_moduli: false,
+            band: (point.modified_weight > 0.0).then_some(band),
+        }
     }
 }
 
-/// Real moduli of layers at the highest frequency, and their travels s h/c there.
+/// Real moduli of layers at the highest frequency, and their complex phases s h/c there.
 ///
-/// The imaginary parts of the travels are multiples of π. Empty for unmodified layers.
+/// The imaginary parts of the phases are multiples of π. Both lists are empty for unmodified layers.
 #[derive(Debug, Default)]
 pub(super) struct NyquistLayers<const WAVES: usize> {
     moduli: Vec<f64>,
-    travels: Vec<[Complex; WAVES]>,
+    phases: Vec<[Complex; WAVES]>,
 }
 
 impl<const WAVES: usize> NyquistLayers<WAVES> {
-    /// Layers of `profile` on a contour that ends at s = `end`.
+    /// Modified layers of a profile on a contour that ends at s = `contour_end`.
     ///
-    /// `travel(index, modulus)`: travels through a layer.
+    /// `layer_phases(index, modulus)`: phases of all waves through a layer.
     pub(super) fn new(
         profile: &SoilProfile,
-        end: Complex,
-        travel: impl Fn(usize, Complex) -> [Complex; WAVES],
+        contour_end: Complex,
+        layer_phases: impl Fn(usize, Complex) -> [Complex; WAVES],
     ) -> Result<Self> {
         let mut moduli = vec![];
-        profile.moduli(end, &mut moduli)?;
-        // Travel to each depth in half turns; travels are rounded such that their sums are.
-        let mut depth = [0.0_f64; WAVES];
-        let mut rounded = |wave: usize, travel: Complex| {
-            let above = depth[wave].round();
-            depth[wave] += travel.im / PI;
-            Complex::new(travel.re, PI * (depth[wave].round() - above))
+        profile.moduli(contour_end, &mut moduli)?;
+        // Phase of the travel to each depth, in half turns. The rounded phases of layers have the rounded phase as sum.
+        let mut half_turns = [0.0_f64; WAVES];
+        let mut round_phase = |wave: usize, phase: Complex| {
+            let previous_half_turns = half_turns[wave].round();
+            half_turns[wave] += phase.im / PI;
+            Complex::new(phase.re, PI * (half_turns[wave].round() - previous_half_turns))
         };
-        let mut travels = vec![];
+        let mut phases = vec![];
         for (index, modulus) in moduli.iter().enumerate().take(profile.layers().len()) {
-            let exact = travel(index, *modulus);
-            travels.push(std::array::from_fn(|wave| rounded(wave, exact[wave])));
+            let exact_phases = layer_phases(index, *modulus);
+            phases.push(std::array::from_fn(|wave| round_phase(wave, exact_phases[wave])));
         }
-        profile.moduli(Complex::real(end.im), &mut moduli)?;
-        Ok(Self { moduli: moduli.iter().map(|modulus| modulus.re).collect(), travels })
+        profile.moduli(Complex::real(contour_end.im), &mut moduli)?;
+        Ok(Self { moduli: moduli.iter().map(|modulus| modulus.re).collect(), phases })
     }
 
-    /// Modulus of a soil; `modulus` outside the band.
+    /// Modulus of a soil on the contour; `modulus` outside the transition band.
     #[inline(always)]
     pub(super) fn modulus<C: ComplexArithmetic>(
         &self,
@@ -97,40 +115,44 @@ impl<const WAVES: usize> NyquistLayers<WAVES> {
         contour: &ContourLanes<C>,
         modulus: C,
     ) -> C {
-        let Some([nearness, _]) = contour.band else { return modulus };
-        modulus + (modulus.like_real(self.moduli[index]) - modulus) * nearness
+        let Some(band) = contour.band else { return modulus };
+        modulus + (modulus.like_real(self.moduli[index]) - modulus) * band.modified_weight
     }
 
-    /// Travels through a layer; `travels` outside the band.
+    /// Phases through a layer on the contour; `phases` outside the transition band.
     #[inline(always)]
-    pub(super) fn travels<C: ComplexArithmetic>(
+    pub(super) fn phases<C: ComplexArithmetic>(
         &self,
         index: usize,
         contour: &ContourLanes<C>,
-        mut travels: [C; WAVES],
+        mut phases: [C; WAVES],
     ) -> [C; WAVES] {
-        let Some([nearness, ratio]) = contour.band else { return travels };
-        for (travel, highest) in travels.iter_mut().zip(&self.travels[index]) {
-            let turns = ratio * ratio.like(Complex::new(0.0, highest.im));
-            *travel = *travel + (ratio.like_real(highest.re) + turns - *travel) * nearness;
+        let Some(band) = contour.band else { return phases };
+        for (phase, nyquist_phase) in phases.iter_mut().zip(&self.phases[index]) {
+            let ratio = band.frequency_ratio;
+            let imaginary_part = ratio * ratio.like(Complex::new(0.0, nyquist_phase.im));
+            *phase = *phase
+                + (ratio.like_real(nyquist_phase.re) + imaginary_part - *phase)
+                    * band.modified_weight;
         }
-        travels
+        phases
     }
 }
 
-/// Functions of s, one or several, of a layered ground.
+/// Functions of s that describe the waves through a layered ground.
 pub(super) trait SiteFunctions {
-    /// Intermediate values of a layer, kept between calls.
+    /// Intermediate values of a layer, which a caller keeps from call to call.
     type LayerValues<C: ComplexArithmetic>;
 
+    /// Profile of the ground.
     fn profile(&self) -> &SoilProfile;
 
     /// Number of functions.
-    fn count(&self) -> usize;
+    fn function_count(&self) -> usize;
 
-    /// Overwrites `results` with one number for each function, at one place.
+    /// Overwrites `results` with one number for each function, at one point.
     ///
-    /// `moduli`: of the soils from the surface down. Implementations must be `#[inline(always)]`.
+    /// `moduli`: shear moduli of the soils from the surface down. Implementations must be `#[inline(always)]`.
     fn evaluate<C: ComplexArithmetic>(
         &self,
         contour: &ContourLanes<C>,
@@ -139,33 +161,34 @@ pub(super) trait SiteFunctions {
         results: &mut [C],
     );
 
-    /// Overwrites `results` with the functions at one place, each a single number.
-    fn evaluate_at(&self, place: &ContourPoint, results: &mut [Complex]) -> Result<()> {
+    /// Overwrites `results` with the functions at one point, each a single number.
+    fn evaluate_at(&self, point: &ContourPoint, results: &mut [Complex]) -> Result<()> {
         let mut moduli = vec![];
-        self.profile().moduli(place.s, &mut moduli)?;
-        self.evaluate(&ContourLanes::single(place), &moduli, &mut vec![], results);
+        self.profile().moduli(point.s, &mut moduli)?;
+        self.evaluate(&ContourLanes::single(point), &moduli, &mut vec![], results);
         Ok(())
     }
 }
 
-/// Overwrites `results` with the functions at the places.
+/// Overwrites `results` with the functions at all points.
 ///
-/// All numbers of the first function come first, then of the next.
+/// `results`: the values of the first function at all points, then those of the next function.
 pub(super) fn evaluate(
     functions: &impl SiteFunctions,
-    places: &[ContourPoint],
+    points: &[ContourPoint],
     moduli: &mut Vec<Complex>,
     results: &mut [Complex],
 ) -> Result<()> {
-    let s: Vec<Complex> = places.iter().map(|place| place.s).collect();
+    let s: Vec<Complex> = points.iter().map(|point| point.s).collect();
     functions.profile().moduli_at(&s, moduli)?;
-    vectorized(Evaluation { functions, places, s: &s, moduli, results });
+    vectorized(Evaluation { functions, points, s: &s, moduli, results });
     Ok(())
 }
 
+/// Arguments of [`evaluate`], for a processor with these vectors.
 struct Evaluation<'a, F> {
     functions: &'a F,
-    places: &'a [ContourPoint],
+    points: &'a [ContourPoint],
     s: &'a [Complex],
     moduli: &'a [Complex],
     results: &'a mut [Complex],
@@ -176,75 +199,80 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { functions, places, s, moduli, results } = self;
-        let length = places.len();
-        let count = Lanes::<S>::LANE_COUNT;
+        let Self { functions, points, s, moduli, results } = self;
+        let point_count = points.len();
+        let lane_count = Lanes::<S>::LANE_COUNT;
         let zero = Complex::default();
-        let directions: Vec<Complex> = s.iter().map(|s| direction(*s)).collect();
+        let nonzero_values: Vec<Complex> = s.iter().map(|s| nonzero_s(*s)).collect();
         // Hysteretic damping has constant moduli.
-        let is_constant = moduli
-            .chunks_exact(length)
+        let has_constant_moduli = moduli
+            .chunks_exact(point_count)
             .all(|values| values.iter().all(|modulus| *modulus == values[0]));
         let mut layer_values = vec![];
-        let mut values = vec![Lanes::load(simd, &[zero]); functions.count()];
-        let mut lanes = Vec::with_capacity(moduli.len() / length);
-        for begin in (0..length).step_by(count) {
-            let end = length.min(begin + count);
-            let lane_places = &places[begin..end];
-            let band = lane_places.iter().any(|place| place.nearness > 0.0).then(|| {
-                let mut nearness = vec![zero; lane_places.len()];
-                let mut ratios = vec![zero; lane_places.len()];
-                for (k, place) in lane_places.iter().enumerate() {
-                    nearness[k] = Complex::real(place.nearness);
-                    ratios[k] = Complex::real(place.ratio);
+        let mut values = vec![Lanes::load(simd, &[zero]); functions.function_count()];
+        let mut modulus_lanes = Vec::with_capacity(moduli.len() / point_count);
+        for begin in (0..point_count).step_by(lane_count) {
+            let end = point_count.min(begin + lane_count);
+            let lane_points = &points[begin..end];
+            let band = lane_points.iter().any(|point| point.modified_weight > 0.0).then(|| {
+                let mut weights = vec![zero; lane_points.len()];
+                let mut ratios = vec![zero; lane_points.len()];
+                for (k, point) in lane_points.iter().enumerate() {
+                    weights[k] = Complex::real(point.modified_weight);
+                    ratios[k] = Complex::real(point.frequency_ratio);
                 }
-                [Lanes::load(simd, &nearness), Lanes::load(simd, &ratios)]
+                BandLanes {
+                    modified_weight: Lanes::load(simd, &weights),
+                    frequency_ratio: Lanes::load(simd, &ratios),
+                }
             });
-            let directions = Lanes::load(simd, &directions[begin..end]);
-            let repeats = begin > 0 && band.is_none() && is_constant;
+            let nonzero_s = Lanes::load(simd, &nonzero_values[begin..end]);
+            let has_same_moduli = begin > 0 && band.is_none() && has_constant_moduli;
             let s = Lanes::load(simd, &s[begin..end]);
-            let contour = ContourLanes { s, direction: directions, repeats, band };
-            if !repeats {
-                lanes.clear();
-                for moduli in moduli.chunks_exact(length) {
-                    lanes.push(Lanes::load(simd, &moduli[begin..end]));
+            let contour = ContourLanes { s, nonzero_s, has_same_moduli, band };
+            if !has_same_moduli {
+                modulus_lanes.clear();
+                for soil_moduli in moduli.chunks_exact(point_count) {
+                    modulus_lanes.push(Lanes::load(simd, &soil_moduli[begin..end]));
                 }
             }
-            functions.evaluate(&contour, &lanes, &mut layer_values, &mut values);
+            functions.evaluate(&contour, &modulus_lanes, &mut layer_values, &mut values);
             let mut is_finite = true;
-            for (value, results) in values.iter().zip(results.chunks_exact_mut(length)) {
-                value.store(&mut results[begin..end]);
-                is_finite &= results[begin..end].iter().all(|value| value.is_finite());
+            for (value, function_results) in
+                values.iter().zip(results.chunks_exact_mut(point_count))
+            {
+                value.store(&mut function_results[begin..end]);
+                is_finite &= function_results[begin..end].iter().all(|value| value.is_finite());
             }
             if !is_finite {
-                evaluate_singly(functions, lane_places, begin, moduli, results);
+                evaluate_singly(functions, lane_points, begin, moduli, results);
             }
         }
     }
 }
 
-/// Evaluates places one by one, where numbers left the range of lanes.
+/// Evaluates points one by one, where the vectors of several points overflowed.
 ///
-/// The first place has the number `begin`.
+/// `begin`: index of the first of these points in `results`.
 fn evaluate_singly<F: SiteFunctions>(
     functions: &F,
-    places: &[ContourPoint],
+    points: &[ContourPoint],
     begin: usize,
     moduli: &[Complex],
     results: &mut [Complex],
 ) {
-    let count = functions.count();
-    let mut place_moduli = vec![];
+    let function_count = functions.function_count();
+    let mut point_moduli = vec![];
     let mut layer_values = vec![];
-    let mut values = vec![Complex::default(); count];
-    let length = results.len() / count;
-    for (k, place) in places.iter().enumerate() {
-        place_moduli.clear();
-        place_moduli.extend(moduli.iter().skip(begin + k).step_by(length));
-        let lanes = ContourLanes::single(place);
-        functions.evaluate(&lanes, &place_moduli, &mut layer_values, &mut values);
-        for (value, results) in values.iter().zip(results.chunks_exact_mut(length)) {
-            results[begin + k] = *value;
+    let mut values = vec![Complex::default(); function_count];
+    let point_count = results.len() / function_count;
+    for (k, point) in points.iter().enumerate() {
+        point_moduli.clear();
+        point_moduli.extend(moduli.iter().skip(begin + k).step_by(point_count));
+        let contour = ContourLanes::single(point);
+        functions.evaluate(&contour, &point_moduli, &mut layer_values, &mut values);
+        for (value, function_results) in values.iter().zip(results.chunks_exact_mut(point_count)) {
+            function_results[begin + k] = *value;
         }
     }
 }

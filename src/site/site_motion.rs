@@ -5,12 +5,12 @@ use std::fmt;
 use super::SiteWarning;
 use crate::linalg::largest;
 
-/// Ratio to the given motion above which a motion counts as amplified.
+/// Ratio to the input motion above which a motion counts as amplified: it is mostly noise then.
 pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
 
-/// A motion that has passed through a site, and the magnitude of its lost parts.
+/// A motion that has passed through a site, and the magnitudes of its lost parts.
 ///
-/// It has the times of the given motion. Motions count as zero outside their samples, so a part that is cut off
+/// It has the times of the input motion. Motions count as zero outside their samples, so a part that is cut off
 /// here is missing on the way back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record
 /// with quiet time around it passes through a site and returns to 1e-9 of its peak, whatever its frequencies, if
 /// [`SiteMotion::is_whole`] on both ways.
@@ -21,16 +21,16 @@ pub struct SiteMotion {
     pub samples: Vec<f64>,
     /// Largest sample cut off before the first: motion at depth precedes motion of the surface.
     pub before: f64,
-    /// Largest sample cut off after the last: waves that are still on their way.
+    /// Largest sample cut off after the last: waves that have not yet reached the surface.
     pub after: f64,
     /// Largest sample of the part with the highest frequencies, the last 2 % below 1/2Δt.
     ///
     /// Layers delay these frequencies by whole time steps, with an error of at most half a step from the surface
     /// to any depth. The error of the motion is this number to a factor of four.
     pub near_nyquist: f64,
-    /// Estimated rounding: large if deconvolution through damped layers amplifies high frequencies.
+    /// Estimated rounding, which is large if deconvolution through damped layers amplifies high frequencies.
     pub rounding: f64,
-    /// Lowest frequency (Hz) at which the motion is more than a hundred times the given motion.
+    /// Lowest frequency (Hz) at which the motion is more than a hundred times the input motion.
     ///
     /// Set if most of the motion's energy is at such frequencies: see [`SiteMotion::warning`].
     pub amplified_from: Option<f64>,
@@ -52,8 +52,8 @@ impl SiteMotion {
 
     /// Warning that the motion is mostly amplified noise.
     ///
-    /// In deconvolution through soft, damped soil, noise at high frequencies may exceed the motion. Usual
-    /// remedies: remove it before ([`Record::low_pass`], usually at 15 to 25 Hz), or demand less of the soil
+    /// In deconvolution through soft, damped soil, noise at high frequencies may exceed the motion. Usual remedies are to
+    /// remove the noise before ([`Record::low_pass`], usually at 15 to 25 Hz), or to reduce damping or depth of the soil
     /// model.
     ///
     /// [`Record::low_pass`]: crate::motion::Record::low_pass
@@ -83,20 +83,23 @@ impl SiteMotion {
     }
 
     /// Number of samples up to the last one above [`SiteMotion::MAX_REST_RATIO`] of the peak.
-    pub(super) fn duration(&self) -> usize {
+    pub(super) fn moving_sample_count(&self) -> usize {
         let rest_limit = Self::MAX_REST_RATIO * self.peak();
-        self.samples.iter().rposition(|x| x.abs() > rest_limit).map_or(0, |last| last + 1)
+        self.samples
+            .iter()
+            .rposition(|sample| sample.abs() > rest_limit)
+            .map_or(0, |index| index + 1)
     }
 
-    /// Truncates the motion after `count` samples.
-    pub(super) fn cut(&mut self, count: usize) {
-        let count = count.min(self.samples.len());
-        self.after = largest(&self.samples[count..]);
-        self.samples.truncate(count);
+    /// Truncates the motion after `count` samples, and stores the magnitude of the part cut off.
+    pub(super) fn truncate(&mut self, count: usize) {
+        let sample_count = count.min(self.samples.len());
+        self.after = largest(&self.samples[sample_count..]);
+        self.samples.truncate(sample_count);
     }
 }
 
-/// Sizes relative to the peak.
+/// Prints the peak, and the lost parts relative to it.
 impl fmt::Display for SiteMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let peak = self.peak();

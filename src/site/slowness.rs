@@ -22,11 +22,11 @@ use crate::soil::Soil;
 
 /// Smallest squared vertical slowness of a layer, relative to the value at vertical incidence.
 ///
-/// At zero, up-going and down-going waves are the same. Results are even in a and b, so this limit changes them by its
-/// value; rounding divided by its square root is not larger.
-const GRAZING_SLOWNESS_RATIO: f64 = 4e-11;
-/// Relative size up to which the sign of a real part is rounding.
-const SIGN_ROUNDING: f64 = 1e-12;
+/// At zero, the waves up and down are the same. Results are even in a and b, so this limit changes them by its value.
+/// Rounding divided by the square root of the limit is not larger.
+const MIN_GRAZING_SLOWNESS_RATIO: f64 = 4e-11;
+/// Relative magnitude of a real part below which its sign is rounding.
+const SIGN_TOLERANCE: f64 = 1e-12;
 
 /// Incident wave in the base, by its elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,37 +37,41 @@ pub(super) struct IncidentWave {
     pub(super) cosine: f64,
 }
 
-/// A layer or half-plane at one p, and at one s in each lane.
+/// A layer or half-plane for waves of one slowness p, with one s in each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WaveMedium<C> {
+    /// μ.
     modulus: C,
+    /// ρ.
     density: f64,
     p: f64,
     a: C,
     b: C,
     g: C,
     /// 1/c₂².
-    pub(super) shear: C,
+    pub(super) squared_s_slowness: C,
     /// 1/c₁².
-    pub(super) pressure: C,
+    pub(super) squared_p_slowness: C,
 }
 
 /// A 2 × 2 matrix, row by row.
 type Square<C> = [C; 4];
 
 impl<C: ComplexArithmetic> WaveMedium<C> {
-    /// Slownesses of a finite layer.
+    /// Medium of a layer of finite thickness.
     #[inline(always)]
     pub(super) fn layer(soil: Soil, modulus: C, s: C, p: f64) -> Self {
-        let shear = squared_shear_slowness(soil, modulus);
-        let pressure = shear.scale(soil.speed_ratio_squared());
-        let horizontal = modulus.like_real(p * p);
-        let pressure = (pressure - horizontal).at_least(pressure.scale(GRAZING_SLOWNESS_RATIO));
-        let shear = (shear - horizontal).at_least(shear.scale(GRAZING_SLOWNESS_RATIO));
-        Self::new(soil, modulus, s, p, [pressure, shear])
+        let squared_s_slowness = squared_shear_slowness(soil, modulus);
+        let squared_p_slowness = squared_s_slowness.scale(soil.speed_ratio_squared());
+        let squared_p = modulus.like_real(p * p);
+        let squared_a = (squared_p_slowness - squared_p)
+            .at_least(squared_p_slowness.scale(MIN_GRAZING_SLOWNESS_RATIO));
+        let squared_b = (squared_s_slowness - squared_p)
+            .at_least(squared_s_slowness.scale(MIN_GRAZING_SLOWNESS_RATIO));
+        Self::new(soil, modulus, s, p, [squared_a, squared_b])
     }
 
-    /// Shear stress over velocity, both across, in an SH wave.
+    /// Impedance of an SH wave: its shear stress per velocity.
     #[inline(always)]
     fn impedance(&self) -> C {
         self.modulus * self.b
@@ -79,67 +83,78 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         [self.a, self.b]
     }
 
-    /// Slownesses of the half-plane below, from which the wave comes.
+    /// Medium of the half-plane below the layers, from which the wave comes.
     ///
-    /// `incident` gives the vertical slowness of this wave without cancellation.
+    /// `incident`: its cosine gives the vertical slowness of the wave without cancellation.
     #[inline(always)]
     pub(super) fn base(soil: Soil, modulus: C, s: C, p: f64, incident: IncidentWave) -> Self {
-        let elastic = modulus.like_real(soil.shear_modulus());
-        let change = (elastic - modulus) * modulus.inverse();
-        let mut squares = [change; 2];
+        let elastic_modulus = modulus.like_real(soil.shear_modulus());
+        let modulus_change = (elastic_modulus - modulus) * modulus.inverse();
+        let mut vertical_squares = [modulus_change; 2];
         let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
-        for (square, speed) in squares.iter_mut().zip(speeds) {
+        for (square, speed) in vertical_squares.iter_mut().zip(speeds) {
             let elastic_square = if incident.slowness == 1.0 / speed {
                 (incident.slowness * incident.cosine).powi(2)
             } else {
                 speed.powi(-2) - p * p
             };
-            *square = change.scale(speed.powi(-2)) + change.like_real(elastic_square);
+            *square =
+                modulus_change.scale(speed.powi(-2)) + modulus_change.like_real(elastic_square);
         }
-        Self::new(soil, modulus, s, p, squares)
+        Self::new(soil, modulus, s, p, vertical_squares)
     }
 
-    /// Medium with these squares of vertical slownesses (of P, of S).
+    /// Medium with these squares of the vertical slownesses, a² and b².
     ///
-    /// Frequency zero is the limit from above, s = i.
+    /// `s`: i at frequency zero, which is the limit from above.
     #[inline(always)]
     fn new(soil: Soil, modulus: C, s: C, p: f64, vertical_squares: [C; 2]) -> Self {
-        let shear = squared_shear_slowness(soil, modulus);
-        let pressure = shear.scale(soil.speed_ratio_squared());
-        let a = vertical_squares[0].sqrt();
-        let b = vertical_squares[1].sqrt();
-        let a = a.negated_where_negative(s * a, SIGN_ROUNDING);
-        let b = b.negated_where_negative(s * b, SIGN_ROUNDING);
+        let squared_s_slowness = squared_shear_slowness(soil, modulus);
+        let squared_p_slowness = squared_s_slowness.scale(soil.speed_ratio_squared());
+        let a_root = vertical_squares[0].sqrt();
+        let b_root = vertical_squares[1].sqrt();
+        let a = a_root.negated_where_negative(s * a_root, SIGN_TOLERANCE);
+        let b = b_root.negated_where_negative(s * b_root, SIGN_TOLERANCE);
         let g = vertical_squares[1] - s.like_real(p * p);
-        Self { modulus, density: soil.density(), p, a, b, g, shear, pressure }
+        Self {
+            modulus,
+            density: soil.density(),
+            p,
+            a,
+            b,
+            g,
+            squared_s_slowness,
+            squared_p_slowness,
+        }
     }
 
-    /// Motion of a free surface, to the right and up, due to the waves A below it.
+    /// Motion of a free surface, to the right and up, due to the incident waves A.
     #[inline(always)]
     pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
-        let scale = self.shear.scale(2.0) * self.rayleigh().inverse();
+        let scale = self.squared_s_slowness.scale(2.0) * self.rayleigh().inverse();
         let mixed = (a * b).scale(2.0 * p);
         scaled([mixed, b * g, a * g, -mixed], scale)
     }
 
+    /// r.
     #[inline(always)]
     fn rayleigh(&self) -> C {
         self.g * self.g + (self.a * self.b).scale(4.0 * self.p * self.p)
     }
 
-    /// R at a free surface.
+    /// Reflection R at a free surface.
     #[inline(always)]
     fn surface_reflection(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
         let scale = self.rayleigh().inverse();
-        let difference = (a * b).scale(4.0 * p * p) - g * g;
-        let p_by_sv = (b * g).scale(4.0 * p);
-        let sv_by_p = (a * g).scale(4.0 * p);
-        scaled([difference, p_by_sv, sv_by_p, -difference], scale)
+        let p_due_to_p = (a * b).scale(4.0 * p * p) - g * g;
+        let p_due_to_sv = (b * g).scale(4.0 * p);
+        let sv_due_to_p = (a * g).scale(4.0 * p);
+        scaled([p_due_to_p, p_due_to_sv, sv_due_to_p, -p_due_to_p], scale)
     }
 
-    /// Displacements (x, z) and stresses of these waves (P, SV) up and down.
+    /// Displacements (x, z) and stresses due to waves (P, SV) up and down.
     #[inline(always)]
     fn state(&self, up: [C; 2], down: [C; 2]) -> [C; 4] {
         let Self { modulus, p, a, b, g, .. } = *self;
@@ -153,18 +168,18 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         ]
     }
 
-    /// A and B of this state, each multiplied by (a, b).
+    /// Amplitudes A and B of a state of displacements and stresses, times (a, b).
     #[inline(always)]
     fn waves(&self, [x, z, shear, normal]: [C; 4]) -> [[C; 2]; 2] {
         let Self { modulus, p, a, b, g, .. } = *self;
-        let half = 0.5 / self.density;
+        let half_inverse_density = 0.5 / self.density;
         let sums = [a * ((modulus * x).scale(2.0 * p) + normal), modulus * g * x - normal.scale(p)];
         let differences =
             [modulus * g * z + shear.scale(p), b * (shear - (modulus * z).scale(2.0 * p))];
-        let up_p = (sums[0] - differences[0]).scale(half);
-        let up_sv = (sums[1] - differences[1]).scale(half);
-        let down_p = (sums[0] + differences[0]).scale(half);
-        let down_sv = (sums[1] + differences[1]).scale(half);
+        let up_p = (sums[0] - differences[0]).scale(half_inverse_density);
+        let up_sv = (sums[1] - differences[1]).scale(half_inverse_density);
+        let down_p = (sums[0] + differences[0]).scale(half_inverse_density);
+        let down_sv = (sums[1] + differences[1]).scale(half_inverse_density);
         [[up_p, up_sv], [down_p, down_sv]]
     }
 }
@@ -175,66 +190,74 @@ fn squared_shear_slowness<C: ComplexArithmetic>(soil: Soil, modulus: C) -> C {
     modulus.inverse().scale(soil.density())
 }
 
+/// Product of two matrices.
 #[inline(always)]
 fn times<C: ComplexArithmetic>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
     [a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h]
 }
 
+/// Matrix times a number.
 #[inline(always)]
 fn scaled<C: ComplexArithmetic>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
     [a * scale, b * scale, c * scale, d * scale]
 }
 
+/// Inverse of a matrix.
 #[inline(always)]
 fn inverse<C: ComplexArithmetic>([a, b, c, d]: Square<C>) -> Square<C> {
     let scale = (a * d - b * c).inverse();
     scaled([d, -b, -c, a], scale)
 }
 
-/// A layer, and the exponents s h a and s h b of the waves through it.
+/// A layer, and the complex phases s h a and s h b of the waves through it.
 #[derive(Clone, Copy)]
 pub(super) struct LayerWaves<C> {
     pub(super) medium: WaveMedium<C>,
-    pub(super) travels: [C; 2],
+    pub(super) phases: [C; 2],
 }
 
-/// Surface motion due to the waves A at one depth of a medium, and R there.
+/// Surface motion due to waves A at one depth of a medium, and the reflection R there.
 struct SurfaceTransfer<C> {
     medium: WaveMedium<C>,
+    /// Motion of the surface due to unit P and unit SV upwards.
     surface: Square<C>,
+    /// R.
     reflection: Square<C>,
 }
 
 impl<C: ComplexArithmetic> SurfaceTransfer<C> {
-    /// At the top of `medium`, from the bottom of the one `above`; without one, at the free surface.
+    /// Transfer at the top of `medium`.
+    ///
+    /// `upper_transfer`: transfer at the bottom of the medium above; `None` at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
-    fn at_next_medium(above: Option<Self>, medium: WaveMedium<C>) -> Self {
-        let Some(Self { medium: upper, surface, reflection }) = above else {
+    fn at_next_medium(upper_transfer: Option<Self>, medium: WaveMedium<C>) -> Self {
+        let Some(Self { medium: upper_medium, surface, reflection }) = upper_transfer else {
             let surface = medium.free_surface();
             return Self { medium, surface, reflection: medium.surface_reflection() };
         };
         let one = medium.a.like_real(1.0);
         let zero = medium.a.like_real(0.0);
-        // Waves (up, down) in the medium due to unit P and unit SV upwards above it.
-        let by_p = medium.waves(upper.state([one, zero], [reflection[0], reflection[2]]));
-        let by_sv = medium.waves(upper.state([zero, one], [reflection[1], reflection[3]]));
+        // Waves (up, down) in this medium due to unit P and unit SV upwards in the medium above.
+        let p_waves = medium.waves(upper_medium.state([one, zero], [reflection[0], reflection[2]]));
+        let sv_waves =
+            medium.waves(upper_medium.state([zero, one], [reflection[1], reflection[3]]));
         // A' = diag(1/a, 1/b) M A, and B' in the same way.
-        let up_inverse = inverse([by_p[0][0], by_sv[0][0], by_p[0][1], by_sv[0][1]]);
-        let down = [by_p[1][0], by_sv[1][0], by_p[1][1], by_sv[1][1]];
+        let up_inverse = inverse([p_waves[0][0], sv_waves[0][0], p_waves[0][1], sv_waves[0][1]]);
+        let down = [p_waves[1][0], sv_waves[1][0], p_waves[1][1], sv_waves[1][1]];
         let [pp, ps, sp, ss] = times(down, up_inverse);
-        let ratio = medium.a * medium.b.inverse();
-        let reflection = [pp, ps * ratio.inverse(), sp * ratio, ss];
+        let slowness_ratio = medium.a * medium.b.inverse();
+        let reflection = [pp, ps * slowness_ratio.inverse(), sp * slowness_ratio, ss];
         let [xp, xs, zp, zs] = times(surface, up_inverse);
         let surface = [xp * medium.a, xs * medium.b, zp * medium.a, zs * medium.b];
         Self { medium, surface, reflection }
     }
 
-    /// From the top to the bottom of a layer.
+    /// Transfer at the bottom of the layer, if this is the transfer at its top.
     #[inline(always)]
-    fn through_layer(self, travels: [C; 2]) -> Self {
-        let p_decay = (-travels[0]).exp();
-        let s_decay = (-travels[1]).exp();
+    fn through_layer(self, phases: [C; 2]) -> Self {
+        let p_decay = (-phases[0]).exp();
+        let s_decay = (-phases[1]).exp();
         let [xp, xs, zp, zs] = self.surface;
         let [pp, ps, sp, ss] = self.reflection;
         Self {
@@ -252,26 +275,26 @@ impl<C: ComplexArithmetic> SurfaceTransfer<C> {
 
 /// Motion of the surface, to the right and up, due to the waves A in `base`.
 ///
-/// `layers` from the surface down.
+/// `layers`: from the surface down.
 #[inline(always)]
 pub(super) fn surface_motion<C: ComplexArithmetic>(
     layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> Square<C> {
-    let mut above = None;
+    let mut upper_transfer = None;
     for layer in layers {
-        let top = SurfaceTransfer::at_next_medium(above, layer.medium);
-        above = Some(top.through_layer(layer.travels));
+        let top_transfer = SurfaceTransfer::at_next_medium(upper_transfer, layer.medium);
+        upper_transfer = Some(top_transfer.through_layer(layer.phases));
     }
-    SurfaceTransfer::at_next_medium(above, *base).surface
+    SurfaceTransfer::at_next_medium(upper_transfer, *base).surface
 }
 
-/// Motion of the surface across p by an SH wave of unit displacement in `base`.
+/// Motion of the surface due to an SH wave of unit displacement in `base`.
 ///
-/// `layers` from the surface down. Displacement u = (1 + R) A and stress μ b (1 − R) A
+/// `layers`: from the surface down. Displacement u = (1 + R) A and stress μ b (1 − R) A
 /// are continuous between layers.
 #[inline(always)]
-pub(super) fn surface_motion_across<C: ComplexArithmetic>(
+pub(super) fn sh_surface_motion<C: ComplexArithmetic>(
     layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> C {
@@ -279,17 +302,17 @@ pub(super) fn surface_motion_across<C: ComplexArithmetic>(
     let one = base.a.like_real(1.0);
     let mut surface = one + one;
     let mut reflection = one;
-    let mut above: Option<WaveMedium<C>> = None;
-    let at_base = LayerWaves { medium: *base, travels: [zero; 2] };
-    for &LayerWaves { medium, travels: [_, travel] } in layers.iter().chain(&[at_base]) {
-        if let Some(upper) = above.replace(medium) {
+    let mut upper_medium: Option<WaveMedium<C>> = None;
+    let at_base = LayerWaves { medium: *base, phases: [zero; 2] };
+    for &LayerWaves { medium, phases: [_, phase] } in layers.iter().chain(&[at_base]) {
+        if let Some(upper) = upper_medium.replace(medium) {
             let displacement = one + reflection;
             let stress = (one - reflection) * upper.impedance() * medium.impedance().inverse();
             let scale = (displacement + stress).inverse();
             surface = surface.scale(2.0) * scale;
             reflection = (displacement - stress) * scale;
         }
-        let decay = (-travel).exp();
+        let decay = (-phase).exp();
         surface = surface * decay;
         reflection = reflection * decay * decay;
     }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::part_progress::PartProgress;
 use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
-use super::transform::PartProgress;
 use super::transform::{Contour, ContourPoint, Transform};
 use super::vertical::{ColumnFunctions, ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Observer, ProgressReporter, Result, not_negative};
@@ -12,7 +12,7 @@ use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
 use crate::soil::SoilProfile;
 
-/// Number of frequencies of a transfer function that are computed together.
+/// Number of frequencies of a transfer function between two reports of progress.
 const FREQUENCIES_PER_BLOCK: usize = 256;
 
 /// A soil profile as a column for vertical waves.
@@ -36,7 +36,9 @@ const FREQUENCIES_PER_BLOCK: usize = 256;
 /// ```
 #[derive(Debug, Clone)]
 pub struct SoilColumn {
+    /// Layers and base.
     pub(super) profile: SoilProfile,
+    /// Kind of the vertical waves.
     pub(super) wave: VerticalWave,
 }
 
@@ -57,14 +59,18 @@ impl SoilColumn {
     /// that are not passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
-        let functions =
-            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
-        let mut found = [Complex::default(); 2];
+        let functions = ColumnFunctions::exact(
+            &self.profile,
+            self.wave,
+            control,
+            ColumnQuantity::InverseTransfer,
+        );
+        let mut values = [Complex::default(); 2];
         functions.evaluate_at(
             &ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)),
-            &mut found,
+            &mut values,
         )?;
-        Ok(upwards(found[0], found[1]))
+        Ok(surface_per_control(values[0], values[1]))
     }
 
     /// Motion of the surface per unit motion e^(iωt) of `control`, at many frequencies.
@@ -93,25 +99,31 @@ impl SoilColumn {
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<Complex>> {
-        let mut watch = ProgressReporter::new("transfer function", frequencies.len(), observer);
-        let functions =
-            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
-        let mut found = Vec::with_capacity(frequencies.len());
+        let mut reporter = ProgressReporter::new("transfer function", frequencies.len(), observer);
+        let functions = ColumnFunctions::exact(
+            &self.profile,
+            self.wave,
+            control,
+            ColumnQuantity::InverseTransfer,
+        );
+        let mut transfer_values = Vec::with_capacity(frequencies.len());
         let mut moduli = vec![];
         for block in frequencies.chunks(FREQUENCIES_PER_BLOCK) {
             for frequency in block {
                 not_negative("frequency of a transfer function", *frequency)?;
             }
-            let places: Vec<ContourPoint> = block
+            let points: Vec<ContourPoint> = block
                 .iter()
                 .map(|frequency| ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)))
                 .collect();
             let mut values = vec![Complex::default(); 2 * block.len()];
-            evaluate(&functions, &places, &mut moduli, &mut values)?;
-            found.extend((0..block.len()).map(|k| upwards(values[k], values[block.len() + k])));
-            watch.reach(found.len())?;
+            evaluate(&functions, &points, &mut moduli, &mut values)?;
+            transfer_values.extend(
+                (0..block.len()).map(|k| surface_per_control(values[k], values[block.len() + k])),
+            );
+            reporter.reach(transfer_values.len())?;
         }
-        Ok(found)
+        Ok(transfer_values)
     }
 
     /// Motion of the surface from `motion` at `control`.
@@ -131,9 +143,9 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch =
+        let mut reporter =
             ProgressReporter::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
-        self.filtered(control, time_step, motion, upwards, &mut watch)
+        self.filtered(control, time_step, motion, surface_per_control, &mut reporter)
     }
 
     /// Motion at `control` from `motion` of the surface (deconvolution).
@@ -173,9 +185,9 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch =
+        let mut reporter =
             ProgressReporter::new("motion at depth", PartProgress::STEPS_PER_PART, observer);
-        self.filtered(control, time_step, motion, downwards, &mut watch)
+        self.filtered(control, time_step, motion, control_per_surface, &mut reporter)
     }
 
     /// Motion of the surface of `profile` in three directions from `motion` of `control`.
@@ -200,7 +212,7 @@ impl SoilColumn {
     /// };
     /// let control = ControlPoint::Outcrop;
     /// let surface = SoilColumn::surface_in_plan(&profile, control, &outcrop, &mut unobserved)?;
-    /// let peak = |record: &Option<_>| record.as_ref().map_or(0.0, |own: &basemat::motion::Record| own.peaks().acceleration);
+    /// let peak = |record: &Option<_>| record.as_ref().map_or(0.0, |record: &basemat::motion::Record| record.peaks().acceleration);
     /// assert!(peak(&surface.x) > peak(&outcrop.x));
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -213,10 +225,10 @@ impl SoilColumn {
         motion: &Triaxial,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let steps = 3 * PartProgress::STEPS_PER_PART;
-        let watch = &mut ProgressReporter::new("motion of the surface", steps, observer);
-        let mut surface_record = |part, wave, record: Option<&Record>| {
-            let mut progress = PartProgress::part(watch, part);
+        let step_count = 3 * PartProgress::STEPS_PER_PART;
+        let reporter = &mut ProgressReporter::new("motion of the surface", step_count, observer);
+        let mut surface_record = |part_index, wave, record: Option<&Record>| {
+            let mut progress = PartProgress::of_part(reporter, part_index);
             Self::surface_record(profile, wave, control, record, &mut progress)
         };
         Ok(Triaxial {
@@ -235,34 +247,40 @@ impl SoilColumn {
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<Option<Record>> {
         let Some(record) = record else {
-            progress.reach(1.0)?;
+            progress.report(1.0)?;
             return Ok(None);
         };
-        let step = record.time_step();
+        let time_step = record.time_step();
         let motion = record.accelerations();
         let column = Self::new(profile.clone(), wave)?;
-        let mut found = column.whole(control, step, motion, upwards, progress)?;
-        found.cut(found.duration().max(motion.len()));
-        Record::new(step, found.samples).map(Some)
+        let mut surface =
+            column.complete_motion(control, time_step, motion, surface_per_control, progress)?;
+        surface.truncate(surface.moving_sample_count().max(motion.len()));
+        Record::new(time_step, surface.samples).map(Some)
     }
 
-    /// `motion` times a function of the inverse transfer function and its exponent.
+    /// Filters a motion; the result has as many samples.
     fn filtered(
         &self,
         control: ControlPoint,
         time_step: f64,
         motion: &[f64],
         filter: Filter,
-        watch: &mut ProgressReporter<'_>,
+        reporter: &mut ProgressReporter<'_>,
     ) -> Result<SiteMotion> {
-        let mut found =
-            self.whole(control, time_step, motion, filter, &mut PartProgress::whole(watch))?;
-        found.cut(motion.len());
-        Ok(found)
+        let mut result = self.complete_motion(
+            control,
+            time_step,
+            motion,
+            filter,
+            &mut PartProgress::of_whole_call(reporter),
+        )?;
+        result.truncate(motion.len());
+        Ok(result)
     }
 
-    /// Motion at the other end, including the part after the end of `motion`.
-    fn whole(
+    /// Filters a motion; the result includes the time after the end of `motion`.
+    fn complete_motion(
         &self,
         control: ControlPoint,
         time_step: f64,
@@ -272,23 +290,29 @@ impl SoilColumn {
     ) -> Result<SiteMotion> {
         self.profile.check_causal()?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
-        let functions =
-            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
-        let functions = functions.sampled(contour.end()?)?;
+        let exact_functions = ColumnFunctions::exact(
+            &self.profile,
+            self.wave,
+            control,
+            ColumnQuantity::InverseTransfer,
+        );
+        let functions = exact_functions.sampled(contour.end()?)?;
         let mut moduli = vec![];
         let mut values = vec![];
-        let [found] = contour.filtered(motion, progress, |places, found| {
-            values.resize(2 * places.len(), Complex::default());
-            evaluate(&functions, places, &mut moduli, &mut values)?;
-            for (k, found) in found.iter_mut().enumerate() {
-                *found = filter(values[k], values[places.len() + k]);
+        let [result] = contour.filtered(motion, progress, |points, filter_values| {
+            values.resize(2 * points.len(), Complex::default());
+            evaluate(&functions, points, &mut moduli, &mut values)?;
+            for (k, value) in filter_values.iter_mut().enumerate() {
+                *value = filter(values[k], values[points.len() + k]);
             }
             Ok(())
         })?;
-        Ok(found)
+        Ok(result)
     }
 
-    /// Spectra inside the column from the motion at `control` in `transform`, for any damping law.
+    /// Computes the spectra of a quantity in the column, for any damping law.
+    ///
+    /// `transform`: spectrum of the motion at `control`; it receives the spectra.
     pub(super) fn response(
         &self,
         quantity: ColumnQuantity,
@@ -296,30 +320,30 @@ impl SoilColumn {
         transform: &mut Transform,
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<()> {
-        let functions = ColumnFunctions::exact(&self.profile, self.wave, control, quantity);
-        let functions = functions.sampled(transform.contour().end()?)?;
+        let exact_functions = ColumnFunctions::exact(&self.profile, self.wave, control, quantity);
+        let functions = exact_functions.sampled(transform.contour().end()?)?;
         let mut moduli = vec![];
-        transform.filter(functions.count(), false, progress, |places, found| {
-            evaluate(&functions, places, &mut moduli, found)
+        transform.filter(functions.function_count(), false, progress, |points, results| {
+            evaluate(&functions, points, &mut moduli, results)
         })
     }
 
-    /// Contour for motions inside the column, which are computed at real frequencies only.
-    pub(super) fn contour(&self, time_step: f64, samples: usize) -> Result<Contour> {
-        let contour = Contour::new(time_step, samples, self.profile.travel_time())?;
+    /// Contour for motions inside the column, along real frequencies.
+    pub(super) fn contour(&self, time_step: f64, sample_count: usize) -> Result<Contour> {
+        let contour = Contour::new(time_step, sample_count, self.profile.travel_time())?;
         Ok(contour.at_real_frequencies())
     }
 }
 
-/// Function of the inverse transfer function without its factor e^x, and of x.
+/// Filter of a motion, from the inverse transfer function without its factor e^x, and x.
 type Filter = fn(Complex, Complex) -> Complex;
 
-/// Surface motion by control motion.
-fn upwards(value: Complex, travel: Complex) -> Complex {
-    value.inverse() * (-travel).exp()
+/// Surface motion per control motion.
+fn surface_per_control(inverse_transfer: Complex, exponent: Complex) -> Complex {
+    inverse_transfer.inverse() * (-exponent).exp()
 }
 
-/// Control motion by surface motion.
-fn downwards(value: Complex, travel: Complex) -> Complex {
-    value * travel.exp()
+/// Control motion per surface motion.
+fn control_per_surface(inverse_transfer: Complex, exponent: Complex) -> Complex {
+    inverse_transfer * exponent.exp()
 }

@@ -1,12 +1,12 @@
 //! Waves from below at the faces of a trench.
 
-use super::transform::PartProgress;
-use super::trench_waves::{LevelRecords, SurfaceRecords, TrenchWaves, VALUE_COUNT};
+use super::part_progress::PartProgress;
+use super::trench_waves::{LevelRecords, SurfaceRecords, TrenchWaves, VALUES_PER_LEVEL};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
 use crate::error::{Observer, ProgressReporter, Result};
 use crate::linalg::gauss;
-use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
+use crate::motion::{FreeField, Record, SlownessAndOrigin, TravellingWave, VerticalIncidence};
 
 /// Free field of a trench: waves from below a surface whose motion is known.
 ///
@@ -28,41 +28,44 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 /// let record = el_centro_1940().padded(1.0, 1.0)?;
 /// let motion = TrenchMotion::new(&ground, record.clone(), &mut unobserved)?;
 /// // Waves of the half-plane: the mean of the surface's motion 5 m/(200 m/s) earlier and later.
-/// let [mut moved, mut impulse] = [vec![0.0; 28], vec![0.0; 28]];
-/// assert!(motion.at_faces(&elements.elements(), 4.0, &mut moved, &mut impulse));
+/// let [mut displacement, mut impulse] = [vec![0.0; 28], vec![0.0; 28]];
+/// assert!(motion.at_faces(&elements.elements(), 4.0, &mut displacement, &mut impulse));
 /// let shear_at_base = 14 + 4;
 /// let at = |time: f64| record.at(time).displacement;
-/// assert!((moved[shear_at_base] - 0.5 * (at(3.975) + at(4.025))).abs() < 2e-6);
+/// assert!((displacement[shear_at_base] - 0.5 * (at(3.975) + at(4.025))).abs() < 2e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct TrenchMotion {
     /// Motion of the surface at the origin.
     surface: VerticalIncidence,
-    /// Time by which the surface's records begin earlier than the wave's, s.
-    lead: f64,
-    /// Records of the motion from which the field was made.
-    records: Vec<Record>,
+    /// Time by which the records of `surface` begin before those of the wave, s.
+    lead_time: f64,
+    /// Records of the motion that the caller passed.
+    input_records: Vec<Record>,
+    /// Contact elements of the trench.
     elements: Vec<ContactElement>,
-    soils: Option<Vec<f64>>,
+    /// Numbers that are equal only for equal soils; `None` for soils without an identity.
+    soil_identity: Option<Vec<f64>>,
     /// Horizontal slowness, s/m.
     slowness: f64,
-    /// Place of the surface's motion, m.
+    /// The x at which the surface has the motion `surface`, m.
     origin: f64,
-    components: Vec<Component>,
+    /// Motion at depth due to the components of `surface`.
+    components: Vec<DepthMotion>,
 }
 
-/// The soil's motion by one component of the surface's motion.
+/// Motion at depth due to one component of the surface's motion.
 #[derive(Debug, Clone)]
-struct Component {
-    /// Time by which the records begin earlier than the motion of the surface, s.
-    lead: f64,
-    /// Velocity (m/s) that padding leaves at the beginning of the surface's motion.
+struct DepthMotion {
+    /// Time by which the records begin before the motion of the surface, s.
+    lead_time: f64,
+    /// Velocity (m/s) of the padded record at the beginning of the surface's motion.
     ///
-    /// It is subtracted.
-    drift: f64,
+    /// The motion at depth is corrected by it.
+    drift_velocity: f64,
     /// Records for the elements of a wall, from the surface down, and for the base.
-    levels: Vec<LevelRecords>,
+    records_by_level: Vec<LevelRecords>,
 }
 
 impl TrenchMotion {
@@ -81,43 +84,44 @@ impl TrenchMotion {
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let surface: VerticalIncidence = motion.into();
-        let given_records = surface.records().into_iter().cloned().collect();
+        let input_records = surface.records().into_iter().cloned().collect();
         let waves = TrenchWaves::new(ground, 0.0)?;
-        let components_of_surface = [&surface.horizontal, &surface.vertical];
-        let count = components_of_surface.iter().filter(|record| record.is_some()).count();
-        let mut watch = ProgressReporter::new(
+        let surface_components = [&surface.horizontal, &surface.vertical];
+        let component_count = surface_components.iter().filter(|record| record.is_some()).count();
+        let mut reporter = ProgressReporter::new(
             "motion at depth",
-            count * PartProgress::STEPS_PER_PART,
+            component_count * PartProgress::STEPS_PER_PART,
             observer,
         );
         let mut components = vec![];
-        for (kind, record) in components_of_surface.into_iter().enumerate() {
+        for (component_index, record) in surface_components.into_iter().enumerate() {
             let Some(record) = record else { continue };
-            let rest = waves.rest(record.time_step());
-            let padded = record.padded(rest, rest)?;
-            let lead = (padded.len() - record.len()) as f64 / 2.0 * record.time_step();
-            let drift = padded.at(lead).velocity;
-            let mut progress = PartProgress::part(&mut watch, components.len());
-            let levels = waves.levels(kind, &padded, &mut progress)?;
-            components.push(Component { lead, drift, levels });
+            let rest_duration = waves.rest_duration(record.time_step());
+            let padded = record.padded(rest_duration, rest_duration)?;
+            let lead_time = (padded.len() - record.len()) as f64 / 2.0 * record.time_step();
+            let drift_velocity = padded.at(lead_time).velocity;
+            let mut progress = PartProgress::of_part(&mut reporter, components.len());
+            let records_by_level = waves.level_records(component_index, &padded, &mut progress)?;
+            components.push(DepthMotion { lead_time, drift_velocity, records_by_level });
         }
-        let TrenchWaves { elements, soils, slowness, .. } = waves;
+        let TrenchWaves { elements, soil_identity, slowness, .. } = waves;
         Ok(Self {
             surface,
-            lead: 0.0,
-            records: given_records,
+            lead_time: 0.0,
+            input_records,
             elements,
-            soils,
+            soil_identity,
             slowness,
             origin: 0.0,
             components,
         })
     }
 
-    /// Waves with the motion of `wave` at the surface: inclined ones, or Rayleigh's wave of a half-plane.
+    /// Inclined waves or Rayleigh waves, from the motion of `wave` at the surface.
     ///
-    /// The wave must be one of the profile of `ground`: motion of the surface and apparent velocity determine the field
-    /// below, whatever they are. Motion before and after the wave's record fades within half of its length.
+    /// The wave must be a wave of the profile of `ground`. The field at depth is computed in this profile from the motion of
+    /// the surface and the apparent velocity, without a check. Motion before and after the wave's record fades within half
+    /// of its length.
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -134,13 +138,13 @@ impl TrenchMotion {
     /// let record = Record::new(0.01, samples.map(second).collect())?;
     /// let wave = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -6.0)?;
     /// let motion = TrenchMotion::travelling(&ground, &wave, &mut unobserved)?;
-    /// let [mut moved, mut impulse] = [vec![0.0; 20], vec![0.0; 20]];
+    /// let [mut displacement, mut impulse] = [vec![0.0; 20], vec![0.0; 20]];
     /// // At −3 m, the middle of the base's left half.
     /// let time = 20.0 + 3.0 / soil.rayleigh_wave_speed();
-    /// assert!(motion.at_faces(&elements.elements(), time, &mut moved, &mut impulse));
+    /// assert!(motion.at_faces(&elements.elements(), time, &mut displacement, &mut impulse));
     /// let surface = motion.displacement(-3.0, time)[0];
     /// // Achenbach 1973, § 5.11: 0.770 at a depth of 0.0272 wavelengths.
-    /// assert!((moved[10 + 4] / surface - 0.770).abs() < 2e-3);
+    /// assert!((displacement[10 + 4] / surface - 0.770).abs() < 2e-3);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -152,26 +156,39 @@ impl TrenchMotion {
         wave: &TravellingWave,
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
-        let [slowness, origin] = wave.along()?;
+        let SlownessAndOrigin { slowness, origin } = wave.slowness_along_x()?;
         let waves = TrenchWaves::new(ground, slowness)?;
-        let mut watch =
+        let mut reporter =
             ProgressReporter::new("motion at depth", 2 * PartProgress::STEPS_PER_PART, observer);
-        let SurfaceRecords { lead, records } = waves.surface(wave, origin)?;
+        let SurfaceRecords { lead_time, records } = waves.surface_records(wave, origin)?;
         let mut components = vec![];
-        for (kind, record) in records.iter().enumerate() {
-            let levels = waves.levels(kind, record, &mut PartProgress::part(&mut watch, kind))?;
-            components.push(Component { lead, drift: 0.0, levels });
+        for (component_index, record) in records.iter().enumerate() {
+            let records_by_level = waves.level_records(
+                component_index,
+                record,
+                &mut PartProgress::of_part(&mut reporter, component_index),
+            )?;
+            components.push(DepthMotion { lead_time, drift_velocity: 0.0, records_by_level });
         }
-        let TrenchWaves { elements, soils, .. } = waves;
+        let TrenchWaves { elements, soil_identity, .. } = waves;
         let [horizontal, vertical] = records.map(Some);
         let surface = VerticalIncidence { horizontal, vertical };
-        let records = wave.records().into_iter().cloned().collect();
-        Ok(Self { surface, lead, records, elements, soils, slowness, origin, components })
+        let input_records = wave.records().into_iter().cloned().collect();
+        Ok(Self {
+            surface,
+            lead_time,
+            input_records,
+            elements,
+            soil_identity,
+            slowness,
+            origin,
+            components,
+        })
     }
 }
 
 impl TrenchMotion {
-    /// Time at which the motion at a place and `time` was at the origin.
+    /// Time (s) at which the origin had the motion that x (m) has at `time` (s).
     fn arrival(&self, x: f64, time: f64) -> f64 {
         time - self.slowness * (x - self.origin)
     }
@@ -179,7 +196,7 @@ impl TrenchMotion {
 
 impl FreeField for TrenchMotion {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.displacement(x, self.lead + self.arrival(x, time))
+        self.surface.displacement(x, self.lead_time + self.arrival(x, time))
     }
 
     fn at_faces(
@@ -192,47 +209,51 @@ impl FreeField for TrenchMotion {
         if elements != self.elements {
             return false;
         }
-        let count = elements.len();
+        let element_count = elements.len();
         for (e, element) in elements.iter().enumerate() {
             let is_base = element.faces_down();
-            // Along the base the wave needs time: a rule of two points.
-            let half = 0.5 * element.length() * gauss::rule(2).nodes[1];
-            let is_wide = is_base && self.slowness != 0.0;
-            let points: &[f64] = if is_wide { &[-half, half] } else { &[0.0] };
-            let weight = 1.0 / points.len() as f64;
-            let mut sums = [0.0; VALUE_COUNT];
+            // An inclined wave varies along the base: two Gauss points give its mean.
+            let gauss_offset = 0.5 * element.length() * gauss::rule(2).nodes[1];
+            let varies_along_base = is_base && self.slowness != 0.0;
+            let offsets: &[f64] =
+                if varies_along_base { &[-gauss_offset, gauss_offset] } else { &[0.0] };
+            let weight = 1.0 / offsets.len() as f64;
+            let mut sums = [0.0; VALUES_PER_LEVEL];
             for component in &self.components {
-                let level = &component.levels[e.min(count - 1 - e).min(component.levels.len() - 1)];
-                for point in points {
-                    let arrival = self.arrival(element.center()[0] + point, time);
-                    for (k, (sum, record)) in sums.iter_mut().zip(level).enumerate() {
+                let level_records = &component.records_by_level
+                    [e.min(element_count - 1 - e).min(component.records_by_level.len() - 1)];
+                for offset in offsets {
+                    let arrival = self.arrival(element.center()[0] + offset, time);
+                    for (k, (sum, record)) in sums.iter_mut().zip(level_records).enumerate() {
                         let Some(record) = record else { continue };
-                        let motion = record.at(arrival + component.lead);
-                        let displacement = motion.displacement - component.drift * arrival;
-                        *sum += weight * if k < 2 { displacement } else { motion.velocity };
+                        let motion = record.at(arrival + component.lead_time);
+                        let corrected_displacement =
+                            motion.displacement - component.drift_velocity * arrival;
+                        *sum +=
+                            weight * if k < 2 { corrected_displacement } else { motion.velocity };
                     }
                 }
             }
             let [right, up, shear, pressure] = sums;
-            let components = element.components([right, 0.0, up]);
-            displacement[e] = components[0];
-            displacement[count + e] = components[1];
-            // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
+            let element_components = element.components([right, 0.0, up]);
+            displacement[e] = element_components[0];
+            displacement[element_count + e] = element_components[1];
+            // σ_xz acts to the left on the soil below the base, and along the tangents on the soil beside the walls.
             impulse[e] = pressure;
-            impulse[count + e] = if is_base { -shear } else { shear };
+            impulse[element_count + e] = if is_base { -shear } else { shear };
         }
         true
     }
 
     fn soils(&self) -> Option<&[f64]> {
-        self.soils.as_deref()
+        self.soil_identity.as_deref()
     }
 
     fn records(&self) -> Vec<&Record> {
-        self.records.iter().collect()
+        self.input_records.iter().collect()
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.velocity(x, self.lead + self.arrival(x, time))
+        self.surface.velocity(x, self.lead_time + self.arrival(x, time))
     }
 }

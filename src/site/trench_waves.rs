@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use super::below_surface::{FieldMedium, WaveField};
-use super::transform::PartProgress;
+use super::part_progress::PartProgress;
 use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};
@@ -17,237 +17,290 @@ use crate::soil::SoilProfile;
 
 /// Records of mean values at one level; `None` for zero.
 ///
-/// The displacements of the first two are to the right and up. The velocities of the others are the impulses of σ_xz and
-/// of the pressure across the face.
-pub(super) type LevelRecords = [Option<Record>; VALUE_COUNT];
+/// The first two have the displacements to the right and up. The velocities of the other two are the impulses of σ_xz and
+/// of the pressure on the face.
+pub(super) type LevelRecords = [Option<Record>; VALUES_PER_LEVEL];
 
-/// Number of records of a level.
-pub(super) const VALUE_COUNT: usize = 4;
-/// Rest before and after a record, in travel times to the base, and in samples.
-const REST_DURATION: [f64; 2] = [2.0, 32.0];
+/// Number of mean values of a level, with a record each.
+pub(super) const VALUES_PER_LEVEL: usize = 4;
+/// Rest before and after a record, in travel times of waves between base and surface: waves travel up and down.
+const REST_TRAVEL_TIMES: f64 = 2.0;
+/// Rest before and after a record beyond the travel time, in samples, in which filters respond.
+const REST_SAMPLE_COUNT: f64 = 32.0;
+/// Number of Gauss points in each soil of a level: fields vary as exponentials over its depth.
+const POINTS_PER_PIECE: usize = 4;
+/// Bytes of a sample of a record with its integrals, and of temporary copies.
+const BYTES_PER_SAMPLE: f64 = 40.0;
 /// Fraction of a record's length over which motion before and after it fades.
 const FADING_FRACTION: f64 = 0.5;
 /// Smallest velocity along the surface, relative to the lowest shear wave speed.
 ///
-/// Surface waves of layers run at 0.87 or more.
+/// Surface waves of layers have 0.87 of that speed, or more.
 const MIN_VELOCITY_RATIO: f64 = 0.8;
 
 /// Waves of one horizontal slowness in a profile, down to the base of a trench.
 pub(super) struct TrenchWaves<'a> {
+    /// Profile without the trench.
     profile: &'a SoilProfile,
+    /// Horizontal slowness, s/m.
     pub(super) slowness: f64,
+    /// Contact elements of the trench.
     pub(super) elements: Vec<ContactElement>,
-    /// Numbers that are equal only for equal soils, if they are known.
-    pub(super) soils: Option<Vec<f64>>,
-    /// Number of elements of a wall; their levels come first, then the level of the base.
-    walls: usize,
+    /// Numbers that are equal only for equal soils; `None` for soils without an identity.
+    pub(super) soil_identity: Option<Vec<f64>>,
+    /// Number of elements of a wall. Each has a level; the level of the base follows.
+    wall_element_count: usize,
     /// Depth of the base, m.
-    bottom: f64,
-    /// Points of integration, from the surface down.
-    points: Vec<DepthPoint>,
+    base_depth: f64,
+    /// Integration points, from the surface down.
+    depth_points: Vec<DepthPoint>,
 }
 
-/// Point of a quadrature rule for the mean over a level.
+/// Integration point for the mean over a level.
 struct DepthPoint {
+    /// Index of the level.
     level: usize,
+    /// Weight in the mean over the level.
     weight: f64,
-    /// Number of the soil above the point.
-    soil: usize,
-    /// Height from the previous point, m.
-    height: f64,
+    /// Index of the soil above the point.
+    soil_index: usize,
+    /// Depth below the previous point, m.
+    depth_step: f64,
 }
 
-/// Records of the surface at the origin.
+/// Records of the surface at the origin of a wave.
 pub(super) struct SurfaceRecords {
-    /// Time by which the records begin earlier than the wave's, s.
-    pub(super) lead: f64,
+    /// Time by which these records begin before those of the wave, s.
+    pub(super) lead_time: f64,
     /// Accelerations to the right and up.
     pub(super) records: [Record; 2],
 }
 
 impl<'a> TrenchWaves<'a> {
+    /// Waves in the profile of `ground`.
+    ///
+    /// `slowness`: horizontal slowness, s/m.
     pub(super) fn new(ground: &'a TrenchGround, slowness: f64) -> Result<Self> {
-        let needed = "a trench without it: waves beside it are not the profile's";
+        let needed = "a trench without backfill: waves in backfill are not those of the profile";
         require_part("backfill", !ground.has_backfill(), needed)?;
         let profile = ground.profile();
-        let bottom = ground.trench_elements().trench().depth();
+        let base_depth = ground.trench_elements().trench().depth();
         profile.check_causal()?;
-        let speeds = profile.soils().map(|(soil, _)| soil.shear_wave_speed());
-        let is_fast =
-            MIN_VELOCITY_RATIO * speeds.fold(f64::INFINITY, f64::min) * slowness.abs() <= 1.0;
+        let shear_wave_speeds = profile.soils().map(|(soil, _)| soil.shear_wave_speed());
+        let is_fast_enough =
+            MIN_VELOCITY_RATIO * shear_wave_speeds.fold(f64::INFINITY, f64::min) * slowness.abs()
+                <= 1.0;
         let needed = "at least 0.8 of the lowest shear wave speed";
-        require("apparent velocity of a wave", 1.0 / slowness, is_fast, needed)?;
+        require("apparent velocity of a wave", 1.0 / slowness, is_fast_enough, needed)?;
         let elements = ground.trench_elements().elements();
         let left_wall = ContactElement::faces(&elements).left_wall;
-        let walls = left_wall.len();
-        let mut points = vec![];
+        let wall_element_count = left_wall.len();
+        let mut depth_points = vec![];
         for (level, element) in elements[left_wall].iter().enumerate() {
-            let middle = -element.center()[2];
-            let length = element.length();
-            let lower_end = middle + 0.5 * length;
-            let mut start = middle - 0.5 * length;
-            for (soil, (_, end)) in profile.soils_to().enumerate() {
-                let piece = end.min(lower_end) - start;
-                if piece <= 0.0 {
+            let middle_depth = -element.center()[2];
+            let element_length = element.length();
+            let lower_end_depth = middle_depth + 0.5 * element_length;
+            let mut start_depth = middle_depth - 0.5 * element_length;
+            for (soil_index, (_, end_depth)) in profile.soils_to().enumerate() {
+                let piece_length = end_depth.min(lower_end_depth) - start_depth;
+                if piece_length <= 0.0 {
                     continue;
                 }
-                let mut previous = 0.0;
-                for (place, weight) in gauss::rule(4).points_on_unit_interval() {
-                    let weight = weight * piece / length;
-                    let height = (place - previous) * piece;
-                    points.push(DepthPoint { level, weight, soil, height });
-                    previous = place;
+                let mut previous_node = 0.0;
+                for (node, weight) in gauss::rule(POINTS_PER_PIECE).points_on_unit_interval() {
+                    let mean_weight = weight * piece_length / element_length;
+                    let depth_step = (node - previous_node) * piece_length;
+                    depth_points.push(DepthPoint {
+                        level,
+                        weight: mean_weight,
+                        soil_index,
+                        depth_step,
+                    });
+                    previous_node = node;
                 }
-                let height = (1.0 - previous) * piece;
-                points.push(DepthPoint { level, weight: 0.0, soil, height });
-                start += piece;
+                let depth_step = (1.0 - previous_node) * piece_length;
+                depth_points.push(DepthPoint { level, weight: 0.0, soil_index, depth_step });
+                start_depth += piece_length;
             }
         }
-        points.push(DepthPoint { level: walls, weight: 1.0, soil: 0, height: 0.0 });
-        let soils = ground.description().identity;
-        Ok(Self { profile, slowness, elements, soils, walls, bottom, points })
+        depth_points.push(DepthPoint {
+            level: wall_element_count,
+            weight: 1.0,
+            soil_index: 0,
+            depth_step: 0.0,
+        });
+        let soil_identity = ground.description().identity;
+        Ok(Self {
+            profile,
+            slowness,
+            elements,
+            soil_identity,
+            wall_element_count,
+            base_depth,
+            depth_points,
+        })
     }
 
     /// Time (s) that waves take from the base to the surface.
-    fn travel(&self) -> f64 {
-        self.profile.above(self.bottom).travel_time()
+    fn travel_time(&self) -> f64 {
+        self.profile.above(self.base_depth).travel_time()
     }
 
-    /// Time before and after a record in which waves pass, s.
-    pub(super) fn rest(&self, step: f64) -> f64 {
-        REST_DURATION[0] * self.travel() + REST_DURATION[1] * step
+    /// Duration (s) of the rest before and after a record, in which waves pass the trench.
+    pub(super) fn rest_duration(&self, time_step: f64) -> f64 {
+        REST_TRAVEL_TIMES * self.travel_time() + REST_SAMPLE_COUNT * time_step
     }
 
     /// Records of a wave's motion of the surface at the origin, with rest before and after.
-    pub(super) fn surface(&self, wave: &TravellingWave, origin: f64) -> Result<SurfaceRecords> {
+    pub(super) fn surface_records(
+        &self,
+        wave: &TravellingWave,
+        origin: f64,
+    ) -> Result<SurfaceRecords> {
         let records = wave.records();
-        let step = records.iter().map(|record| record.time_step()).fold(f64::INFINITY, f64::min);
-        require_part("record of a wave", step.is_finite(), "one: a wave made of records")?;
-        let end = records.iter().map(|record| record.duration()).fold(0.0, f64::max);
+        let time_step =
+            records.iter().map(|record| record.time_step()).fold(f64::INFINITY, f64::min);
+        require_part(
+            "record of a wave",
+            time_step.is_finite(),
+            "at least one: the wave must consist of records",
+        )?;
+        let duration = records.iter().map(|record| record.duration()).fold(0.0, f64::max);
         let is_quiet = |time: f64| wave.velocity(origin, time) == [0.0; 2];
-        let is_quiet_outside = is_quiet(-step) && is_quiet(end + step);
-        let fading = if is_quiet_outside { 0.0 } else { FADING_FRACTION * end };
-        let lead = ((self.rest(step) + fading) / step).ceil();
-        let count = 2.0 * lead + (end / step).ceil();
-        memory::check("samples of the record", count, 40.0 * count)?;
+        let is_quiet_outside = is_quiet(-time_step) && is_quiet(duration + time_step);
+        let fading_duration = if is_quiet_outside { 0.0 } else { FADING_FRACTION * duration };
+        let lead_count = ((self.rest_duration(time_step) + fading_duration) / time_step).ceil();
+        let sample_ratio = 2.0 * lead_count + (duration / time_step).ceil();
+        memory::check("samples of the record", sample_ratio, BYTES_PER_SAMPLE * sample_ratio)?;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "fits into memory"
         )]
-        let count = count as usize;
-        let mut velocities = [Vec::with_capacity(count + 1), Vec::with_capacity(count + 1)];
-        for i in 0..=count {
-            let time = (i as f64 - lead) * step;
-            let outside = (-time).max(time - end).max(0.0);
-            let fraction = if fading > 0.0 { (outside / fading).min(1.0) } else { 0.0 };
+        let interval_count = sample_ratio as usize;
+        let mut velocities =
+            [Vec::with_capacity(interval_count + 1), Vec::with_capacity(interval_count + 1)];
+        for i in 0..=interval_count {
+            let time = (i as f64 - lead_count) * time_step;
+            let time_outside = (-time).max(time - duration).max(0.0);
+            let fading_progress =
+                if fading_duration > 0.0 { (time_outside / fading_duration).min(1.0) } else { 0.0 };
             for (samples, velocity) in velocities.iter_mut().zip(wave.velocity(origin, time)) {
-                samples.push(velocity * 0.5 * (1.0 + (PI * fraction).cos()));
+                samples.push(velocity * 0.5 * (1.0 + (PI * fading_progress).cos()));
             }
         }
-        let horizontal = differentiated(&velocities[0], step)?;
-        let vertical = differentiated(&velocities[1], step)?;
-        Ok(SurfaceRecords { lead: lead * step, records: [horizontal, vertical] })
+        let horizontal = record_of_velocities(&velocities[0], time_step)?;
+        let vertical = record_of_velocities(&velocities[1], time_step)?;
+        Ok(SurfaceRecords { lead_time: lead_count * time_step, records: [horizontal, vertical] })
     }
 
-    /// Motion at all levels due to one component of the surface's motion.
+    /// Records at all levels due to one component of the surface's motion.
     ///
-    /// `kind`: 0 for the motion to the right, 1 for the motion up.
-    pub(super) fn levels(
+    /// `surface_component`: 0 for the motion to the right, 1 for the motion up.
+    pub(super) fn level_records(
         &self,
-        kind: usize,
+        surface_component: usize,
         surface: &Record,
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<Vec<LevelRecords>> {
-        let step = surface.time_step();
+        let time_step = surface.time_step();
         let samples = surface.accelerations();
-        // Vertical waves have one direction.
-        let nonzero: Vec<usize> =
-            (0..VALUE_COUNT).filter(|k| self.slowness != 0.0 || k % 2 == kind).collect();
-        let contour = Contour::new(step, samples.len(), self.travel())?;
+        // Vertical waves do not couple horizontal and vertical motion.
+        let nonzero_indices: Vec<usize> = (0..VALUES_PER_LEVEL)
+            .filter(|k| self.slowness != 0.0 || k % 2 == surface_component)
+            .collect();
+        let contour = Contour::new(time_step, samples.len(), self.travel_time())?;
         let mut transform = Transform::new(contour, samples)?;
         let mut moduli = vec![];
-        let mut values = vec![];
-        transform.filter(nonzero.len() * (self.walls + 1), true, progress, |places, filters| {
-            for (i, place) in places.iter().enumerate() {
-                self.profile.moduli(place.s, &mut moduli)?;
-                self.values(kind, place.s, &moduli, &mut values);
-                let level_values =
-                    values.iter().flat_map(|values| nonzero.iter().map(|k| values[*k]));
-                let filters = filters[i..].iter_mut().step_by(places.len());
-                for (filter, value) in filters.zip(level_values) {
-                    *filter = value.scale(1.0 - place.nearness);
+        let mut level_means = vec![];
+        transform.filter(
+            nonzero_indices.len() * (self.wall_element_count + 1),
+            true,
+            progress,
+            |points, filters| {
+                for (i, point) in points.iter().enumerate() {
+                    self.profile.moduli(point.s, &mut moduli)?;
+                    self.mean_values(surface_component, point.s, &moduli, &mut level_means);
+                    let nonzero_means = level_means
+                        .iter()
+                        .flat_map(|means| nonzero_indices.iter().map(|k| means[*k]));
+                    let filters = filters[i..].iter_mut().step_by(points.len());
+                    for (filter, value) in filters.zip(nonzero_means) {
+                        *filter = value.scale(1.0 - point.modified_weight);
+                    }
                 }
-            }
-            Ok(())
-        })?;
-        let mut levels = vec![];
-        for level in 0..=self.walls {
+                Ok(())
+            },
+        )?;
+        let mut records_by_level = vec![];
+        for level in 0..=self.wall_element_count {
             let mut records = LevelRecords::default();
-            for (slot, &k) in nonzero.iter().enumerate() {
-                let mut motion = transform.motion(level * nonzero.len() + slot)?;
+            for (order, &k) in nonzero_indices.iter().enumerate() {
+                let mut motion = transform.motion(level * nonzero_indices.len() + order)?;
                 if let (Some(frequency), true) = (motion.amplified_from, k < 2) {
                     let needed = "none: the soil above the base amplifies this motion on the way down more than a hundredfold";
                     require("frequency of the record (Hz)", frequency, false, needed)?;
                 }
-                motion.cut(samples.len());
-                records[k] = Some(Record::new(step, motion.samples)?);
+                motion.truncate(samples.len());
+                records[k] = Some(Record::new(time_step, motion.samples)?);
             }
-            levels.push(records);
+            records_by_level.push(records);
         }
-        progress.reach(1.0)?;
-        Ok(levels)
+        progress.report(1.0)?;
+        Ok(records_by_level)
     }
 
-    /// Overwrites `values` with the means of each level.
+    /// Overwrites `level_means` with the mean values of each level.
     ///
-    /// They are per unit acceleration of a component of the surface.
-    fn values(
+    /// The values are per unit acceleration of a component of the surface's motion.
+    fn mean_values(
         &self,
-        kind: usize,
+        surface_component: usize,
         s: Complex,
         moduli: &[Complex],
-        values: &mut Vec<[Complex; VALUE_COUNT]>,
+        level_means: &mut Vec<[Complex; VALUES_PER_LEVEL]>,
     ) {
         let soils = self.profile.soils().zip(moduli);
         let media: Vec<FieldMedium> = soils
             .map(|((soil, _), modulus)| FieldMedium::new(soil, *modulus, self.slowness))
             .collect();
         let zero = Complex::default();
-        let mut field = if kind == 0 {
+        let mut field = if surface_component == 0 {
             WaveField { right: Complex::real(1.0), ..WaveField::default() }
         } else {
             WaveField { down: Complex::real(-1.0), ..WaveField::default() }
         };
-        values.clear();
-        values.resize(self.walls + 1, [zero; VALUE_COUNT]);
-        for point in &self.points {
-            let medium = &media[point.soil];
-            field = medium.below(s, point.height, field);
-            // Normal to the face: the walls are vertical, the base is horizontal.
-            let is_wall = point.level < self.walls;
-            let normal = if is_wall { medium.horizontal_stress(field) } else { field.normal };
-            let point_values = [field.right, -field.down, field.shear / s, -(normal / s)];
-            for (sum, value) in values[point.level].iter_mut().zip(point_values) {
+        level_means.clear();
+        level_means.resize(self.wall_element_count + 1, [zero; VALUES_PER_LEVEL]);
+        for point in &self.depth_points {
+            let medium = &media[point.soil_index];
+            field = medium.below(s, point.depth_step, field);
+            // The walls are vertical, the base is horizontal.
+            let is_wall = point.level < self.wall_element_count;
+            let normal_stress =
+                if is_wall { medium.horizontal_stress(field) } else { field.normal };
+            let point_values = [field.right, -field.down, field.shear / s, -(normal_stress / s)];
+            for (sum, value) in level_means[point.level].iter_mut().zip(point_values) {
                 *sum += value.scale(point.weight);
             }
         }
     }
 }
 
-/// Record of the acceleration whose sum by the trapezoidal rule is the velocity.
-fn differentiated(velocity: &[f64], step: f64) -> Result<Record> {
-    let contour = Contour::new(step, velocity.len(), 0.0)?;
-    let mut watch = ProgressReporter::unobserved();
-    let mut progress = PartProgress::whole(&mut watch);
-    let [mut acceleration] = contour.filtered(velocity, &mut progress, |places, filters| {
-        for (filter, place) in filters.iter_mut().zip(places) {
+/// Record whose accelerations have these velocities as integral by the trapezoidal rule.
+fn record_of_velocities(velocities: &[f64], time_step: f64) -> Result<Record> {
+    let contour = Contour::new(time_step, velocities.len(), 0.0)?;
+    let mut reporter = ProgressReporter::unobserved();
+    let mut progress = PartProgress::of_whole_call(&mut reporter);
+    let [mut acceleration] = contour.filtered(velocities, &mut progress, |points, filters| {
+        for (filter, point) in filters.iter_mut().zip(points) {
             let one = Complex::real(1.0);
-            let delay = (-place.s.scale(step)).exp();
-            *filter = ((one - delay) / (one + delay)).scale(2.0 / step * (1.0 - place.nearness));
+            let delay = (-point.s.scale(time_step)).exp();
+            *filter = ((one - delay) / (one + delay))
+                .scale(2.0 / time_step * (1.0 - point.modified_weight));
         }
         Ok(())
     })?;
-    acceleration.cut(velocity.len());
-    Record::new(step, acceleration.samples)
+    acceleration.truncate(velocities.len());
+    Record::new(time_step, acceleration.samples)
 }

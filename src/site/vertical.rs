@@ -5,8 +5,8 @@
 //!
 //! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
 //!
-//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2. Amplitudes are computed without
-//! the factor e^(Σκh) of the layers above, which may leave the range of f64.
+//! the outcrop of the base moves by 2Aₙ, the base under the layers by Aₙ + Bₙ, the surface by 2. Amplitudes are computed
+//! without the factor e^(Σκh) of the layers above, which may exceed the range of f64.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Bedrock, SoilProfile};
 
-/// Kind of wave that travels along a column.
+/// Kind of the vertical waves in a soil column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -27,26 +27,26 @@ pub enum VerticalWave {
     Pressure,
 }
 
-/// Place of a prescribed or computed motion at depth.
+/// Position of a motion at depth, prescribed or computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ControlPoint {
-    /// The surface of the base without layers above: rock outcrop.
+    /// The base as a free surface without layers: rock outcrop.
     #[default]
     Outcrop,
     /// The base under the layers, including reflected waves; equal to the outcrop if the base is rigid.
     Within,
 }
 
-/// Quantity of a column as a function of s.
+/// Quantities of a column as functions of s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ColumnQuantity {
-    /// Control motion by surface motion without its factor e^x, and x.
-    Inverse,
-    /// Acceleration at the tops of all layers and of the base, by the control motion.
+    /// Control motion per surface motion without its factor e^x, and x.
+    InverseTransfer,
+    /// Accelerations of the tops of all layers and of the base, per control motion.
     Accelerations,
-    /// Strain in the middle of all layers, by the control motion's acceleration.
+    /// Strains in the middle of all layers, per acceleration of the control motion.
     Strains,
 }
 
@@ -60,55 +60,69 @@ pub(super) struct WaveSpeed<C> {
 /// Amplitudes of the waves up and down at one depth.
 #[derive(Clone, Copy)]
 pub(super) struct WavePair<C> {
+    /// A.
     up: C,
+    /// B.
     down: C,
 }
 
 impl<C: ComplexArithmetic> WavePair<C> {
-    /// Waves below an interface from these waves above it.
+    /// The waves below an interface, if these are the waves above it.
     ///
-    /// `above`: impedance above; `below`: reciprocal of the impedance below.
+    /// `upper_impedance`: impedance above the interface. `lower_inverse_impedance`: reciprocal of the impedance below it.
     #[inline(always)]
-    fn below_interface(self, above: C, below: C) -> Self {
+    fn below_interface(self, upper_impedance: C, lower_inverse_impedance: C) -> Self {
         let sum = (self.up + self.down).scale(0.5);
-        let difference = (self.up - self.down).scale(0.5) * above * below;
+        let difference =
+            (self.up - self.down).scale(0.5) * upper_impedance * lower_inverse_impedance;
         Self { up: sum + difference, down: sum - difference }
     }
 }
 
-/// Intermediate values of a soil; of the base only the speed is set.
+/// Intermediate values of a layer, or of the base, which has a speed only.
 #[derive(Clone, Copy)]
 pub(super) struct ColumnLayer<C> {
     /// Speed in the unmodified soil.
-    exact: WaveSpeed<C>,
+    exact_speed: WaveSpeed<C>,
     /// Waves at the top of the layer.
-    top: WavePair<C>,
+    top_waves: WavePair<C>,
     /// κh.
-    travel: C,
+    phase: C,
     /// e^(−κh/2).
     half_decay: C,
 }
 
 impl<C: Copy> ColumnLayer<C> {
+    /// Values that are all equal to `value`.
     #[inline(always)]
     fn filled(value: C) -> Self {
         Self {
-            exact: WaveSpeed { speed: value, slowness: value },
-            top: WavePair { up: value, down: value },
-            travel: value,
+            exact_speed: WaveSpeed { speed: value, slowness: value },
+            top_waves: WavePair { up: value, down: value },
+            phase: value,
             half_decay: value,
         }
     }
 }
 
-/// Functions of a profile for one kind of wave, with unmodified layers or layers modified for samples.
+/// Properties of a soil for one kind of wave.
+#[derive(Debug)]
+struct ColumnSoil {
+    /// ρ.
+    density: f64,
+    /// Squared wave speed per shear modulus: M/(μρ), with the wave's stiffness M.
+    squared_speed_per_modulus: f64,
+}
+
+/// Functions of a profile for one kind of wave.
 #[derive(Debug)]
 pub(super) struct ColumnFunctions<'a> {
     profile: &'a SoilProfile,
-    /// Soils from the surface down: density, and M/(μρ) of the wave's stiffness M.
-    soils: Vec<[f64; 2]>,
+    /// Properties of the soils, from the surface down.
+    soils: Vec<ColumnSoil>,
     control: ControlPoint,
     quantity: ColumnQuantity,
+    /// Layers modified for samples.
     nyquist: NyquistLayers<1>,
 }
 
@@ -123,76 +137,85 @@ impl<'a> ColumnFunctions<'a> {
         let soils = profile
             .soils()
             .map(|(soil, _)| {
-                let stiffness = match wave {
+                let modulus_ratio = match wave {
                     VerticalWave::Shear => 1.0,
                     VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
                 };
-                [soil.density(), stiffness / soil.density()]
+                ColumnSoil {
+                    density: soil.density(),
+                    squared_speed_per_modulus: modulus_ratio / soil.density(),
+                }
             })
             .collect();
         Self { profile, soils, control, quantity, nyquist: NyquistLayers::default() }
     }
 
-    /// These functions for layers modified for samples, on a contour that ends at s = `end`.
-    pub(super) fn sampled(self, end: Complex) -> Result<Self> {
-        let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
-            [self.travel(index, end, self.speed(index, modulus).slowness)]
+    /// Functions of layers modified for samples, on a contour that ends at s = `contour_end`.
+    pub(super) fn sampled(self, contour_end: Complex) -> Result<Self> {
+        let nyquist = NyquistLayers::new(self.profile, contour_end, |index, modulus| {
+            [self.phase(index, contour_end, self.speed(index, modulus).slowness)]
         })?;
         Ok(Self { nyquist, ..self })
     }
 
+    /// Speed of the wave in a soil with this shear `modulus`.
     #[inline(always)]
     fn speed<C: ComplexArithmetic>(&self, index: usize, modulus: C) -> WaveSpeed<C> {
-        let speed = modulus.scale(self.soils[index][1]).sqrt();
+        let speed = modulus.scale(self.soils[index].squared_speed_per_modulus).sqrt();
         WaveSpeed { speed, slowness: speed.inverse() }
     }
 
     /// κh of a layer, from the slowness 1/c.
     #[inline(always)]
-    fn travel<C: ComplexArithmetic>(&self, index: usize, s: C, slowness: C) -> C {
+    fn phase<C: ComplexArithmetic>(&self, index: usize, s: C, slowness: C) -> C {
         s.scale(self.profile.layers()[index].thickness) * slowness
     }
 
     /// Overwrites `results` with the functions, from the waves at the bottom.
     ///
-    /// `total`: travel Σ κh through all layers.
+    /// `total_phase`: Σ κh through all layers.
     #[inline(always)]
-    fn quantities<C: ComplexArithmetic>(
+    fn write_results<C: ComplexArithmetic>(
         &self,
         contour: &ContourLanes<C>,
-        bottom: WavePair<C>,
-        total: C,
+        bottom_waves: WavePair<C>,
+        total_phase: C,
         layer_values: &[ColumnLayer<C>],
         results: &mut [C],
     ) {
-        let layers = self.profile.layers().len();
+        let layer_count = self.profile.layers().len();
         // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
             && matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let value = if is_outcrop { bottom.up } else { (bottom.up + bottom.down).scale(0.5) };
-        let mut decay = value.inverse().scale(0.5);
+        let control_motion = if is_outcrop {
+            bottom_waves.up
+        } else {
+            (bottom_waves.up + bottom_waves.down).scale(0.5)
+        };
+        let mut decay = control_motion.inverse().scale(0.5);
         match self.quantity {
-            ColumnQuantity::Inverse => {
-                results[0] = value;
-                results[1] = total;
+            ColumnQuantity::InverseTransfer => {
+                results[0] = control_motion;
+                results[1] = total_phase;
             }
             ColumnQuantity::Accelerations => {
-                results[layers] = (bottom.up + bottom.down) * decay;
-                let pairs = results[..layers].iter_mut().zip(&layer_values[..layers]);
+                results[layer_count] = (bottom_waves.up + bottom_waves.down) * decay;
+                let pairs = results[..layer_count].iter_mut().zip(&layer_values[..layer_count]);
                 for (result, values) in pairs.rev() {
                     decay = decay * values.half_decay * values.half_decay;
-                    *result = (values.top.up + values.top.down) * decay;
+                    *result = (values.top_waves.up + values.top_waves.down) * decay;
                 }
             }
             ColumnQuantity::Strains => {
-                let square = (contour.s * contour.s).inverse();
-                let layer_data = self.profile.layers().iter().zip(&layer_values[..layers]);
-                for (result, (layer, values)) in results[..layers].iter_mut().zip(layer_data).rev()
+                let inverse_square = (contour.s * contour.s).inverse();
+                let inputs = self.profile.layers().iter().zip(&layer_values[..layer_count]);
+                for (result, (layer, values)) in results[..layer_count].iter_mut().zip(inputs).rev()
                 {
                     let half_decay = values.half_decay;
                     decay = decay * half_decay;
-                    let wavenumber = values.travel.scale(1.0 / layer.thickness) * square;
-                    let difference = values.top.up - values.top.down * half_decay * half_decay;
+                    let wavenumber = values.phase.scale(1.0 / layer.thickness) * inverse_square;
+                    let difference =
+                        values.top_waves.up - values.top_waves.down * half_decay * half_decay;
                     *result = difference * wavenumber * decay;
                     decay = decay * half_decay;
                 }
@@ -208,12 +231,12 @@ impl SiteFunctions for ColumnFunctions<'_> {
         self.profile
     }
 
-    fn count(&self) -> usize {
-        let layers = self.profile.layers().len();
+    fn function_count(&self) -> usize {
+        let layer_count = self.profile.layers().len();
         match self.quantity {
-            ColumnQuantity::Inverse => 2,
-            ColumnQuantity::Accelerations => layers + 1,
-            ColumnQuantity::Strains => layers,
+            ColumnQuantity::InverseTransfer => 2,
+            ColumnQuantity::Accelerations => layer_count + 1,
+            ColumnQuantity::Strains => layer_count,
         }
     }
 
@@ -228,50 +251,52 @@ impl SiteFunctions for ColumnFunctions<'_> {
         let zero = contour.s.like_real(0.0);
         let one = contour.s.like_real(1.0);
         let mut waves = WavePair { up: one, down: one };
-        let mut total = zero;
-        let mut impedance_above: Option<C> = None;
+        let mut total_phase = zero;
+        let mut upper_impedance: Option<C> = None;
         if layer_values.len() != moduli.len() {
             layer_values.clear();
             layer_values.resize(moduli.len(), ColumnLayer::filled(zero));
         }
-        let layers = self.profile.layers().len();
+        let layer_count = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
-            if !contour.repeats {
+            if !contour.has_same_moduli {
                 layer_values[index] = ColumnLayer::filled(zero);
-                layer_values[index].exact = self.speed(index, *modulus);
+                layer_values[index].exact_speed = self.speed(index, *modulus);
             }
-            let exact = layer_values[index].exact;
-            let mut modified = exact;
-            let is_layer = index < layers;
-            let mut travel = zero;
+            let exact_speed = layer_values[index].exact_speed;
+            let mut sampled_speed = exact_speed;
+            let is_layer = index < layer_count;
+            let mut phase = zero;
             if is_layer {
-                travel = self.travel(index, contour.s, exact.slowness);
+                phase = self.phase(index, contour.s, exact_speed.slowness);
             }
             if contour.is_in_band() {
-                modified = self.speed(index, self.nyquist.modulus(index, contour, *modulus));
+                sampled_speed = self.speed(index, self.nyquist.modulus(index, contour, *modulus));
                 if is_layer {
-                    [travel] = self.nyquist.travels(index, contour, [travel]);
+                    [phase] = self.nyquist.phases(index, contour, [phase]);
                 }
             }
-            let density = self.soils[index][0];
-            if let Some(above) = impedance_above {
-                waves = waves.below_interface(above, modified.slowness.scale(1.0 / density));
+            let density = self.soils[index].density;
+            if let Some(impedance) = upper_impedance {
+                waves =
+                    waves.below_interface(impedance, sampled_speed.slowness.scale(1.0 / density));
             }
-            impedance_above = Some(modified.speed.scale(density));
+            upper_impedance = Some(sampled_speed.speed.scale(density));
             if !is_layer {
                 break;
             }
-            total = total + travel;
-            let round_trip = if self.quantity == ColumnQuantity::Inverse {
-                travel.scale(-2.0).exp()
+            total_phase = total_phase + phase;
+            let round_trip_decay = if self.quantity == ColumnQuantity::InverseTransfer {
+                phase.scale(-2.0).exp()
             } else {
-                let half_decay = travel.scale(-0.5).exp();
-                layer_values[index] = ColumnLayer { exact, top: waves, travel, half_decay };
-                let through = half_decay * half_decay;
-                through * through
+                let half_decay = phase.scale(-0.5).exp();
+                layer_values[index] =
+                    ColumnLayer { exact_speed, top_waves: waves, phase, half_decay };
+                let full_decay = half_decay * half_decay;
+                full_decay * full_decay
             };
-            waves.down = waves.down * round_trip;
+            waves.down = waves.down * round_trip_decay;
         }
-        self.quantities(contour, waves, total, layer_values, results);
+        self.write_results(contour, waves, total_phase, layer_values, results);
     }
 }

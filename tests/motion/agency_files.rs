@@ -218,7 +218,7 @@ fn times_that_are_rounded_too_coarsely_ask_for_the_step() {
     let with_step = ColumnFormat { time_step: Some(1.0 / 128.0), ..columns };
     // 200 samples a second, printed to 10 ms.
     let text = "0.00 1\n0.01 2\n0.01 3\n0.02 4\n0.02 5\n";
-    let needed = "given (`time_step`): times rounded to 0.01 s do not tell it";
+    let needed = "stated (`time_step`): times rounded to 0.01 s do not show it";
     assert_eq!(refusal(text, &columns), error_at(3, value("time step", "near 0.005 s", needed)));
     let expected = (0..200).map(|k| f64::from(k % 5));
     assert_file("rounded128.csv", &with_step, 1.0 / 128.0, expected);
