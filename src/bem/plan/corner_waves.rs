@@ -79,7 +79,7 @@ pub(super) struct WaveBuffers {
 impl CornerWaves {
     /// Smallest wavenumber at which waves have full accuracy, 1/m.
     pub(super) fn min_wavenumber(lattice: &Lattice) -> f64 {
-        MIN_WAVENUMBER_SIDE / lattice.finest()
+        MIN_WAVENUMBER_SIDE / lattice.shorter_side()
     }
 
     /// Waves from the wavenumber `first` up to `last`, 1/m.

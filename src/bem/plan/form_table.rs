@@ -173,7 +173,7 @@ impl FormTable {
             waves: CornerWaves::new(lattice, 0.0, 0.0),
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
-        let side = lattice.finest();
+        let side = lattice.shorter_side();
         let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
         let max_k = (MIN_RESOLVED_SIDE / side).max(deep).max(MIN_RATIO_TO_ROOT * root);
         // Beyond K* an error of about q₂ K*⁻⁵ is left. Compliances fall like 1/|√q₂| from |√q₂| = 2/side on.
@@ -207,7 +207,7 @@ impl FormTable {
 
     /// Number of panels up to K for a |√q₂|.
     pub(super) fn panels(&self, root: f64) -> usize {
-        let resolved = MIN_RESOLVED_SIDE / self.lattice.finest();
+        let resolved = MIN_RESOLVED_SIDE / self.lattice.shorter_side();
         let min_k = resolved.max(self.deep).max(MIN_RATIO_TO_ROOT * root);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let count = (min_k / self.width).ceil() as usize;
@@ -231,7 +231,7 @@ impl FormTable {
 
     /// κ, 1/m.
     pub(super) fn unit(&self) -> f64 {
-        1.0 / self.lattice.finest()
+        1.0 / self.lattice.shorter_side()
     }
 
     /// Computes forms at all points, from the last panel to the first, and the sums beyond each K.

@@ -186,7 +186,7 @@ impl CellIntegrals {
             largest_root = largest_root.max(ground.root());
         }
         let table = FormTable::new(lattice, largest_root, deep(profile))?;
-        Ok(Self { table, finest: lattice.finest(), tolerance })
+        Ok(Self { table, finest: lattice.shorter_side(), tolerance })
     }
 
     /// Overwrites `work.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.
