@@ -132,8 +132,8 @@ pub(crate) fn lock_error<T>(reason: TryLockError<T>) -> PyErr {
 pub(crate) fn in_python_words(mut text: String) -> String {
     for (core, python) in [
         (
-            "`analyses::largest_convergent_step` finds a time step that gets through",
-            "a shorter step may get through",
+            "`analyses::largest_convergent_step` finds a time step that converges",
+            "a shorter step may converge",
         ),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("`Midpoint`", "`TimeScheme.midpoint()`"),

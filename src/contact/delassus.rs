@@ -70,7 +70,7 @@ impl Delassus {
         let whole = Self { soil: Some(Arc::clone(soil)), ..Self::from(values) };
         // The split needs two thin products and the soil's; it is used only if it reads far fewer values than
         // W has.
-        if rank > MAX_STRUCTURE_RANK || soil.stored() + 2 * columns.len() > whole.len() / 4 {
+        if rank > MAX_STRUCTURE_RANK || soil.entry_count() + 2 * columns.len() > whole.len() / 4 {
             return whole;
         }
         let mut rows = vec![0.0; columns.len()];

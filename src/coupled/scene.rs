@@ -17,7 +17,7 @@ use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::spread;
-use crate::linalg::{CompressedMatrix, mixed};
+use crate::linalg::{CompressedMatrix, mixing_sum};
 use crate::structure::Probe;
 
 /// Structure, base, laws and static state for steps; read-only once built.
@@ -121,8 +121,8 @@ impl Scene {
             probe_rows,
             start: [
                 builder.gravity_stage as usize as f64,
-                mixed(&builder.displacement),
-                mixed(&builder.velocity),
+                mixing_sum(&builder.displacement),
+                mixing_sum(&builder.velocity),
             ],
             label: std::mem::take(&mut builder.label),
             context: Arc::new(context),

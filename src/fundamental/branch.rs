@@ -1,11 +1,10 @@
 //! Quadrature of the half-plane surface kernel against a polynomial in the speed of waves.
 //!
-//! The kernel is a sum of branches, each a square root times a rational function whose poles are
-//! the roots of the Rayleigh polynomial. On each branch a variable s removes the square root, and
-//! pieces are subdivided until the nearest singularity is far enough for a Gauss rule. Two poles may come
-//! arbitrarily close to the path; they are subtracted and integrated in closed form. The Rayleigh root lies
-//! on the path (principal value). For small Poisson's ratios, the root near the pressure wave lies next to
-//! the path.
+//! The kernel is a sum of branches. Each branch is a square root times a rational function whose poles are the roots of
+//! the Rayleigh polynomial. On each branch a variable s removes the square root, and pieces are halved until the nearest
+//! singularity is distant enough for a Gauss rule. Two poles may be arbitrarily close to the path of integration; they
+//! are subtracted and integrated in closed form. The Rayleigh root is on the path (principal value). For small Poisson's
+//! ratios, the root near the pressure wave is close to the path.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -16,7 +15,7 @@
 use crate::fundamental::rayleigh::Rayleigh;
 use crate::linalg::{Complex, gauss};
 
-/// Weight under which the kernel is integrated: a smooth function A of the speed u.
+/// Weight of the kernel in an integral: a smooth function A of the speed u.
 pub(crate) trait KernelWeight {
     /// A(u).
     fn value(&self, u: f64) -> f64;
@@ -26,7 +25,7 @@ pub(crate) trait KernelWeight {
     fn vanishes_at_zero(&self) -> bool;
 }
 
-/// A = τ^power.
+/// Weight A = τ^power.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Power(pub(crate) i32);
 
@@ -59,23 +58,23 @@ pub(crate) enum Branch {
     Tail,
 }
 
-/// Branches of the kernel of one soil: their ends and their singularities.
+/// Branches of the kernel of one soil, with their ends and singularities.
 #[derive(Debug, Clone)]
 pub(crate) struct Branches {
     pub(crate) rayleigh: Rayleigh,
-    /// a: τ when the pressure wave arrives.
+    /// a: τ at the arrival of the pressure wave.
     pub(crate) pressure_arrival: f64,
     /// τ between `OddLow` and `OddHigh`.
     odd_division: f64,
-    /// τ where the tail begins.
+    /// τ at the start of the tail.
     tail_start: f64,
-    /// `c_S`/`c_R`: τ when the Rayleigh wave arrives.
+    /// `c_S`/`c_R`: τ at the arrival of the Rayleigh wave.
     pub(crate) rayleigh_arrival: f64,
     /// Strength of the Rayleigh pulse of zx.
     pub(crate) rayleigh_pulse: f64,
-    /// a² − y for the root near the pressure wave, when it is subtracted.
+    /// a² − y for the root y near the pressure wave; `None` if this root is not subtracted.
     near_root: Option<f64>,
-    /// Singularities of each branch for which pieces are subdivided, and which are not subtracted.
+    /// Singularities of each branch that are not subtracted: pieces are halved because of them.
     distant_singularities: [[[f64; 2]; 4]; 5],
     /// The Rayleigh pole in the variables of `Pressure` and `Shear`.
     rayleigh_poles: [f64; 2],
@@ -84,23 +83,31 @@ pub(crate) struct Branches {
 /// Singularities that are subtracted on a piece and integrated in closed form.
 #[derive(Default)]
 struct SubtractedTerms {
-    /// Residue at the Rayleigh pole.
+    /// Residue of both components at the Rayleigh pole.
     residue: Option<[f64; 2]>,
-    /// Factor of s²/(s²+c) at the root beside the path, and c.
-    near_root: Option<([f64; 2], f64)>,
+    near_root: Option<NearRootTerm>,
 }
+
+/// Term factor · s²/(s²+c) of the root near the path, for both components.
+struct NearRootTerm {
+    factor: [f64; 2],
+    c: f64,
+}
+
+/// Distance that replaces zero for a piece that ends at the Rayleigh pole: the terms of both pieces at the pole cancel.
+const MIN_POLE_DISTANCE: f64 = 1e-30;
 
 impl SubtractedTerms {
     /// Adds the integrals of the subtracted terms over the piece.
     fn add_integrals(&self, pole: Option<f64>, [low, high]: [f64; 2], sum: &mut [f64; 2]) {
         if let (Some(residue), Some(s)) = (self.residue, pole) {
-            // The lower limit 1e-30 replaces a zero distance when a piece ends at the pole; the next piece cancels
-            // it.
-            let log = ((high - s).abs().max(1e-30) / (low - s).abs().max(1e-30)).ln();
+            let high_distance = (high - s).abs().max(MIN_POLE_DISTANCE);
+            let low_distance = (low - s).abs().max(MIN_POLE_DISTANCE);
+            let log = (high_distance / low_distance).ln();
             sum[0] += residue[0] * log;
             sum[1] += residue[1] * log;
         }
-        if let Some((factor, c)) = self.near_root {
+        if let Some(NearRootTerm { factor, c }) = self.near_root {
             let delta = c.sqrt();
             let angle = ((high - low) * delta).atan2(c + low * high);
             sum[0] -= factor[0] * delta * angle;
@@ -109,24 +116,25 @@ impl SubtractedTerms {
     }
 }
 
-/// A root whose distance from a² is below this is subtracted.
+/// Largest distance of a subtracted root from a²: pieces resolve a more distant root.
 const NEAR_ROOT_DISTANCE: f64 = 0.01;
-
-/// A pole within this reach of a piece, in the sense of [`gauss::reach`], is subtracted.
-const SUBTRACTION_REACH: f64 = 3.0;
-
-/// Largest number of successive halvings of a piece.
+/// Largest [`gauss::ellipse_size`] of a pole that is subtracted: a Gauss rule resolves a more distant pole.
+const MAX_SUBTRACTION_ELLIPSE: f64 = 3.0;
+/// Start of the tail relative to the Rayleigh arrival: the Rayleigh pole is then distant enough for a Gauss rule.
+const TAIL_START_FACTOR: f64 = 1.6;
+/// Largest number of successive halvings of a piece: its length is then a rounding error.
 const MAX_PIECE_HALVINGS: u32 = 60;
 
-/// Kernel of a branch at one point.
+/// Values of the kernel of a branch at one point.
 struct BranchKernel {
     /// zz and xx; or zx and 0.
     values: [f64; 2],
+    /// Speed.
     u: f64,
 }
 
-/// √(sign·z + offset) as a point of the complex plane.
-fn root_of_shifted(z: Complex, sign: f64, offset: f64) -> [f64; 2] {
+/// √(sign·z + offset) as a point `[re, im]` of the complex plane.
+fn shifted_square_root(z: Complex, sign: f64, offset: f64) -> [f64; 2] {
     let s = (z.scale(sign) + Complex::real(offset)).sqrt();
     [s.re, s.im]
 }
@@ -141,9 +149,12 @@ impl Branches {
         let roots = r.shifted_roots(discriminant, 0.0);
         let is_near = discriminant > 0.0 && -roots[0].re < NEAR_ROOT_DISTANCE;
         let near_root = is_near.then_some(-roots[0].re);
-        let second_point = root_of_shifted(roots[1], 1.0, 0.0);
-        let first_point =
-            if near_root.is_some() { second_point } else { root_of_shifted(roots[0], 1.0, 0.0) };
+        let second_point = shifted_square_root(roots[1], 1.0, 0.0);
+        let first_point = if near_root.is_some() {
+            second_point
+        } else {
+            shifted_square_root(roots[0], 1.0, 0.0)
+        };
         let pressure_pole = r.z.sqrt();
         let shear_pole = r.excess.sqrt();
         let h = r.h;
@@ -151,15 +162,15 @@ impl Branches {
             [[0.0, pressure_arrival], first_point, second_point, [-pressure_pole, 0.0]],
             [
                 [0.0, 1.0],
-                root_of_shifted(roots[0], 1.0, -h),
-                root_of_shifted(roots[1], 1.0, -h),
+                shifted_square_root(roots[0], 1.0, -h),
+                shifted_square_root(roots[1], 1.0, -h),
                 [-shear_pole, 0.0],
             ],
             [[0.0, pressure_arrival], first_point, second_point, [h.sqrt(), 0.0]],
             [
                 [0.0, shear_pole],
-                root_of_shifted(roots[0], -1.0, h),
-                root_of_shifted(roots[1], -1.0, h),
+                shifted_square_root(roots[0], -1.0, h),
+                shifted_square_root(roots[1], -1.0, h),
                 [h.sqrt(), 0.0],
             ],
             [[1.0 / rayleigh_arrival, 0.0]; 4],
@@ -168,7 +179,7 @@ impl Branches {
             rayleigh,
             pressure_arrival,
             odd_division: (r.a2 + 0.5 * h).sqrt(),
-            tail_start: 1.6 * rayleigh_arrival,
+            tail_start: TAIL_START_FACTOR * rayleigh_arrival,
             rayleigh_arrival,
             rayleigh_pulse: r.pulse(),
             near_root,
@@ -177,7 +188,7 @@ impl Branches {
         }
     }
 
-    /// Interval of τ on which a branch is integrated.
+    /// Interval of τ of a branch.
     fn interval(&self, branch: Branch) -> [f64; 2] {
         match branch {
             Branch::Pressure => [self.pressure_arrival, self.tail_start],
@@ -200,9 +211,9 @@ impl Branches {
         }
     }
 
-    /// Adds the integral of a branch under a weight to `sum`.
+    /// Adds the integral of a branch with a weight to `sum`: zz and xx, or zx and 0.
     ///
-    /// ∫ f(τ) A(1/τ) dτ over the part of `start` < τ < `end` inside the branch; zz and xx, or zx first.
+    /// The integral is ∫ f(τ) A(1/τ) dτ over the part of `start` < τ < `end` inside the branch.
     pub(crate) fn add_integral(
         &self,
         branch: Branch,
@@ -217,9 +228,9 @@ impl Branches {
         if start >= end {
             return;
         }
-        let one = self.variable(branch, start);
-        let two = self.variable(branch, end);
-        self.add_piece(branch, [one.min(two), one.max(two)], weight, sum, 0);
+        let start_s = self.variable(branch, start);
+        let end_s = self.variable(branch, end);
+        self.add_piece(branch, [start_s.min(end_s), start_s.max(end_s)], weight, sum, 0);
     }
 
     /// Adds the integral over a piece of s, which is halved until a Gauss rule is accurate.
@@ -239,17 +250,17 @@ impl Branches {
             Branch::Shear => Some(self.rayleigh_poles[1]),
             _ => None,
         };
-        // No node may come near the pole: end the piece there.
-        if let Some(s) = pole
-            && s > low
-            && s < high
+        // Points of a rule must not be near the pole, so the piece is divided at the pole.
+        if let Some(pole) = pole
+            && pole > low
+            && pole < high
         {
-            self.add_piece(branch, [low, s], weight, sum, halvings);
-            self.add_piece(branch, [s, high], weight, sum, halvings);
+            self.add_piece(branch, [low, pole], weight, sum, halvings);
+            self.add_piece(branch, [pole, high], weight, sum, halvings);
             return;
         }
-        let (subtracted, reach) = self.singularities(branch, [low, high], weight, pole);
-        let rule = match gauss::rule_for(reach) {
+        let (subtracted_terms, ellipse) = self.singularities(branch, [low, high], weight, pole);
+        let rule = match gauss::rule_for(ellipse) {
             Some(rule) => rule,
             None if halvings < MAX_PIECE_HALVINGS => {
                 let middle = 0.5 * (low + high);
@@ -271,7 +282,7 @@ impl Branches {
                 weight.value(kernel.u)
             };
             let mut value = kernel.values.map(|value| value * weight_value);
-            if let Some(residue) = subtracted.residue {
+            if let Some(residue) = subtracted_terms.residue {
                 value[0] -= residue[0];
                 value[1] -= residue[1];
             }
@@ -280,7 +291,7 @@ impl Branches {
                 value[0] *= inverse;
                 value[1] *= inverse;
             }
-            if let Some((factor, c)) = subtracted.near_root {
+            if let Some(NearRootTerm { factor, c }) = subtracted_terms.near_root {
                 let ratio = if c == 0.0 { 0.0 } else { c / (s * s + c) };
                 value[0] += ratio * factor[0];
                 value[1] += ratio * factor[1];
@@ -288,10 +299,10 @@ impl Branches {
             sum[0] += node_weight * value[0];
             sum[1] += node_weight * value[1];
         }
-        subtracted.add_integrals(pole, [low, high], sum);
+        subtracted_terms.add_integrals(pole, [low, high], sum);
     }
 
-    /// Singularities that are subtracted on a piece, and the reach of the nearest other one.
+    /// Subtracted singularities on a piece, and the ellipse size of the nearest other singularity.
     fn singularities(
         &self,
         branch: Branch,
@@ -299,49 +310,50 @@ impl Branches {
         weight: &impl KernelWeight,
         pole: Option<f64>,
     ) -> (SubtractedTerms, f64) {
-        let mut reach = f64::INFINITY;
+        let mut min_ellipse = f64::INFINITY;
         for &point in &self.distant_singularities[branch as usize] {
-            reach = reach.min(gauss::reach(point, low, high));
+            min_ellipse = min_ellipse.min(gauss::ellipse_size(point, low, high));
         }
         if branch == Branch::Tail && !weight.vanishes_at_zero() {
-            reach = reach.min(gauss::reach([0.0, 0.0], low, high));
+            min_ellipse = min_ellipse.min(gauss::ellipse_size([0.0, 0.0], low, high));
         }
-        let mut subtracted = SubtractedTerms::default();
+        let mut subtracted_terms = SubtractedTerms::default();
         if let Some(s) = pole {
-            let pole_reach = gauss::reach([s, 0.0], low, high);
-            if pole_reach < SUBTRACTION_REACH {
+            let pole_ellipse = gauss::ellipse_size([s, 0.0], low, high);
+            if pole_ellipse < MAX_SUBTRACTION_ELLIPSE {
                 let kernel = self.kernel_without_pole(branch, s, pole);
                 let weight_value = weight.value(kernel.u);
-                subtracted.residue = Some(kernel.values.map(|value| value * weight_value));
+                subtracted_terms.residue = Some(kernel.values.map(|value| value * weight_value));
             } else {
-                reach = reach.min(pole_reach);
+                min_ellipse = min_ellipse.min(pole_ellipse);
             }
         }
         if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near_root, branch) {
-            let root_reach = gauss::reach([0.0, c.sqrt()], low, high);
-            if root_reach < SUBTRACTION_REACH {
-                subtracted.near_root = Some((self.near_root_factor(branch, c, weight), c));
+            let root_ellipse = gauss::ellipse_size([0.0, c.sqrt()], low, high);
+            if root_ellipse < MAX_SUBTRACTION_ELLIPSE {
+                let factor = self.near_root_factor(branch, c, weight);
+                subtracted_terms.near_root = Some(NearRootTerm { factor, c });
             } else {
-                reach = reach.min(root_reach);
+                min_ellipse = min_ellipse.min(root_ellipse);
             }
         }
-        (subtracted, reach)
+        (subtracted_terms, min_ellipse)
     }
 
-    /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.
+    /// Kernel times dτ/ds at `s`, without its factor 1/(s − pole) if there is a pole; and u.
     fn kernel_without_pole(&self, branch: Branch, s: f64, pole: Option<f64>) -> BranchKernel {
         let r = &self.rayleigh;
         let square = s * s;
-        let sixteen = 16.0 * r.h;
+        let sixteen_h = 16.0 * r.h;
         match branch {
             Branch::Pressure | Branch::Shear => {
-                let behind_pressure = branch == Branch::Pressure;
-                let z = if behind_pressure { square } else { square + r.h };
-                let y = if behind_pressure { square + r.a2 } else { square + 1.0 };
+                let is_pressure = branch == Branch::Pressure;
+                let z = if is_pressure { square } else { square + r.h };
+                let y = if is_pressure { square + r.a2 } else { square + 1.0 };
                 let u = 1.0 / y.sqrt();
-                let common = square * u / (sixteen * (s + pole.unwrap_or(0.0)) * r.pair(z));
+                let common = square * u / (sixteen_h * (s + pole.unwrap_or(0.0)) * r.pair(z));
                 let k2 = (r.g - 2.0 * z).powi(2);
-                let values = if behind_pressure {
+                let values = if is_pressure {
                     [common * k2, common * 4.0 * y * (z - r.h)]
                 } else {
                     [common * 4.0 * y * z, common * k2]
@@ -349,18 +361,18 @@ impl Branches {
                 BranchKernel { values, u }
             }
             Branch::OddLow | Branch::OddHigh => {
-                let low = branch == Branch::OddLow;
-                let z = if low { square } else { r.h - square };
-                let root = if low { r.h - square } else { z }.max(0.0).sqrt();
+                let is_low = branch == Branch::OddLow;
+                let z = if is_low { square } else { r.h - square };
+                let root = if is_low { r.h - square } else { z }.max(0.0).sqrt();
                 let value =
-                    2.0 * (r.g - 2.0 * z) * square * root / (sixteen * (z - r.z) * r.pair(z));
+                    2.0 * (r.g - 2.0 * z) * square * root / (sixteen_h * (z - r.z) * r.pair(z));
                 BranchKernel { values: [value, 0.0], u: 1.0 / (z + r.a2).sqrt() }
             }
             Branch::Tail => {
                 let ka = 1.0 - r.a2 * square;
                 let kb = 1.0 - square;
                 let pair = (ka + r.sum * square) * ka + r.product * square * square;
-                let common = 1.0 / (sixteen * (1.0 - r.square * square) * pair);
+                let common = 1.0 / (sixteen_h * (1.0 - r.square * square) * pair);
                 let sa = ka.sqrt();
                 let sb = kb.sqrt();
                 let k2 = (2.0 - square).powi(2);
@@ -371,12 +383,12 @@ impl Branches {
         }
     }
 
-    /// Factor of s²/(s²+c) at the root s² = −c beside the path.
+    /// Factor of s²/(s²+c) for the root s² = −c near the path.
     fn near_root_factor(&self, branch: Branch, c: f64, weight: &impl KernelWeight) -> [f64; 2] {
         let r = &self.rayleigh;
         let y = r.a2 - c;
         let u = 1.0 / y.sqrt();
-        // The other factor of the pair at z = −c is c₂ − c, with c + c₂ = σ.
+        // At z = −c the quadratic factor of the pair, without its zero factor, is c₂ − c with c + c₂ = σ.
         let common = weight.value(u) / (16.0 * r.h * (-c - r.z) * (r.sum - 2.0 * c));
         let k = r.g + 2.0 * c;
         if branch == Branch::Pressure {

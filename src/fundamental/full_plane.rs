@@ -1,6 +1,6 @@
 //! Fundamental solution of the full elastic plane (Eringen & Suhubi 1975, § 5.10).
 //!
-//! Line load j at the origin, distance r, direction e; for each wave z = c t/r, s = √(z²−1):
+//! Line load j at the origin, distance r, direction e. For each wave (1 pressure, 2 shear) z = c t/r, s = √(z²−1):
 //!
 //! * `u_ij` = ψ `δ_ij` − χ `e_i` `e_j`
 //! * ψ = (1/4πρ)[−(Z₁−Z₂) + (L₁+L₂)],  χ = −(1/2πρ)(Z₁−Z₂)
@@ -8,15 +8,15 @@
 //! * `t_ij` = (μ/r){(rψ'−χ)(`δ_ij` `r_n` + `e_i` `n_j`) − 2χ(`n_i` `e_j` − 2`e_i` `e_j` `r_n`)
 //!   − 2rχ' `e_i` `e_j` `r_n` + (λ/μ)(rψ'−rχ'−χ) `e_j` `n_i`},  `r_n` = e·n
 //!
-//! For a load H(t), Z = z s/c², L = arccosh(z)/c², Q = z/(s c²), each zero for z ≤ 1; the impulse
-//! and the ramp take their time derivatives and integrals. Once both waves have passed, the
-//! differences are formed without their common growth in time.
+//! For a load H(t), Z = z s/c², L = arccosh(z)/c², Q = z/(s c²), each zero for z ≤ 1. The functions of the
+//! impulse and of the ramp are their time derivatives and integrals. After both waves have passed, the
+//! differences are computed without the terms that grow with time, because these terms cancel.
 
 use crate::error::{Result, finite, positive};
 use crate::fundamental::{FundamentalSolution, LoadHistory};
 use crate::soil::Soil;
 
-/// The full elastic plane: no surface, plane strain.
+/// Elastic full plane, without a surface, in plane strain.
 #[derive(Debug, Clone, Copy)]
 pub struct FullPlane {
     soil: Soil,
@@ -24,7 +24,7 @@ pub struct FullPlane {
     shear_wave_speed: f64,
 }
 
-/// Time functions of one load history.
+/// Time functions of a load history at one distance.
 struct TimeFunctions {
     /// Z₁−Z₂.
     z_difference: f64,
@@ -33,7 +33,7 @@ struct TimeFunctions {
     /// Q₂.
     q_shear: f64,
     /// 2(Z₁−Z₂)+Q₁−Q₂.
-    slope: f64,
+    chi_slope: f64,
 }
 
 impl FullPlane {
@@ -47,9 +47,9 @@ impl FullPlane {
     /// Time functions at the distance `r` and at `time` after the load began.
     fn time_functions(&self, r: f64, time: f64, load: LoadHistory) -> TimeFunctions {
         let mut functions =
-            TimeFunctions { z_difference: 0.0, l_sum: 0.0, q_shear: 0.0, slope: 0.0 };
-        // Once both waves have passed, terms of Z that do not depend on the wave speed cancel in Z₁ − Z₂.
-        let both_passed = self.shear_wave_speed * time / r > 1.0;
+            TimeFunctions { z_difference: 0.0, l_sum: 0.0, q_shear: 0.0, chi_slope: 0.0 };
+        // After both waves have passed, terms of Z that do not depend on the wave speed cancel in Z₁ − Z₂.
+        let is_past = self.shear_wave_speed * time / r > 1.0;
         for (c, sign) in [(self.pressure_wave_speed, 1.0), (self.shear_wave_speed, -1.0)] {
             let z = c * time / r;
             if z.is_nan() || z <= 1.0 {
@@ -58,47 +58,44 @@ impl FullPlane {
             let s = ((z - 1.0) * (z + 1.0)).sqrt();
             let square = 1.0 / (c * c);
             let sum = z + s;
-            // Z, L, Q and 2Z + Q, without their common terms if `both_passed`; all times `unit`.
+            // Z, L, Q and 2Z + Q, divided by `unit`, without their common terms if `is_past`.
             let unit;
             let z_term;
             let l_term;
             let q_term;
-            let slope;
+            let slope_term;
             match load {
                 LoadHistory::Impulse => {
                     unit = square * c / r;
                     q_term = -1.0 / (s * s * s);
-                    z_term = if both_passed { 1.0 / (s * sum * sum) } else { z / s * z + s };
+                    z_term = if is_past { 1.0 / (s * sum * sum) } else { z / s * z + s };
                     l_term = 1.0 / s;
-                    slope = 2.0 * z_term + q_term;
+                    slope_term = 2.0 * z_term + q_term;
                 }
                 LoadHistory::Step => {
                     unit = square;
                     q_term = z / s;
-                    z_term = if both_passed { -z / sum } else { z * s };
+                    z_term = if is_past { -z / sum } else { z * s };
                     l_term = s.asinh();
-                    slope = if both_passed { z / (s * sum * sum) } else { 2.0 * z_term + q_term };
+                    slope_term = if is_past { z / (s * sum * sum) } else { 2.0 * z_term + q_term };
                 }
                 LoadHistory::Ramp => {
                     unit = square * r / c;
                     q_term = s;
                     // s³ − z³ = −(z² + zs + s²)/(z + s)
-                    z_term = if both_passed {
+                    z_term = if is_past {
                         -(z * z + z * s + s * s) / (3.0 * sum)
                     } else {
                         s * s * s / 3.0
                     };
                     l_term = z * s.asinh() - s;
-                    slope = if both_passed {
-                        -(s + 2.0 * z) / (3.0 * sum * sum)
-                    } else {
-                        2.0 * z_term + s
-                    };
+                    slope_term =
+                        if is_past { -(s + 2.0 * z) / (3.0 * sum * sum) } else { 2.0 * z_term + s };
                 }
             }
             functions.z_difference += sign * unit * z_term;
             functions.l_sum += unit * l_term;
-            functions.slope += sign * unit * slope;
+            functions.chi_slope += sign * unit * slope_term;
             if sign < 0.0 {
                 functions.q_shear = unit * q_term;
             }
@@ -113,7 +110,7 @@ struct PolarOffset {
     e: [f64; 2],
 }
 
-/// Distance and direction of an offset; an error at the load.
+/// Distance and direction of an offset; an error for a zero offset.
 fn polar(offset: [f64; 2]) -> Result<PolarOffset> {
     finite("x component of the offset", offset[0])?;
     finite("z component of the offset", offset[1])?;
@@ -159,9 +156,9 @@ impl FundamentalSolution for FullPlane {
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
         let chi = -unit * functions.z_difference;
         let psi_slope = unit * (functions.z_difference - functions.q_shear);
-        let chi_slope = unit * functions.slope;
+        let chi_slope = unit * functions.chi_slope;
         let n = normal;
-        let along = e[0] * n[0] + e[1] * n[1];
+        let radial_normal = e[0] * n[0] + e[1] * n[1];
         let nu = self.soil.poisson();
         // λ/μ.
         let lame_ratio = 2.0 * nu / (1.0 - 2.0 * nu);
@@ -169,11 +166,11 @@ impl FundamentalSolution for FullPlane {
         let mut t = [[0.0; 2]; 2];
         for i in 0..2 {
             for j in 0..2 {
-                let delta = if i == j { along } else { 0.0 };
+                let delta = if i == j { radial_normal } else { 0.0 };
                 t[i][j] = scale
                     * ((psi_slope - chi) * (delta + e[i] * n[j])
-                        - 2.0 * chi * (n[i] * e[j] - 2.0 * e[i] * e[j] * along)
-                        - 2.0 * chi_slope * e[i] * e[j] * along
+                        - 2.0 * chi * (n[i] * e[j] - 2.0 * e[i] * e[j] * radial_normal)
+                        - 2.0 * chi_slope * e[i] * e[j] * radial_normal
                         + lame_ratio * (psi_slope - chi_slope - chi) * e[j] * n[i]);
             }
         }

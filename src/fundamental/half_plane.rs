@@ -1,7 +1,7 @@
 //! Surface displacements of an elastic half-plane under a line load on its surface, closed form.
 //!
-//! Lamb's problem by Cagniard–de Hoop (Achenbach 1973, ch. 7; Kausel 2006). With `c_S` = μ = 1, a
-//! load δ(x)δ(t) gives `u_ij` = `f_ij`(τ)/(π|x|), τ = t/|x|, x from the load to the receiver:
+//! Lamb's problem by the Cagniard–de Hoop method (Achenbach 1973, ch. 7; Kausel 2006). With `c_S` = μ = 1, a
+//! load δ(x)δ(t) gives `u_ij` = `f_ij`(τ)/(π|x|), τ = t/|x|, where x leads from the load to the receiver:
 //!
 //! * `f_zz` = −[`S_a` K²/P · H(τ−a) + 4y(y−a²) `S_b`/P · H(τ−1)]
 //! * `f_xx` = −[4y(y−1) `S_a`/P · H(τ−a) + `S_b` K²/P · H(τ−1)]
@@ -23,14 +23,14 @@ use crate::geometry::ContactElement;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// A quantity for the three independent pairs of surface components.
+/// Values for the three independent pairs of surface components.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Surface {
     /// z displacement due to z load.
     pub zz: f64,
     /// x displacement due to x load.
     pub xx: f64,
-    /// z displacement due to x load, receiver to the right of the load.
+    /// z displacement due to x load, with the receiver to the right of the load.
     pub zx: f64,
 }
 
@@ -39,7 +39,7 @@ pub struct Surface {
 pub struct HalfPlane {
     soil: Soil,
     branches: Branches,
-    /// Coefficients of the series at late times, zz and xx.
+    /// Coefficients of the series for late times, zz and xx.
     late_series: [[f64; LATE_SERIES_TERMS]; 2],
     /// ∫ f/η² over all times, zz and xx.
     second_tail_total: [f64; 2],
@@ -47,7 +47,7 @@ pub struct HalfPlane {
     odd_totals: [f64; 4],
 }
 
-/// Powers m of the weights η^m of the primitives: η, 1, 1/η, 1/η².
+/// Powers m of the primitives ∫ f η^m dη.
 const PRIMITIVE_POWERS: [i32; 4] = [1, 0, -1, -2];
 
 /// Index in [`PRIMITIVE_POWERS`] of m = 1, the first moment.
@@ -59,11 +59,16 @@ const FIRST_TAIL: usize = 2;
 /// Index in [`PRIMITIVE_POWERS`] of m = −2, the primitive W.
 const SECOND_TAIL: usize = 3;
 
-/// Discriminants below this are averaged over a circle, where the two roots never meet.
+/// Largest discriminant of nearly equal roots: their contribution is a mean over a circle of discriminants.
 const DOUBLE_ROOT_DISCRIMINANT: f64 = 1e-4;
-/// Points and radius of this circle in the plane of the discriminant.
+/// Number of points on this circle: the mean then has only rounding errors.
 const AVERAGING_POINTS: u32 = 16;
+/// Radius of this circle in the complex plane of the discriminant.
 const AVERAGING_RADIUS: f64 = 2e-4;
+/// Time in Rayleigh arrivals from which the series for late times is used.
+const LATE_SERIES_START: f64 = 3.0;
+/// A time τ so late that all integrals have reached their limits.
+const LIMIT_TIME: f64 = 1e100;
 
 impl HalfPlane {
     /// The half-plane of a soil.
@@ -76,7 +81,7 @@ impl HalfPlane {
             second_tail_total: [0.0; 2],
             odd_totals: [0.0; 4],
         };
-        plane.second_tail_total = plane.even_primitives(1e100)[SECOND_TAIL];
+        plane.second_tail_total = plane.even_primitives(LIMIT_TIME)[SECOND_TAIL];
         plane.odd_totals = PRIMITIVE_POWERS.map(|power| plane.odd_primitive(1.0, power));
         plane
     }
@@ -131,10 +136,10 @@ impl HalfPlane {
         self.tail(tau, SECOND_TAIL)
     }
 
-    /// The primitive Q or W, by its index [`FIRST_TAIL`] or [`SECOND_TAIL`].
+    /// The primitive Q or W, of the index [`FIRST_TAIL`] or [`SECOND_TAIL`].
     fn tail(&self, tau: f64, primitive: usize) -> Surface {
         let arrival = self.branches.rayleigh_arrival;
-        let even = if tau > 3.0 * arrival {
+        let even = if tau > LATE_SERIES_START * arrival {
             self.late_series.map(|series| {
                 let mut sum = 0.0;
                 for (k, c) in series.iter().enumerate().rev() {
@@ -143,7 +148,7 @@ impl HalfPlane {
                 sum / tau.powi(if primitive == FIRST_TAIL { 1 } else { 2 })
             })
         } else {
-            let before = self.even_primitives(tau)[primitive];
+            let primitive_values = self.even_primitives(tau)[primitive];
             let total = if primitive == FIRST_TAIL {
                 [
                     0.5 * std::f64::consts::PI * self.branches.pressure_arrival,
@@ -152,7 +157,7 @@ impl HalfPlane {
             } else {
                 self.second_tail_total
             };
-            [total[0] - before[0], total[1] - before[1]]
+            [total[0] - primitive_values[0], total[1] - primitive_values[1]]
         };
         let zx = if tau >= arrival {
             0.0
@@ -163,7 +168,7 @@ impl HalfPlane {
         Surface { zz: even[0], xx: even[1], zx }
     }
 
-    /// J(x, t) with `path` = `c_S` t, both in m; even in x for zz and xx, odd for zx; m².
+    /// J(x, t), m², for `path` = `c_S` t and x in m; even in x for zz and xx, odd for zx.
     pub(crate) fn twice_integrated(&self, x: f64, path: f64) -> Surface {
         let r = x.abs();
         if r == 0.0 || path.is_nan() || path <= 0.0 {
@@ -180,13 +185,11 @@ impl HalfPlane {
         }
     }
 
-    /// Mean displacement of `receiver` (m/Pa) after a unit traction acts on `source`.
+    /// Mean displacement of `receiver` (m/Pa) due to a unit traction on `source`.
     ///
-    /// `time` is the time since the traction was switched on, s.
-    ///
-    /// The displacement is exactly zero before the pressure wave arrives. It is computed from differences of
-    /// J, so its relative error is rounding times (offset/length)²; [`crate::bem::InfluenceKernel`] has no
-    /// such loss.
+    /// The traction is constant from `time` (s) before the evaluation on. The displacement is exactly zero before the
+    /// pressure wave arrives. It is computed from differences of J, so its relative error is the rounding error times
+    /// (offset/length)²; [`crate::bem::InfluenceKernel`] has no such loss.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `time` and the elements' ends are finite, the left one first.
@@ -205,25 +208,23 @@ impl HalfPlane {
         if path <= gap * self.branches.pressure_arrival {
             return Ok(Surface::default());
         }
-        let p = receiver;
-        let q = source;
         let mut sum = Surface::default();
         for (x, sign) in [
-            (p.right() - q.left(), 1.0),
-            (p.left() - q.left(), -1.0),
-            (p.right() - q.right(), -1.0),
-            (p.left() - q.right(), 1.0),
+            (receiver.right() - source.left(), 1.0),
+            (receiver.left() - source.left(), -1.0),
+            (receiver.right() - source.right(), -1.0),
+            (receiver.left() - source.right(), 1.0),
         ] {
             let j = self.twice_integrated(x, path);
             sum.zz += sign * j.zz;
             sum.xx += sign * j.xx;
             sum.zx += sign * j.zx;
         }
-        let unit = 1.0 / (std::f64::consts::PI * self.soil.shear_modulus() * p.length());
+        let unit = 1.0 / (std::f64::consts::PI * self.soil.shear_modulus() * receiver.length());
         Ok(Surface { zz: sum.zz * unit, xx: sum.xx * unit, zx: sum.zx * unit })
     }
 
-    /// ∫₀^τ f η^m dη of zz and xx for the four powers m.
+    /// ∫₀^τ f η^m dη of zz and xx for the four [`PRIMITIVE_POWERS`] m.
     fn even_primitives(&self, tau: f64) -> [[f64; 2]; 4] {
         let mut sum = [[0.0; 2]; 4];
         if tau.is_nan() || tau <= self.branches.pressure_arrival {
@@ -238,11 +239,9 @@ impl HalfPlane {
             for i in 0..AVERAGING_POINTS {
                 let angle =
                     std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(AVERAGING_POINTS);
-                let sin = angle.sin();
-                let cos = angle.cos();
+                let real_part = discriminant + AVERAGING_RADIUS * angle.cos();
+                let roots = r.shifted_roots(real_part, AVERAGING_RADIUS * angle.sin());
                 let fraction = 1.0 / f64::from(AVERAGING_POINTS);
-                let roots =
-                    r.shifted_roots(discriminant + AVERAGING_RADIUS * cos, AVERAGING_RADIUS * sin);
                 Self::add_root_pair(r, tau, roots, fraction, &mut sum);
             }
         } else {
@@ -251,7 +250,7 @@ impl HalfPlane {
         sum
     }
 
-    /// Adds `fraction` of the contributions of the two roots that are not the Rayleigh wave.
+    /// Adds `fraction` of the contributions of the two roots other than the Rayleigh wave.
     fn add_root_pair(
         r: &Rayleigh,
         tau: f64,
@@ -280,11 +279,12 @@ impl HalfPlane {
         let shear = z - Complex::real(r.h);
         let four_z = (y * z).scale(4.0);
         let four_s = (y * shear).scale(4.0);
-        for (speed, root, zz, xx) in [(r.a2.sqrt(), z, k2, four_s), (1.0, shear, four_z, k2)] {
-            if tau <= speed {
+        // Pressure wave, then shear wave.
+        for (arrival, root, zz, xx) in [(r.a2.sqrt(), z, k2, four_s), (1.0, shear, four_z, k2)] {
+            if tau <= arrival {
                 continue;
             }
-            let s = ((tau - speed) * (tau + speed)).sqrt();
+            let s = ((tau - arrival) * (tau + arrival)).sqrt();
             let ratio_root = (root / y).sqrt();
             let plain_root = root.sqrt();
             let mut ratio_term = Complex::real(0.0);
@@ -295,8 +295,8 @@ impl HalfPlane {
             }
             let integrals = [
                 Complex::real(s) - plain_term,
-                Complex::real((s / speed).asinh()) - ratio_term,
-                (Complex::real(speed * (s / speed).atan()) - plain_term) / y,
+                Complex::real((s / arrival).asinh()) - ratio_term,
+                (Complex::real(arrival * (s / arrival).atan()) - plain_term) / y,
                 (Complex::real(s / tau) - ratio_term) / y,
             ];
             for (sum, integral) in sum.iter_mut().zip(integrals) {
@@ -307,7 +307,7 @@ impl HalfPlane {
         }
     }
 
-    /// Regular ∫ f η^m dη of zx up to τ, m = `power`; elliptic integrals (m = ±1) by Gauss rules.
+    /// ∫ f η^m dη of zx up to τ without the Rayleigh pulse, m = `power`, by Gauss rules (elliptic for m = ±1).
     fn odd_primitive(&self, tau: f64, power: i32) -> f64 {
         let start = self.branches.pressure_arrival;
         let mut sum = [0.0; 2];
@@ -317,18 +317,18 @@ impl HalfPlane {
         sum[0]
     }
 
-    /// ∫ f η^m dη of zx up to τ, with the Rayleigh pulse once it has passed.
+    /// ∫ f η^m dη of zx up to τ, with the Rayleigh pulse after its arrival.
     fn odd_with_pulse(&self, tau: f64, primitive: usize) -> f64 {
         if tau.is_nan() || tau <= self.branches.pressure_arrival {
             return 0.0;
         }
         let power = PRIMITIVE_POWERS[primitive];
-        let regular =
+        let regular_part =
             if tau >= 1.0 { self.odd_totals[primitive] } else { self.odd_primitive(tau, power) };
         if tau >= self.branches.rayleigh_arrival {
-            regular + self.branches.rayleigh_pulse * self.branches.rayleigh_arrival.powi(power)
+            regular_part + self.branches.rayleigh_pulse * self.branches.rayleigh_arrival.powi(power)
         } else {
-            regular
+            regular_part
         }
     }
 }
@@ -350,11 +350,11 @@ impl FundamentalSolution for HalfPlane {
         finite("time", time)?;
         let speed = self.soil.shear_wave_speed();
         let tau = time * speed / r;
-        let unit = 1.0 / (std::f64::consts::PI * self.soil.shear_modulus());
+        let step_unit = 1.0 / (std::f64::consts::PI * self.soil.shear_modulus());
         let unit = match load {
-            LoadHistory::Impulse => unit * speed / r,
-            LoadHistory::Step => unit,
-            LoadHistory::Ramp => unit * r / speed,
+            LoadHistory::Impulse => step_unit * speed / r,
+            LoadHistory::Step => step_unit,
+            LoadHistory::Ramp => step_unit * r / speed,
         };
         let value = match load {
             LoadHistory::Impulse => self.impulse(tau),
@@ -383,9 +383,9 @@ impl FundamentalSolution for HalfPlane {
     ) -> Result<[[f64; 2]; 2]> {
         surface_distance(offset)?;
         finite("time", time)?;
-        let upright = normal[0] == 0.0 && normal[1].abs() == 1.0;
-        let needed = "0, with z component 1 or -1: only the surface itself is known";
-        require("x component of the normal", normal[0], upright, needed)?;
+        let is_vertical = normal[0] == 0.0 && normal[1].abs() == 1.0;
+        let needed = "0, with z component 1 or -1: the solution is for the surface only";
+        require("x component of the normal", normal[0], is_vertical, needed)?;
         Ok([[0.0; 2]; 2])
     }
 }
@@ -395,6 +395,6 @@ fn surface_distance(offset: [f64; 2]) -> Result<f64> {
     let x = offset[0];
     let z = offset[1];
     require("z component of the offset", z, z == 0.0, "0: load and receiver on the surface")?;
-    let fits = x.is_finite() && x != 0.0;
-    require("x component of the offset", x, fits, "finite and not zero").map(f64::abs)
+    let is_valid = x.is_finite() && x != 0.0;
+    require("x component of the offset", x, is_valid, "finite and not zero").map(f64::abs)
 }

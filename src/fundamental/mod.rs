@@ -1,8 +1,8 @@
 //! Plane-strain elastodynamic fundamental solutions.
 //!
 //! A line load per metre of thickness acts at the origin; the responses are displacements and
-//! tractions at an offset from it. Components are (x, z) with **z down**; index 0 is x, 1 is z,
-//! and `u[i][j]` is component i due to a load in direction j.
+//! tractions at an offset from the load. Components are (x, z) with **z down**; index 0 is x, index 1
+//! is z, and `u[i][j]` is component i due to a load in direction j.
 
 pub(crate) mod branch;
 #[cfg(feature = "full-plane")]
@@ -34,16 +34,16 @@ pub trait FundamentalSolution: Send + Sync {
     /// The soil.
     fn soil(&self) -> Soil;
 
-    /// Displacements (m) at `offset` (x, z) from the load, `time` after it began.
+    /// Displacements (m) at `offset` (x, z; m) from the load, at `time` (s) after the start of the load.
     ///
     /// `u[i][j]` is displacement i due to a load in direction j; zero before the first arrival.
     ///
     /// # Errors
-    /// [`crate::Error::Input`] if the offset is zero, not finite, or not where the solution holds.
+    /// [`crate::Error::Input`] if the offset is zero, not finite, or outside the domain of the solution.
     fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory)
     -> Result<[[f64; 2]; 2]>;
 
-    /// Tractions (Pa) at `offset` on the plane with unit normal `normal`.
+    /// Tractions (Pa) at `offset` on the plane with the unit vector `normal`.
     ///
     /// `t[i][j]` is traction i due to a load in direction j.
     ///

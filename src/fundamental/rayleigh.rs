@@ -1,19 +1,19 @@
 //! The Rayleigh polynomial of an elastic half-plane, its roots and the Rayleigh wave.
 //!
-//! With y the square of a slowness in units of the shear slowness, the Rayleigh function and its
-//! conjugate multiply to the cubic
+//! y is the square of a slowness divided by the shear slowness. The product of the Rayleigh function and its
+//! conjugate is the cubic
 //!
 //! P(y) = (1−2y)⁴ + 16 y²(y−a²)(1−y) = 16(a²−1) y³ + (24−16a²) y² − 8 y + 1
 //!
-//! (Achenbach 1973, ch. 7; Kausel 2006). One root, `y_R` > 1, is the Rayleigh wave. The other two
-//! lie below a² as a real pair for Poisson's ratios up to 0.26308…, and are a complex pair above.
+//! (Achenbach 1973, ch. 7; Kausel 2006). One root, `y_R` > 1, is that of the Rayleigh wave. The other two are a
+//! real pair below a² for Poisson's ratios up to 0.26308…, and a complex pair for larger ratios.
 //!
 //! | symbol | here | meaning |
 //! |---|---|---|
 //! | a² | `a2` | (`c_S`/`c_P`)² |
 //! | h | `h` | 1 − a² = 1/(2(1−ν)) |
 //! | g | `g` | 1 − 2a² = ν/(1−ν) |
-//! | z | | y − a², not below zero once the pressure wave has passed |
+//! | z | | y − a², not below zero after the arrival of the pressure wave |
 //! | `y_R`, `z_R` | `square`, `z` | the Rayleigh root, and `y_R` − a² |
 //! | σ, ϖ | `sum`, `product` | the other two roots in z solve z² + σ z + ϖ = 0 |
 
@@ -22,8 +22,8 @@ use crate::soil::Soil;
 
 /// Roots of the Rayleigh polynomial of one soil.
 ///
-/// The quadratic factor is stored by its coefficients. They are smooth in Poisson's ratio where its roots
-/// collide (ν = 0.26308…), and precise where one of its roots tends to a² like ν⁴ (ν → 0).
+/// The coefficients of the quadratic factor are stored instead of its roots. They are smooth functions of Poisson's
+/// ratio even at the double root (ν = 0.26308…), and precise even for ν → 0, where one root tends to a² like ν⁴.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rayleigh {
     /// a² = (`c_S`/`c_P`)².
@@ -38,11 +38,18 @@ pub(crate) struct Rayleigh {
     pub(crate) z: f64,
     /// `y_R` − 1.
     pub(crate) excess: f64,
-    /// Minus the sum of the other roots, measured from a².
+    /// σ: minus the sum of the other two roots in z.
     pub(crate) sum: f64,
-    /// Product of the other roots, measured from a².
+    /// ϖ: product of the other two roots in z.
     pub(crate) product: f64,
 }
+
+/// Upper bound of `y_R` − 1: Rayleigh waves are faster than 0.6 times shear waves for all Poisson's ratios.
+const MAX_EXCESS: f64 = 4.0;
+/// Number of bisections: their error of 4/2³⁰ is small enough for Newton's method.
+const BISECTION_COUNT: usize = 30;
+/// Number of Newton's iterations: the error of the root is then a rounding error.
+const NEWTON_ITERATIONS: usize = 3;
 
 impl Rayleigh {
     /// Roots for a soil.
@@ -54,10 +61,10 @@ impl Rayleigh {
         // The cubic in w = y − 1, whose one positive root is the Rayleigh wave:
         // −16 h w³ + (24 − 16a² − 48h) w² + (40 − 32a² − 48h) w + 1.
         let cubic = [-16.0 * h, 32.0 * a2 - 24.0, 16.0 * a2 - 8.0, 1.0];
-        // P(1) = 1 > 0 and P → −∞: bisect, then polish by Newton's method.
+        // P(1) = 1 > 0 and P → −∞: bisection brackets the root, and Newton's method refines it.
         let mut low = 0.0;
-        let mut high = 4.0;
-        for _ in 0..30 {
+        let mut high = MAX_EXCESS;
+        for _ in 0..BISECTION_COUNT {
             let middle = 0.5 * (low + high);
             if cubic_value(cubic, middle) > 0.0 {
                 low = middle;
@@ -66,7 +73,7 @@ impl Rayleigh {
             }
         }
         let mut excess = 0.5 * (low + high);
-        for _ in 0..3 {
+        for _ in 0..NEWTON_ITERATIONS {
             excess -= cubic_value(cubic, excess) / cubic_slope(cubic, excess);
         }
         let z = excess + h;
@@ -78,17 +85,17 @@ impl Rayleigh {
         Self { a2, h, g, square: 1.0 + excess, z, excess, sum, product }
     }
 
-    /// Time at which the Rayleigh wave passes, `c_S` t/|x|: `c_S`/`c_R`.
+    /// Arrival τ of the Rayleigh wave: `c_S`/`c_R`.
     pub(crate) fn arrival(&self) -> f64 {
         self.square.sqrt()
     }
 
-    /// z² + σ z + ϖ, the factor of the two roots that are not the Rayleigh wave.
+    /// z² + σ z + ϖ, the factor of the two roots other than the Rayleigh wave.
     pub(crate) fn pair(&self, z: f64) -> f64 {
         (z + self.sum) * z + self.product
     }
 
-    /// (σ/2)² − ϖ: positive for a real pair.
+    /// Discriminant (σ/2)² − ϖ of the pair: positive for real roots.
     pub(crate) fn discriminant(&self) -> f64 {
         0.25 * self.sum * self.sum - self.product
     }
@@ -98,13 +105,14 @@ impl Rayleigh {
         let root = Complex::new(real, imaginary).sqrt();
         let middle = Complex::real(-0.5 * self.sum);
         if imaginary == 0.0 && real > 0.0 && self.sum > 0.0 {
-            let far = middle - root;
-            return [Complex::real(self.product / far.re), far];
+            // Without cancellation in the smaller root.
+            let larger_root = middle - root;
+            return [Complex::real(self.product / larger_root.re), larger_root];
         }
         [middle + root, middle - root]
     }
 
-    /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − `τ_R`).
+    /// Strength D of the Rayleigh pulse D δ(τ − `τ_R`) in `f_zx`.
     pub(crate) fn pulse(&self) -> f64 {
         let y = self.square;
         let tau = self.arrival();
@@ -115,13 +123,13 @@ impl Rayleigh {
         std::f64::consts::PI * tau * (k + 2.0 * sa * sb) / slope
     }
 
-    /// Residue at the Rayleigh root, in z, of numerator/P.
+    /// Residue of `numerator`/P at the Rayleigh root, in the variable z.
     pub(crate) fn residue(&self, numerator: f64) -> f64 {
         -numerator / (16.0 * self.h * self.pair(self.z))
     }
 }
 
-/// A cubic at `w`, coefficients from the highest power down.
+/// Value of a cubic at `w`, with coefficients from the highest power down.
 fn cubic_value(cubic: [f64; 4], w: f64) -> f64 {
     ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3]
 }
@@ -138,30 +146,28 @@ impl Soil {
     }
 }
 
-/// Number of terms of the series at late times.
-///
-/// They suffice for an error at rounding level from three Rayleigh arrivals on.
+/// Number of terms of the series for late times: errors are rounding errors from three Rayleigh arrivals on.
 pub(crate) const LATE_SERIES_TERMS: usize = 20;
 
-/// Coefficients of the kernel's series at late times, zz and xx.
+/// Coefficients of the kernel's series for late times, zz and xx.
 ///
-/// `c_k` of f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival.
-/// f = τ⁻¹ n(v)/p(v) with v = τ⁻² and p(v) = v³ P(1/v): the numerators are binomial series, and
-/// the division by the cubic is a recurrence, stable because the Rayleigh root dominates.
+/// They are the `c_k` of f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival. With v = τ⁻² and
+/// p(v) = v³ P(1/v), f = τ⁻¹ n(v)/p(v). The numerators n are binomial series. The division by the cubic p is a
+/// recurrence, which is stable because the Rayleigh root dominates.
 pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS]; 2] {
     let a2 = rayleigh.a2;
     let sa = square_root_series(a2);
     let sb = square_root_series(1.0);
-    let mut result = [[0.0; LATE_SERIES_TERMS]; 2];
+    let mut coefficients = [[0.0; LATE_SERIES_TERMS]; 2];
     let p = [-16.0 * rayleigh.h, 24.0 - 16.0 * a2, -8.0, 1.0];
     for k in 0..LATE_SERIES_TERMS {
-        let sa_k = last_three(&sa, k);
-        let sb_k = last_three(&sb, k);
+        let sa_k = descending_coefficients(&sa, k);
+        let sb_k = descending_coefficients(&sb, k);
         let numerator = [
             (4.0 * sa_k[0] - 4.0 * sa_k[1] + sa_k[2]) + 4.0 * (sb_k[0] - a2 * sb_k[1]),
             4.0 * (sa_k[0] - sa_k[1]) + (4.0 * sb_k[0] - 4.0 * sb_k[1] + sb_k[2]),
         ];
-        for (series, numerator) in result.iter_mut().zip(numerator) {
+        for (series, numerator) in coefficients.iter_mut().zip(numerator) {
             let mut value = -numerator;
             for back in 1..=3.min(k) {
                 value -= p[back] * series[k - back];
@@ -169,7 +175,7 @@ pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS
             series[k] = value / p[0];
         }
     }
-    result
+    coefficients
 }
 
 /// Coefficients of √(1 − `factor` v) in powers of v.
@@ -181,8 +187,8 @@ fn square_root_series(factor: f64) -> [f64; LATE_SERIES_TERMS] {
     series
 }
 
-/// Coefficients k, k − 1 and k − 2 of a series; zero before its first.
-fn last_three(series: &[f64], k: usize) -> [f64; 3] {
+/// Coefficients k, k − 1 and k − 2 of a series; zero for negative indices.
+fn descending_coefficients(series: &[f64], k: usize) -> [f64; 3] {
     [0, 1, 2].map(|back| if k >= back { series[k - back] } else { 0.0 })
 }
 
@@ -200,16 +206,16 @@ mod tests {
         let quarter = Rayleigh::new(soil(0.25));
         assert!((quarter.square - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         let roots = quarter.shifted_roots(quarter.discriminant(), 0.0);
-        let first = quarter.a2 + roots[0].re;
-        let second = quarter.a2 + roots[1].re;
-        assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
-        assert!((second - 0.25).abs() < 4e-16);
+        let first_root = quarter.a2 + roots[0].re;
+        let second_root = quarter.a2 + roots[1].re;
+        assert!((first_root - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
+        assert!((second_root - 0.25).abs() < 4e-16);
         let speed = soil(0.0).rayleigh_wave_speed();
         assert!((speed - (3.0 - 5.0_f64.sqrt()).sqrt()).abs() < 4e-16);
     }
 
     #[test]
-    fn small_root_keeps_its_relative_precision() {
+    fn small_roots_are_relatively_precise() {
         // c (C1 - C2 c + ...) = g^4 with C1 = -P'(a^2).
         for nu in [1e-1, 1e-3, 1e-6, -1e-4] {
             let r = Rayleigh::new(soil(nu));
@@ -226,11 +232,11 @@ mod tests {
             let r = Rayleigh::new(soil(nu));
             for y in [0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 2.0, 5.0] {
                 let k: f64 = 1.0 - 2.0 * y;
-                let direct = k.powi(4) + 16.0 * y * y * (y - r.a2) * (1.0 - y);
+                let expected = k.powi(4) + 16.0 * y * y * (y - r.a2) * (1.0 - y);
                 let scale = k.powi(4) + 16.0 * y * y * (y + 1.0) * (1.0 + y);
                 let z = y - r.a2;
                 let product = -16.0 * r.h * (z - r.z) * r.pair(z);
-                assert!((product - direct).abs() < 4e-15 * scale, "{nu} {y}");
+                assert!((product - expected).abs() < 4e-15 * scale, "{nu} {y}");
             }
         }
     }

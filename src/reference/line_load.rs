@@ -1,7 +1,7 @@
 //! Static line loads on the surface of a half-plane and within a full plane.
 //!
-//! In two dimensions the displacement under a line load grows with the logarithm of the distance,
-//! so only displacements relative to another point exist.
+//! In two dimensions the displacement due to a line load varies with the logarithm of the distance, also at infinity.
+//! Therefore only displacements relative to another point are defined.
 
 use std::f64::consts::PI;
 
@@ -10,8 +10,8 @@ use crate::error::{Result, finite, positive};
 
 /// Settlement of the surface under a vertical line load, relative to a far point, m.
 ///
-/// (1−ν)P/(πμ) ln(far/near), downwards, at distance `near` (m) relative to distance `far` (m), for the line
-/// load P (N/m, downwards).
+/// (1−ν)P/(πμ) ln(far/near), downwards, at the distance `near` (m) from the line load P (N/m, downwards), relative to
+/// the distance `far` (m).
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19b.
 ///
@@ -35,7 +35,7 @@ pub fn flamant_relative_settlement(soil: Soil, load: f64, near: f64, far: f64) -
 
 /// Horizontal displacement of the surface due to a vertical line load, m, to the right.
 ///
-/// −(1−2ν)P/(4μ) sgn x at `x` (m) from the load P (N/m, downwards): towards the load, and zero under it.
+/// −(1−2ν)P/(4μ) sgn x at `x` (m) from the load P (N/m, downwards): towards the load, and zero under the load.
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19a.
 ///
@@ -58,7 +58,7 @@ pub fn flamant_horizontal_displacement(soil: Soil, load: f64, x: f64) -> Result<
 /// Radial stress under a vertical line load on the surface, Pa, tension positive.
 ///
 /// −2P cos θ/(πr) at `distance` r (m) and `angle` θ (rad from the downward vertical), for the load P (N/m,
-/// downwards). The other components are zero.
+/// downwards). The circumferential stress and the shear stress are zero.
 ///
 /// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.15.
 ///
@@ -95,7 +95,7 @@ pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`](crate::Error::Input) unless all numbers are finite, and the distance of the point and the
+/// [`Error::Input`](crate::Error::Input) unless all numbers are finite, and the distances of the point and of the
 /// datum are above zero.
 pub fn kelvin_relative_displacement(
     soil: Soil,
@@ -109,8 +109,8 @@ pub fn kelvin_relative_displacement(
     let distance = positive("distance from the load", point[0].hypot(point[1]))?;
     positive("distance of the datum", datum)?;
     let direction = point.map(|component| component / distance);
-    let along = direction[0] * force[0] + direction[1] * force[1];
+    let radial_force = direction[0] * force[0] + direction[1] * force[1];
     let scale = 1.0 / (8.0 * PI * soil.shear_modulus() * (1.0 - soil.poisson()));
     let isotropic = (3.0 - 4.0 * soil.poisson()) * (datum / distance).ln();
-    Ok([0, 1].map(|i| scale * (isotropic * force[i] + along * direction[i])))
+    Ok([0, 1].map(|i| scale * (isotropic * force[i] + radial_force * direction[i])))
 }

@@ -1,4 +1,4 @@
-//! Closed forms from the literature, for checks of computations.
+//! Closed-form solutions from the literature, to check computations.
 //!
 //! Each type is one published solution, with its source. Rotations and moments are positive
 //! counter-clockwise, x to the right, y up; loads are per metre of thickness, in SI units.

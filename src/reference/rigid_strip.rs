@@ -7,12 +7,15 @@ use crate::error::{Result, positive};
 
 /// Massless rigid strip of width 2B on an elastic half-plane: limits of its dynamic stiffness.
 ///
-/// Time factor e^(+iωt). Static: Muskhelishvili, *Some Basic Problems of the Mathematical Theory of
-/// Elasticity*, 1953, part VI (bonded punch); its tractions oscillate with the exponent ε at the edges. High
-/// frequency: each point radiates a plane wave, with force per area ρc times velocity. Low frequency: a 2-D
-/// half-plane has no static stiffness in translation, but its quadrature compliance has a limit. Dynamic
-/// tables: Luco & Westmann, "Dynamic response of a rigid footing bonded to an elastic half space", J. Appl.
-/// Mech. 39 (1972), 527–534.
+/// The time factor is e^(+iωt).
+///
+/// * Static limits: Muskhelishvili, *Some Basic Problems of the Mathematical Theory of Elasticity*, 1953, part VI (bonded
+///   punch). The tractions at the edges oscillate with the exponent ε.
+/// * High-frequency limits: each point radiates a plane wave. The force per area is ρc times the velocity.
+/// * Low-frequency limits: a half-plane has no static stiffness in translation, but the imaginary part of its compliance
+///   has a limit.
+/// * Tables for all frequencies: Luco & Westmann, "Dynamic response of a rigid footing bonded to an elastic half space",
+///   J. Appl. Mech. 39 (1972), 527–534.
 ///
 /// ```
 /// use basemat::{Soil, reference::RigidStrip};
@@ -58,15 +61,15 @@ impl RigidStrip {
         PI * self.soil.shear_modulus() * b * b / (2.0 * (1.0 - self.soil.poisson()))
     }
 
-    /// Exponent ε = ln(3−4ν)/(2π) of the edge oscillation of the bonded strip.
+    /// Exponent ε = ln(3−4ν)/(2π) of the oscillation of tractions at the edges of the bonded strip.
     pub fn oscillation_exponent(&self) -> f64 {
         (3.0 - 4.0 * self.soil.poisson()).ln() / (2.0 * PI)
     }
 
     /// Static rocking stiffness of the bonded strip, N m/rad per metre.
     ///
-    /// (1+4ε²) πμB²/(2(1−ν)) for a strip that is free to move horizontally: `K_rr − K_hr²/K_hh`, the inverse
-    /// of the rocking compliance.
+    /// (1+4ε²) πμB²/(2(1−ν)) for a strip that moves freely in horizontal direction: `K_rr − K_hr²/K_hh`, the inverse of
+    /// the rocking compliance.
     pub fn bonded_rocking_stiffness(&self) -> f64 {
         self.smooth_rocking_stiffness() * (1.0 + 4.0 * self.oscillation_exponent().powi(2))
     }
@@ -86,9 +89,9 @@ impl RigidStrip {
         -(1.0 - self.soil.poisson()) / (2.0 * self.soil.shear_modulus())
     }
 
-    /// Growth (1−ν)/(πμ) of the real part of the translational compliances with ln(1/ω), 1/Pa.
+    /// Slope (1−ν)/(πμ) of the real part of the translational compliances over ln(1/ω), 1/Pa.
     ///
-    /// At low frequency, for the vertical and the horizontal compliance.
+    /// It is the limit at low frequency of the vertical and of the horizontal compliance.
     pub fn logarithmic_compliance(&self) -> f64 {
         (1.0 - self.soil.poisson()) / (PI * self.soil.shear_modulus())
     }

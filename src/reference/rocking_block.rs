@@ -24,6 +24,9 @@ pub struct RockingBlock {
     gravity: f64,
 }
 
+/// Largest number of impact times for which memory is reserved: a larger count may be a mistake.
+const MAX_RESERVED_TIMES: usize = 1024;
+
 impl RockingBlock {
     /// Block from half its width b and half its height h (m), under `gravity` (m/s²).
     ///
@@ -53,13 +56,14 @@ impl RockingBlock {
 
     /// Duration (s) of a rectangular pulse of this ground acceleration (m/s²) that just overturns a slender block.
     ///
-    /// p t₁ = ln(x/(x − 1)), x = a/(g α), Housner 1963 (constant acceleration), with sin(α − θ) ≈ α − θ: the block at
-    /// rest lifts at the begin of the pulse, and reaches α without velocity after it. A longer pulse overturns it.
+    /// p t₁ = ln(x/(x − 1)), x = a/(g α), Housner 1963 (constant acceleration), with sin(α − θ) ≈ α − θ. The block uplifts
+    /// at the start of the pulse, and reaches the angle α without velocity after the pulse. A longer pulse overturns the
+    /// block.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
-    /// let twice = 2.0 * 9.81 * block.slenderness_angle();
-    /// let duration = block.overturning_pulse(twice)?;
+    /// let acceleration = 2.0 * 9.81 * block.slenderness_angle();
+    /// let duration = block.overturning_pulse(acceleration)?;
     /// assert!((block.frequency_parameter() * duration - 2.0_f64.ln()).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -69,26 +73,26 @@ impl RockingBlock {
     /// to rock.
     pub fn overturning_pulse(&self, acceleration: f64) -> Result<f64> {
         let min_acceleration = self.gravity * self.slenderness_angle();
-        let rocks = acceleration > min_acceleration && acceleration < f64::INFINITY;
-        require("acceleration of the pulse", acceleration, rocks, "finite and above g α")?;
+        let is_sufficient = acceleration > min_acceleration && acceleration < f64::INFINITY;
+        require("acceleration of the pulse", acceleration, is_sufficient, "finite and above g α")?;
         // ln(x/(x − 1)) = −ln(1 − 1/x)
         Ok(-(-min_acceleration / acceleration).ln_1p() / self.frequency_parameter())
     }
 
-    /// Velocity V (m/s) at which two opposite impulses just overturn the block, the second one right after an impact.
+    /// Velocity V (m/s) of two opposite impulses that just overturn the block.
     ///
-    /// The ground's velocity jumps by V, and back by V when the block has fallen onto its other corner. From the moment of
-    /// momentum, each jump adds 3 V cos α/(4 R) to the rate of rotation, and the impact keeps [`restitution`] η of it;
-    /// from the energy, the block overturns at the rate 2 p sin(α/2), so that
-    /// V = (8/3) p R sin(α/2)/((1 + η) cos α). No other time of the second impulse overturns it at a lower V.
-    /// Nabeshima, Taniguchi, Kojima and Takewaki pose the problem in Frontiers in Built Environment 2 (2016), 9; their
-    /// abstract was read, not their formula.
+    /// The ground's velocity jumps by V, and jumps back by V right after the first impact of the block. By the balance of
+    /// angular momentum, each jump adds 3 V cos α/(4 R) to the rate of rotation, and the impact multiplies the rate by the
+    /// [`restitution`] η. By the conservation of energy, the block overturns at the rate 2 p sin(α/2). Hence
+    /// V = (8/3) p R sin(α/2)/((1 + η) cos α). A second impulse at any other time needs a larger V. The problem is that of
+    /// Nabeshima, Taniguchi, Kojima and Takewaki, Frontiers in Built Environment 2 (2016), 9; the formula was derived from
+    /// their abstract, without their formula.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
-    /// // Four times as large: twice the velocity.
-    /// let large = basemat::reference::RockingBlock::new(2.0, 8.0, 9.81)?;
-    /// let ratio = large.overturning_double_impulse()? / block.overturning_double_impulse()?;
+    /// // A block of four times the size needs twice the velocity.
+    /// let large_block = basemat::reference::RockingBlock::new(2.0, 8.0, 9.81)?;
+    /// let ratio = large_block.overturning_double_impulse()? / block.overturning_double_impulse()?;
     /// assert!((ratio - 2.0).abs() < 1e-14);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -96,24 +100,24 @@ impl RockingBlock {
     /// [`restitution`]: RockingBlock::restitution
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if the motion ends in an impact (η ≤ 0).
+    /// [`Error::Input`](crate::Error::Input) if the block stops at an impact (η ≤ 0).
     pub fn overturning_double_impulse(&self) -> Result<f64> {
         let restitution = positive("restitution of the block", self.restitution())?;
         let angle = self.slenderness_angle();
         let half_diagonal = self.half_width.hypot(self.half_height);
-        let rate = 2.0 * self.frequency_parameter() * (0.5 * angle).sin();
-        Ok(4.0 * half_diagonal * rate / (3.0 * angle.cos() * (1.0 + restitution)))
+        let overturning_rate = 2.0 * self.frequency_parameter() * (0.5 * angle).sin();
+        Ok(4.0 * half_diagonal * overturning_rate / (3.0 * angle.cos() * (1.0 + restitution)))
     }
 
     /// Ratio 1 − 1.5 sin²α of the angular velocities after and before an impact.
     ///
-    /// It follows from the moment of momentum about the new corner. Housner's r is the square of this ratio.
-    /// It is negative for a block with sin²α > 2/3, which stops at an impact.
+    /// The ratio follows from the conservation of angular momentum about the new corner; Housner's r is its square. It is
+    /// negative for a block with sin²α > 2/3, which stops at an impact.
     pub fn restitution(&self) -> f64 {
         1.0 - 1.5 * self.slenderness_angle().sin().powi(2)
     }
 
-    /// Full period of rocking from amplitude θ₀ (rad) without loss, s, for slender blocks.
+    /// Full period (s) of rocking with amplitude θ₀ (rad) without energy loss, for slender blocks.
     ///
     /// T = (4/p) arcosh(1/(1 − θ₀/α)), Housner 1963, with sin(α − θ) ≈ α − θ. The time from release to impact
     /// is a quarter of the period.
@@ -127,11 +131,11 @@ impl RockingBlock {
         Ok(4.0 / self.frequency_parameter() * (root.ln_1p() - (-ratio).ln_1p()))
     }
 
-    /// Full period of rocking from amplitude θ₀ (rad) without loss, s, for any block.
+    /// Full period (s) of rocking with amplitude θ₀ (rad) without energy loss, for any block.
     ///
     /// T = (4/p) (K(k) − F(φ, k)), k = cos((α − θ₀)/2), sin φ = cos(α/2)/k: the pendulum's integral of
-    /// θ″ = −p² sin(α − θ). The difference is computed as one integral (NIST DLMF 19.11.7), so that small
-    /// amplitudes keep their digits.
+    /// θ″ = −p² sin(α − θ). The difference is computed as one integral (NIST DLMF 19.11.7), without
+    /// cancellation at small amplitudes.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
@@ -139,14 +143,14 @@ impl RockingBlock {
         let amplitude = self.check_amplitude(amplitude)?;
         let angle = self.slenderness_angle();
         let cosine = (angle / 2.0).cos();
-        // k' tan ψ, where F(ψ, k) = K − F(φ, k).
+        // `tangent` is tan ψ and `product` is k' tan ψ, where F(ψ, k) = K(k) − F(φ, k).
         let product = ((angle - amplitude / 2.0).sin() * (amplitude / 2.0).sin()).sqrt() / cosine;
         let tangent = product / ((angle - amplitude) / 2.0).sin();
         let integral = tangent * carlson_rf(1.0, 1.0 + product * product, 1.0 + tangent * tangent);
         Ok(4.0 / self.frequency_parameter() * integral)
     }
 
-    /// Rate of rotation (rad/s) just before the impact that follows amplitude θ₀ (rad).
+    /// Rate of rotation (rad/s) just before the impact after amplitude θ₀ (rad).
     ///
     /// p √(2 (cos(α − θ₀) − cos α)), from the conservation of energy.
     ///
@@ -154,9 +158,9 @@ impl RockingBlock {
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn impact_rate(&self, amplitude: f64) -> Result<f64> {
         let amplitude = self.check_amplitude(amplitude)?;
-        let half_square =
+        let cosine_difference =
             2.0 * (self.slenderness_angle() - amplitude / 2.0).sin() * (amplitude / 2.0).sin();
-        Ok(self.frequency_parameter() * (2.0 * half_square).sqrt())
+        Ok(self.frequency_parameter() * (2.0 * cosine_difference).sqrt())
     }
 
     /// Amplitude θ₁ after one impact, rad.
@@ -168,18 +172,18 @@ impl RockingBlock {
     pub fn next_peak(&self, amplitude: f64) -> Result<f64> {
         let amplitude = self.check_amplitude(amplitude)?;
         let angle = self.slenderness_angle();
-        // 2 sin(α − θ/2) sin(θ/2) = cos(α − θ) − cos α on both sides, solved for θ₁ by
-        // δ = α − θ₁: sin²(δ/2) = sin²(α/2) − drop/2.
-        let drop = 2.0
+        // The energy after the impact is η² (cos(α − θ₀) − cos α), where the difference of cosines is
+        // 2 sin(α − θ₀/2) sin(θ₀/2). With δ = α − θ₁ it follows that sin²(δ/2) = sin²(α/2) − energy/2.
+        let energy = 2.0
             * self.restitution().powi(2)
             * (angle - amplitude / 2.0).sin()
             * (amplitude / 2.0).sin();
         let sin_angle = (angle / 2.0).sin();
-        let sin_delta = (sin_angle * sin_angle - drop / 2.0).max(0.0).sqrt();
-        // θ₁/2 = α/2 − δ/2, as one arcsine without cancellation.
+        let sin_delta = (sin_angle * sin_angle - energy / 2.0).max(0.0).sqrt();
+        // θ₁/2 = α/2 − δ/2 as one arcsine, without cancellation.
         let cos_angle = (1.0 - sin_angle * sin_angle).sqrt();
         let cos_delta = (1.0 - sin_delta * sin_delta).sqrt();
-        let sine = (drop / 2.0) / (sin_angle * cos_delta + cos_angle * sin_delta);
+        let sine = (energy / 2.0) / (sin_angle * cos_delta + cos_angle * sin_delta);
         Ok(2.0 * sine.asin())
     }
 
@@ -192,13 +196,15 @@ impl RockingBlock {
     pub fn next_peak_slender(&self, amplitude: f64) -> Result<f64> {
         let angle = self.slenderness_angle();
         let ratio = self.check_amplitude(amplitude)? / angle;
-        let drop = self.restitution().powi(2) * ratio * (2.0 - ratio);
-        Ok(angle * drop / (1.0 + (1.0 - drop).sqrt()))
+        // Energy after the impact, relative to the energy at overturning.
+        let energy_ratio = self.restitution().powi(2) * ratio * (2.0 - ratio);
+        Ok(angle * energy_ratio / (1.0 + (1.0 - energy_ratio).sqrt()))
     }
 
     /// Times (s) of the first `count` impacts after release from amplitude θ₀ (rad).
     ///
-    /// A quarter of the period of θ₀, then half the period of each following amplitude.
+    /// The first time is a quarter of the period of θ₀; each interval between impacts is half the period of the amplitude
+    /// in this interval.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
@@ -208,12 +214,12 @@ impl RockingBlock {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α, or if the motion ends in an impact (η ≤ 0).
+    /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α, or if the block stops at an impact (η ≤ 0).
     pub fn impact_times(&self, amplitude: f64, count: usize) -> Result<Vec<f64>> {
         positive("restitution of the block", self.restitution())?;
         let mut amplitude = amplitude;
         let mut time = self.period(amplitude)? / 4.0;
-        let mut times = Vec::with_capacity(count.min(1024));
+        let mut times = Vec::with_capacity(count.min(MAX_RESERVED_TIMES));
         for _ in 0..count {
             times.push(time);
             amplitude = self.next_peak(amplitude)?;
@@ -222,17 +228,20 @@ impl RockingBlock {
         Ok(times)
     }
 
-    /// `amplitude`, or an error unless the block rocks with it.
+    /// Returns `amplitude`, or an error unless it is a possible amplitude of rocking.
     fn check_amplitude(&self, amplitude: f64) -> Result<f64> {
-        let rocks = amplitude > 0.0 && amplitude < self.slenderness_angle();
+        let is_possible = amplitude > 0.0 && amplitude < self.slenderness_angle();
         let needed = "above zero and below the slenderness angle of the block";
-        require("rocking amplitude", amplitude, rocks, needed)
+        require("rocking amplitude", amplitude, is_possible, needed)
     }
 }
 
+/// Largest relative difference of arguments for the series: the neglected terms are of its sixth power.
+const MAX_SERIES_DIFFERENCE: f64 = 1e-3;
+
 /// Carlson's symmetric elliptic integral of the first kind, `R_F`(x, y, z).
 ///
-/// For arguments that are not negative, at most one of them zero.
+/// The arguments are not negative, and at most one of them is zero.
 ///
 /// Duplication theorem and series to sixth order: Carlson, "Computing elliptic integrals by
 /// duplication", Numer. Math. 33 (1979), 1–16; NIST DLMF 19.36.1.
@@ -242,8 +251,7 @@ fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         let dx = 1.0 - x / mean;
         let dy = 1.0 - y / mean;
         let dz = -(dx + dy);
-        // The neglected terms are of sixth order in these differences.
-        if dx.abs().max(dy.abs()).max(dz.abs()) < 1e-3 || !mean.is_finite() {
+        if dx.abs().max(dy.abs()).max(dz.abs()) < MAX_SERIES_DIFFERENCE || !mean.is_finite() {
             let e2 = dx * dy - dz * dz;
             let e3 = dx * dy * dz;
             let series = 1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0;
@@ -263,7 +271,7 @@ mod tests {
     /// Values of Carlson, "Numerical computation of real or complex elliptic integrals", Numer.
     /// Algorithms 10 (1995), 13–26, section 3.
     #[test]
-    fn carlson_1995_values() {
+    fn elliptic_integrals_have_the_values_of_carlson_1995() {
         assert!((carlson_rf(1.0, 2.0, 0.0) - 1.311_028_777_146_1).abs() < 1e-13);
         assert!((carlson_rf(2.0, 3.0, 4.0) - 0.584_082_841_677_15).abs() < 1e-13);
         assert!((carlson_rf(0.5, 1.0, 0.0) - 1.854_074_677_301_4).abs() < 1e-13);

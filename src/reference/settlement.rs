@@ -5,8 +5,8 @@ use crate::error::{Result, finite, positive};
 
 /// Settlement (m) of an infinite plate on springs under a `force` (N), at the force.
 ///
-/// P/(8 √(k D)) for the bending `rigidity` D (N m) and the `bed` k of springs (N/m³), which pull too; Hertz 1884. The plate
-/// does not shear. The formula is the integral of P κ/(2π (D κ⁴ + k)) over the wavenumber κ.
+/// P/(8 √(k D)) for the bending `rigidity` D (N m) and the stiffness k (`bed`, N/m³) of springs with tension; Hertz 1884.
+/// The plate has no shear deformation. The formula is the integral of P κ/(2π (D κ⁴ + k)) over the wavenumber κ.
 ///
 /// ```
 /// use basemat::reference::hertz_plate_settlement;
@@ -18,16 +18,17 @@ use crate::error::{Result, finite, positive};
 /// [`Error::Input`](crate::Error::Input) unless the force is finite, and rigidity and bed finite and above zero.
 pub fn hertz_plate_settlement(force: f64, rigidity: f64, bed: f64) -> Result<f64> {
     finite("force on the plate", force)?;
-    let product = positive("rigidity of the plate", rigidity)?.sqrt()
+    let root_product = positive("rigidity of the plate", rigidity)?.sqrt()
         * positive("bed of springs", bed)?.sqrt();
-    Ok(force / (8.0 * product))
+    Ok(force / (8.0 * root_product))
 }
 
-/// Settlement (m) of the surface of a half-space under an even `pressure` (Pa) on a rectangle, at a `point`.
+/// Settlement (m) of the surface of a half-space under an even `pressure` on a rectangle.
 ///
-/// The `sides` (m) lie along x and y, the middle at the origin; `point` (m) may lie under the load or beside it. Integral
-/// of Boussinesq's solution p (1 − ν)/(2πμ r) over the rectangle; Johnson, *Contact Mechanics*, 1985, section 3.3. A
-/// perfectly flexible square plate settles by 4 ln(1 + √2)/π · p B (1 − ν)/(2μ) in its middle:
+/// The rectangle has the `sides` (m) along x and y, and its middle at the origin; the `pressure` is in Pa. The `point`
+/// (m) of the settlement may be under the load or beside it. The formula is the integral of Boussinesq's solution
+/// p (1 − ν)/(2πμ r) over the rectangle; Johnson, *Contact Mechanics*, 1985, section 3.3. The settlement in the middle of
+/// a perfectly flexible square plate of width B is 4 ln(1 + √2)/π · p B (1 − ν)/(2μ):
 ///
 /// ```
 /// use basemat::{Soil, reference::loaded_rectangle_settlement};
@@ -52,17 +53,19 @@ pub fn loaded_rectangle_settlement(
         positive("side of the rectangle", sides[k])?;
         finite("coordinate of the point", point[k])?;
     }
-    // Rectangles with a corner under the point, with signs outside the load.
-    let corners = [0, 1].map(|k| [0.5 * sides[k] - point[k], 0.5 * sides[k] + point[k]]);
-    let integral: f64 = corners[0]
+    // The four rectangles between the point and the corners; signed sides make their sum valid outside the load too.
+    let signed_sides = [0, 1].map(|k| [0.5 * sides[k] - point[k], 0.5 * sides[k] + point[k]]);
+    let integral: f64 = signed_sides[0]
         .into_iter()
-        .flat_map(|a| corners[1].map(|b| inverse_distance(a, b) + inverse_distance(b, a)))
+        .flat_map(|a| signed_sides[1].map(|b| half_integral(a, b) + half_integral(b, a)))
         .sum();
     let unit = (1.0 - soil.poisson()) / (2.0 * std::f64::consts::PI * soil.shear_modulus());
     Ok(pressure * unit * integral)
 }
 
-/// a arsinh(b/|a|): half the integral of 1/r over a rectangle from its corner, odd in both sides.
-fn inverse_distance(a: f64, b: f64) -> f64 {
+/// a arsinh(b/|a|), one of two terms of the integral of 1/r over a rectangle a × b from its corner.
+///
+/// It is odd in both sides.
+fn half_integral(a: f64, b: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a * (b / a.abs()).asinh() }
 }

@@ -1,18 +1,18 @@
-//! Rigid block that slides on shaken rigid ground, solved exactly.
+//! Rigid block that slides on shaken rigid ground: exact solution.
 
 use super::sliding_history::{SlidingEvent, SlidingHistory, SlidingInterval};
 use crate::error::{Result, positive};
 use crate::motion::{Record, quadratic_roots_within};
 
-/// Rigid block that slides both ways on horizontally shaken rigid ground, with Coulomb friction.
+/// Rigid block that slides in both directions on shaken rigid ground with Coulomb friction.
 ///
 /// Newmark, "Effects of earthquakes on dams and embankments", Géotechnique 15 (1965), 139–160, with the same
-/// resistance both ways. The block is at rest while |a| ≤ f g. It slides with v′ = −a − f g sgn v otherwise.
-/// a is the ground's acceleration, v the slip velocity, and f both the static and the kinetic friction. For a
-/// record that is linear between samples, every start and stop is the root of a linear or quadratic equation,
-/// so the solution is exact up to rounding.
+/// resistance in both directions. A block at rest stays at rest while |a| ≤ f g; a sliding block has v′ = −a − f g sgn v.
+/// Here a is the horizontal acceleration of the ground, v the slip velocity, and f both the static and the kinetic
+/// friction coefficient. For a record that is linear between samples, every start and stop is a root of a linear or
+/// quadratic equation, so the solution has only rounding errors.
 ///
-/// A pulse of 2 f g for one second pushes the block back by f g (1 s)², half of it after the pulse:
+/// After a pulse of 2 f g for one second, the slip is −f g (1 s)²; half of it occurs after the pulse:
 /// ```
 /// use basemat::{motion::Record, reference::SlidingBlock};
 /// let pulse = Record::new(1.0, vec![2.0, 2.0])?;
@@ -45,25 +45,27 @@ impl SlidingBlock {
         self.yield_acceleration
     }
 
-    /// Slip during the record, and after its end until the block is at rest.
+    /// Slip during the record, and after the record until the block is at rest.
     pub fn slide(&self, record: &Record) -> SlidingHistory {
         let mut run = SlidingRun::new(self.yield_acceleration);
-        let step = record.time_step();
+        let time_step = record.time_step();
         for (index, pair) in record.accelerations().windows(2).enumerate() {
-            let end = (index + 1) as f64 * step;
-            run.advance(index as f64 * step, end, pair[0], (pair[1] - pair[0]) / step);
+            let end = (index + 1) as f64 * time_step;
+            run.advance(index as f64 * time_step, end, pair[0], (pair[1] - pair[0]) / time_step);
         }
-        let end = record.duration();
-        let stop = run.velocity.abs() / self.yield_acceleration;
-        // Longer than the block needs to stop, so that the stop falls inside the interval.
-        run.advance(end, end + 2.0 * stop + step, 0.0, 0.0);
-        run.finish(end + 2.0 * stop + step)
+        let record_end = record.duration();
+        let stopping_time = run.velocity.abs() / self.yield_acceleration;
+        // The interval is longer than the stopping time, so that the block stops inside the interval.
+        let end = record_end + 2.0 * stopping_time + time_step;
+        run.advance(record_end, end, 0.0, 0.0);
+        run.finish(end)
     }
 }
 
-/// State while the record is processed.
+/// State of the block while the record is processed.
 struct SlidingRun {
     yield_acceleration: f64,
+    /// Slip, m.
     slip: f64,
     /// Slip velocity, m/s.
     velocity: f64,
@@ -71,10 +73,12 @@ struct SlidingRun {
     direction: f64,
     intervals: Vec<SlidingInterval>,
     events: Vec<SlidingEvent>,
+    /// Smallest and largest slip, m.
     extremes: [f64; 2],
 }
 
 impl SlidingRun {
+    /// A block at rest.
     fn new(yield_acceleration: f64) -> Self {
         Self {
             yield_acceleration,
@@ -87,105 +91,115 @@ impl SlidingRun {
         }
     }
 
-    /// Processes one interval in which the ground's acceleration is `ground` + `jerk`·(t − `start`).
-    fn advance(&mut self, start: f64, end: f64, ground: f64, jerk: f64) {
+    /// Processes an interval with the ground acceleration `start_acceleration` + `jerk`·(t − `start`).
+    fn advance(&mut self, start: f64, end: f64, start_acceleration: f64, jerk: f64) {
         let mut time = start;
-        let mut ground = ground;
+        let mut ground_acceleration = start_acceleration;
         while time < end {
-            let remaining = end - time;
-            let elapsed = if self.direction == 0.0 {
-                self.time_to_slip(time, remaining, &mut ground, jerk)
+            let remaining_time = end - time;
+            let time_to_event = if self.direction == 0.0 {
+                self.time_to_slip(time, remaining_time, &mut ground_acceleration, jerk)
             } else {
-                self.time_to_stop(time, remaining, &mut ground, jerk)
+                self.time_to_stop(time, remaining_time, &mut ground_acceleration, jerk)
             };
-            match elapsed {
-                Some(elapsed) => time += elapsed,
+            match time_to_event {
+                Some(duration) => time += duration,
                 None => return,
             }
         }
     }
 
-    /// Time from rest to the start of slip, s, if within `remaining`.
+    /// Time (s) from rest to the start of slip, if within the remaining time.
+    ///
+    /// Updates `ground_acceleration` to its value at the start of slip.
     fn time_to_slip(
         &mut self,
         time: f64,
-        remaining: f64,
-        ground: &mut f64,
+        remaining_time: f64,
+        ground_acceleration: &mut f64,
         jerk: f64,
     ) -> Option<f64> {
         let limit = self.yield_acceleration;
-        let grows = *ground * jerk > 0.0;
-        let elapsed = if ground.abs() > limit || (ground.abs() == limit && grows) {
+        let magnitude = ground_acceleration.abs();
+        let is_growing = *ground_acceleration * jerk > 0.0;
+        let duration = if magnitude > limit || (magnitude == limit && is_growing) {
             0.0
         } else {
             self.intervals.push(SlidingInterval::at_rest(time, self.slip));
-            // To +limit with a positive jerk, to −limit with a negative one.
-            let elapsed = (limit.copysign(jerk) - *ground) / jerk;
-            if jerk == 0.0 || elapsed >= remaining {
+            // The acceleration reaches +limit with a positive jerk, and −limit with a negative jerk.
+            let duration = (limit.copysign(jerk) - *ground_acceleration) / jerk;
+            if jerk == 0.0 || duration >= remaining_time {
                 return None;
             }
-            // Set exactly: the slip acceleration starts from zero, and rounding must not change its sign.
-            *ground = limit.copysign(jerk);
-            elapsed
+            // The exact limit gives a slip acceleration of exactly zero: a rounding error could have the wrong sign.
+            *ground_acceleration = limit.copysign(jerk);
+            duration
         };
-        self.direction = -ground.signum();
-        self.events.push(SlidingEvent::Slip { time: time + elapsed });
-        Some(elapsed)
+        self.direction = -ground_acceleration.signum();
+        self.events.push(SlidingEvent::Slip { time: time + duration });
+        Some(duration)
     }
 
-    /// Time to the end of slip in this direction, s, if within `remaining`.
+    /// Time (s) to the end of slip in the current direction, if within the remaining time.
+    ///
+    /// Updates `ground_acceleration` to its value at the end of slip.
     fn time_to_stop(
         &mut self,
         time: f64,
-        remaining: f64,
-        ground: &mut f64,
+        remaining_time: f64,
+        ground_acceleration: &mut f64,
         jerk: f64,
     ) -> Option<f64> {
-        let acceleration = -*ground - self.direction * self.yield_acceleration;
-        let accelerates = self.direction * acceleration > 0.0
+        let acceleration = -*ground_acceleration - self.direction * self.yield_acceleration;
+        let is_accelerating = self.direction * acceleration > 0.0
             || (acceleration == 0.0 && self.direction * jerk < 0.0);
-        // A stop at the end of the last interval may have been rounded beyond that end.
-        let rounded_past = self.direction * self.velocity <= 0.0;
-        if rounded_past {
+        // The block may have stopped exactly at the end of the previous interval, where a rounding error hid the stop.
+        let has_stopped = self.direction * self.velocity <= 0.0;
+        if has_stopped {
             self.velocity = 0.0;
         }
-        let motion = SlidingInterval {
+        let interval = SlidingInterval {
             time,
             slip: self.slip,
             velocity: self.velocity,
             acceleration,
             jerk: -jerk,
         };
-        let elapsed = if rounded_past && !accelerates {
+        let duration = if has_stopped && !is_accelerating {
             0.0
         } else {
-            self.intervals.push(motion);
-            let roots = quadratic_roots_within(self.velocity, acceleration, -jerk / 2.0, remaining);
-            let Some(elapsed) = roots[0] else {
-                [self.slip, self.velocity] = motion.after(remaining);
+            self.intervals.push(interval);
+            let stopping_times =
+                quadratic_roots_within(self.velocity, acceleration, -jerk / 2.0, remaining_time);
+            let Some(duration) = stopping_times[0] else {
+                let state = interval.state_after(remaining_time);
+                self.slip = state.slip;
+                self.velocity = state.velocity;
                 return None;
             };
-            elapsed
+            duration
         };
-        self.slip = motion.after(elapsed)[0];
+        self.slip = interval.state_after(duration).slip;
         self.velocity = 0.0;
         self.update_extremes();
-        *ground += jerk * elapsed;
-        let time = time + elapsed;
-        if ground.abs() > self.yield_acceleration {
-            self.direction = -ground.signum();
-            self.events.push(SlidingEvent::Reversal { time });
+        *ground_acceleration += jerk * duration;
+        let stop_time = time + duration;
+        if ground_acceleration.abs() > self.yield_acceleration {
+            self.direction = -ground_acceleration.signum();
+            self.events.push(SlidingEvent::Reversal { time: stop_time });
         } else {
             self.direction = 0.0;
-            self.events.push(SlidingEvent::Stop { time });
+            self.events.push(SlidingEvent::Stop { time: stop_time });
         }
-        Some(elapsed)
+        Some(duration)
     }
 
+    /// Includes the current slip in the extremes.
     fn update_extremes(&mut self) {
         self.extremes = [self.extremes[0].min(self.slip), self.extremes[1].max(self.slip)];
     }
 
+    /// History of the run, which ends at rest at `time`.
     fn finish(mut self, time: f64) -> SlidingHistory {
         self.update_extremes();
         self.intervals.push(SlidingInterval::at_rest(time, self.slip));

@@ -7,8 +7,8 @@ use crate::motion::SpectralOrdinate;
 ///
 /// ASCE/SEI 43-05 (2005), equations A-1 to A-3: δ = c/(2πf)² with c = 2 μₑ g and μₑ = μ (1 − 0.4 A/g), where A is the
 /// largest vertical acceleration and f the lowest frequency at which the spectral acceleration equals c. The motion has
-/// one horizontal component, so that the standard's factor for two components is one. docs/validation.md compares the
-/// estimate with slips.
+/// one horizontal component, so that the standard's factor for two components is one. docs/validation.md compares
+/// estimates with computed slips.
 ///
 /// ```
 /// use basemat::motion::el_centro_1940;
@@ -32,14 +32,16 @@ impl SlidingEstimate {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless friction and gravity are finite and above zero, and A is at least
     /// zero and below 2.5 g, where μₑ vanishes.
-    pub fn new(friction: f64, vertical: f64, gravity: f64) -> Result<Self> {
+    pub fn new(friction: f64, vertical_acceleration: f64, gravity: f64) -> Result<Self> {
         positive("friction of the block", friction)?;
         positive("gravity", gravity)?;
-        not_negative("vertical acceleration", vertical)?;
-        require("vertical acceleration", vertical, vertical < 2.5 * gravity, "below 2.5 g")?;
-        let effective = friction * (1.0 - 0.4 * vertical / gravity);
-        let acceleration = positive("spectral acceleration of slip", 2.0 * effective * gravity)?;
-        Ok(Self { spectral_acceleration: acceleration })
+        not_negative("vertical acceleration", vertical_acceleration)?;
+        let is_below_limit = vertical_acceleration < 2.5 * gravity;
+        require("vertical acceleration", vertical_acceleration, is_below_limit, "below 2.5 g")?;
+        let effective_friction = friction * (1.0 - 0.4 * vertical_acceleration / gravity);
+        let spectral_acceleration =
+            positive("spectral acceleration of slip", 2.0 * effective_friction * gravity)?;
+        Ok(Self { spectral_acceleration })
     }
 
     /// Spectral acceleration c = 2 μₑ g, m/s².
@@ -49,36 +51,39 @@ impl SlidingEstimate {
 
     /// Estimate δ of the slip, m; `None` if the spectrum stays below c.
     ///
-    /// The spectrum's pseudo-acceleration is taken as a power of the period between two ordinates.
+    /// Between two ordinates the pseudo-acceleration is interpolated as a power of the period.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for less than two ordinates; [`Error::Input`](crate::Error::Input) unless
     /// periods increase, accelerations are finite and above zero, and the last one is below c.
     pub fn slip(&self, spectrum: &[SpectralOrdinate]) -> Result<Option<f64>> {
         at_least("ordinates of the spectrum", spectrum.len(), 2)?;
-        let acceleration_of_slip = self.spectral_acceleration;
+        let slip_acceleration = self.spectral_acceleration;
         for ordinate in spectrum {
             positive("period of the spectrum", ordinate.period)?;
             positive("spectral acceleration", ordinate.pseudo_acceleration)?;
         }
         for pair in spectrum.windows(2) {
-            let increases = pair[1].period > pair[0].period;
-            require("period of the spectrum", pair[1].period, increases, "above the one before")?;
+            let is_longer = pair[1].period > pair[0].period;
+            let needed = "above the previous period";
+            require("period of the spectrum", pair[1].period, is_longer, needed)?;
         }
-        let last = spectrum[spectrum.len() - 1].pseudo_acceleration;
+        let last_acceleration = spectrum[spectrum.len() - 1].pseudo_acceleration;
         let needed = "below 2 μₑ g at the longest period: extend the periods";
-        require("spectral acceleration", last, last < acceleration_of_slip, needed)?;
-        let reached = spectrum
+        let is_below = last_acceleration < slip_acceleration;
+        require("spectral acceleration", last_acceleration, is_below, needed)?;
+        let crossing = spectrum
             .windows(2)
             .rev()
-            .find(|pair| pair[0].pseudo_acceleration >= acceleration_of_slip);
-        Ok(reached.map(|pair| {
-            let shorter = pair[0];
-            let longer = pair[1];
-            let fraction = (acceleration_of_slip / longer.pseudo_acceleration).ln()
-                / (shorter.pseudo_acceleration / longer.pseudo_acceleration).ln();
-            let period = longer.period * (shorter.period / longer.period).powf(fraction);
-            acceleration_of_slip * (period / std::f64::consts::TAU).powi(2)
+            .find(|pair| pair[0].pseudo_acceleration >= slip_acceleration);
+        Ok(crossing.map(|pair| {
+            let short_ordinate = pair[0];
+            let long_ordinate = pair[1];
+            let fraction = (slip_acceleration / long_ordinate.pseudo_acceleration).ln()
+                / (short_ordinate.pseudo_acceleration / long_ordinate.pseudo_acceleration).ln();
+            let period_ratio = short_ordinate.period / long_ordinate.period;
+            let period = long_ordinate.period * period_ratio.powf(fraction);
+            slip_acceleration * (period / std::f64::consts::TAU).powi(2)
         }))
     }
 }

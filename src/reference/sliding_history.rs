@@ -21,14 +21,23 @@ impl SlidingInterval {
         Self { time, slip, velocity: 0.0, acceleration: 0.0, jerk: 0.0 }
     }
 
-    /// Slip and slip velocity at the time `s` after the start.
-    pub(super) fn after(&self, s: f64) -> [f64; 2] {
+    /// Slip and slip velocity at the time `s` (s) after the start.
+    pub(super) fn state_after(&self, s: f64) -> SlidingState {
         let Self { slip, velocity, acceleration, jerk, .. } = *self;
-        [
-            slip + s * (velocity + s * (acceleration / 2.0 + s * jerk / 6.0)),
-            velocity + s * (acceleration + s * jerk / 2.0),
-        ]
+        SlidingState {
+            slip: slip + s * (velocity + s * (acceleration / 2.0 + s * jerk / 6.0)),
+            velocity: velocity + s * (acceleration + s * jerk / 2.0),
+        }
     }
+}
+
+/// State of the block at one time.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SlidingState {
+    /// Slip, m.
+    pub(super) slip: f64,
+    /// Slip velocity, m/s.
+    pub(super) velocity: f64,
 }
 
 /// A change between rest and slip.
@@ -45,21 +54,21 @@ pub enum SlidingEvent {
         /// Time, s.
         time: f64,
     },
-    /// The slip velocity passes through zero without rest.
+    /// The slip velocity changes its sign without rest.
     Reversal {
         /// Time, s.
         time: f64,
     },
 }
 
-/// Slip of the block relative to the ground, positive to the right, exact at any time.
+/// Slip of the block relative to the ground, positive to the right, at any time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlidingHistory {
     pub(super) intervals: Vec<SlidingInterval>,
     pub(super) events: Vec<SlidingEvent>,
     /// Smallest and largest slip, m.
     pub(super) extremes: [f64; 2],
-    /// Slip at rest in the end, m.
+    /// Slip at the end, m.
     pub(super) residual: f64,
 }
 
@@ -86,19 +95,20 @@ impl SlidingHistory {
 
     /// Slip (m) at `time` (s): zero before t = 0, the residual after the end.
     pub fn slip(&self, time: f64) -> f64 {
-        self.at(time)[0]
+        self.state_at(time).slip
     }
 
     /// Slip velocity (m/s) at `time` (s).
     pub fn slip_velocity(&self, time: f64) -> f64 {
-        self.at(time)[1]
+        self.state_at(time).velocity
     }
 
-    fn at(&self, time: f64) -> [f64; 2] {
-        let next = self.intervals.partition_point(|interval| interval.time <= time);
-        match next.checked_sub(1) {
-            Some(index) => self.intervals[index].after(time - self.intervals[index].time),
-            None => [0.0; 2],
+    /// State at `time` (s): at rest without slip before t = 0.
+    fn state_at(&self, time: f64) -> SlidingState {
+        let next_index = self.intervals.partition_point(|interval| interval.time <= time);
+        match next_index.checked_sub(1) {
+            Some(index) => self.intervals[index].state_after(time - self.intervals[index].time),
+            None => SlidingState::default(),
         }
     }
 }

@@ -7,11 +7,11 @@ use crate::error::{Result, finite, positive, require};
 
 /// Rigid flat strip on an elastic half-plane that may uplift under an eccentric load.
 ///
-/// The strip is frictionless, or slides as a whole with Coulomb friction, so that the tractions follow from
-/// the pressure alone. The pressure is that under an inclined punch, with exponents −1/2 ± γ at its ends, tan
-/// πγ = −f (1−2ν)/(2(1−ν)), and zero pressure at an end where the strip lifts: Muskhelishvili, *Some Basic
+/// The strip is frictionless, or slides as a whole with Coulomb friction, so that the pressure determines the shear
+/// tractions. The pressure is that under an inclined punch, with exponents −1/2 ± γ at its ends,
+/// tan πγ = −f (1−2ν)/(2(1−ν)), and zero pressure at an end that uplifts: Muskhelishvili, *Some Basic
 /// Problems of the Mathematical Theory of Elasticity*, 1953, part VI; Johnson, *Contact Mechanics*, 1985,
-/// §2.8. The tilt is small. The settlement has no datum in two dimensions, so only the tilt is returned.
+/// §2.8. The tilt is small. A settlement has no datum in two dimensions, so only the tilt is returned.
 ///
 /// The load acts at an eccentricity e from the middle, positive to the right, and tilts the strip clockwise.
 /// `tilt` and moments are positive counter-clockwise, so they have the sign of −e.
@@ -30,6 +30,7 @@ use crate::error::{Result, finite, positive, require};
 pub struct NoTensionStrip {
     soil: Soil,
     half_width: f64,
+    /// γ.
     exponent: f64,
 }
 
@@ -62,8 +63,8 @@ impl NoTensionStrip {
     pub fn new(soil: Soil, half_width: f64, friction: f64) -> Result<Self> {
         positive("half width of the strip", half_width)?;
         finite("friction of the strip", friction)?;
-        let ratio = (1.0 - 2.0 * soil.poisson()) / (2.0 * (1.0 - soil.poisson()));
-        Ok(Self { soil, half_width, exponent: -(friction * ratio).atan() / PI })
+        let coupling_ratio = (1.0 - 2.0 * soil.poisson()) / (2.0 * (1.0 - soil.poisson()));
+        Ok(Self { soil, half_width, exponent: -(friction * coupling_ratio).atan() / PI })
     }
 
     /// Shift γ of the exponents of the pressure: −1/2 + γ at the left end, −1/2 − γ at the right end.
@@ -82,17 +83,17 @@ impl NoTensionStrip {
         let b = self.half_width;
         let g = self.exponent;
         self.check(load, eccentricity)?;
-        let unit = self.unit_tilt(load);
+        let unit_tilt = self.unit_tilt(load);
         if eccentricity > b * (0.5 + g) {
-            let half = (b - eccentricity) / (0.5 - g);
-            let tilt = -unit / (half * (1.0 + 2.0 * g));
-            Ok(StripContact { left: b - 2.0 * half, right: b, tilt })
+            let half_length = (b - eccentricity) / (0.5 - g);
+            let tilt = -unit_tilt / (half_length * (1.0 + 2.0 * g));
+            Ok(StripContact { left: b - 2.0 * half_length, right: b, tilt })
         } else if eccentricity < -b * (0.5 - g) {
-            let half = (b + eccentricity) / (0.5 + g);
-            let tilt = unit / (half * (1.0 - 2.0 * g));
-            Ok(StripContact { left: -b, right: 2.0 * half - b, tilt })
+            let half_length = (b + eccentricity) / (0.5 + g);
+            let tilt = unit_tilt / (half_length * (1.0 - 2.0 * g));
+            Ok(StripContact { left: -b, right: 2.0 * half_length - b, tilt })
         } else {
-            Ok(StripContact { left: -b, right: b, tilt: -unit * self.slope(eccentricity) })
+            Ok(StripContact { left: -b, right: b, tilt: -unit_tilt * self.slope(eccentricity) })
         }
     }
 
@@ -111,25 +112,24 @@ impl NoTensionStrip {
         let b = self.half_width;
         let g = self.exponent;
         let scale = load * (PI * g).cos() / PI;
-        let half = contact.length() / 2.0;
-        let from_left = x - contact.left;
-        let from_right = contact.right - x;
+        let half_length = contact.length() / 2.0;
+        let left_distance = x - contact.left;
+        let right_distance = contact.right - x;
         if contact.left > -b {
-            let shape = from_left.powf(0.5 + g) * from_right.powf(-0.5 - g);
-            return Ok(scale / (half * (1.0 + 2.0 * g)) * shape);
+            let shape = left_distance.powf(0.5 + g) * right_distance.powf(-0.5 - g);
+            return Ok(scale / (half_length * (1.0 + 2.0 * g)) * shape);
         }
         if contact.right < b {
-            let shape = from_right.powf(0.5 - g) * from_left.powf(-0.5 + g);
-            return Ok(scale / (half * (1.0 - 2.0 * g)) * shape);
+            let shape = right_distance.powf(0.5 - g) * left_distance.powf(-0.5 + g);
+            return Ok(scale / (half_length * (1.0 - 2.0 * g)) * shape);
         }
-        let weight = from_left.powf(-0.5 + g) * from_right.powf(-0.5 - g);
+        let weight = left_distance.powf(-0.5 + g) * right_distance.powf(-0.5 - g);
         Ok(scale * (1.0 + self.slope(eccentricity) * (x - 2.0 * g * b)) * weight)
     }
 
-    /// Moment about the middle that causes the `tilt`, N m/m, counter-clockwise, exerted by the load on the
-    /// strip.
+    /// Moment of the load about the middle that causes the `tilt`, N m/m, counter-clockwise.
     ///
-    /// `tilt` in rad, counter-clockwise; the load N in N/m, downwards. Without friction, with θ₀ =
+    /// `tilt` θ in rad, counter-clockwise; load N in N/m, downwards. Without friction, with θ₀ =
     /// (1−ν)N/(πμB): M/(NB) = θ/(2θ₀) up to θ₀ and 1 − θ₀/(2θ) beyond.
     ///
     /// # Errors
@@ -139,9 +139,8 @@ impl NoTensionStrip {
         let g = self.exponent;
         self.check(load, 0.0)?;
         finite("tilt of the strip", tilt)?;
-        let unit = self.unit_tilt(load);
-        // The slope of the pressure's factor, as if in full contact.
-        let slope = -tilt / unit;
+        // Slope c of the pressure in full contact.
+        let slope = -tilt / self.unit_tilt(load);
         let eccentricity = if slope * b * (1.0 + 2.0 * g) > 1.0 {
             b - (0.5 - g) / (slope * (1.0 + 2.0 * g))
         } else if slope * b * (1.0 - 2.0 * g) < -1.0 {
@@ -164,6 +163,7 @@ impl NoTensionStrip {
         (1.0 - self.soil.poisson()) * load / (PI * self.soil.shear_modulus())
     }
 
+    /// Returns an error unless the load has a contact under the strip.
     fn check(&self, load: f64, eccentricity: f64) -> Result<()> {
         positive("load on the strip", load)?;
         let is_inside = eccentricity.abs() < self.half_width;

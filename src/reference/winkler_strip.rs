@@ -2,19 +2,19 @@
 
 use crate::error::{Result, finite, positive};
 
-/// Rigid strip on a bed of independent springs that carry no tension.
+/// Rigid strip on a bed of independent springs without tension.
 ///
-/// Elementary statics of the eccentrically loaded footing, with full contact up to e = B/3, as in Psycharis &
+/// Statics of a footing under an eccentric load, with full contact up to e = B/3, as in Psycharis &
 /// Jennings, "Rocking of slender rigid bodies allowed to uplift", Earthquake Eng. Struct. Dyn. 11 (1983),
 /// 57–76, and Chopra & Yim, "Simplified earthquake analysis of structures with foundation uplift", J. Struct.
 /// Eng. ASCE 111 (1985), 906–930.
 ///
 /// ```
 /// let strip = basemat::reference::WinklerStrip::new(3.0e6, 2.0)?;
-/// let uplift = strip.uplift_tilt(1.2e4)?;
-/// assert!((uplift - 5.0e-4).abs() < 1e-18);
-/// assert!((strip.moment(1.2e4, 4.0 * uplift)? - 1.2e4 * 2.0 * (2.0 / 3.0)).abs() < 1e-9);
-/// assert!((strip.contact_length(1.2e4, 4.0 * uplift)? - 2.0).abs() < 1e-14);
+/// let uplift_tilt = strip.uplift_tilt(1.2e4)?;
+/// assert!((uplift_tilt - 5.0e-4).abs() < 1e-18);
+/// assert!((strip.moment(1.2e4, 4.0 * uplift_tilt)? - 1.2e4 * 2.0 * (2.0 / 3.0)).abs() < 1e-9);
+/// assert!((strip.contact_length(1.2e4, 4.0 * uplift_tilt)? - 2.0).abs() < 1e-14);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +34,7 @@ impl WinklerStrip {
         Ok(Self { stiffness, half_width })
     }
 
-    /// Tilt N/(2kB²) in either direction at which an edge lifts under `load` N (N/m, downwards), rad.
+    /// Tilt N/(2kB²) (rad) in either direction at which an edge uplifts under `load` N (N/m, downwards).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero.
@@ -43,9 +43,7 @@ impl WinklerStrip {
         Ok(load / (2.0 * self.stiffness * self.half_width * self.half_width))
     }
 
-    /// Moment about the middle at `tilt` (rad) under `load` N, N m/m.
-    ///
-    /// Tilt and moment are positive counter-clockwise.
+    /// Moment about the middle (N m/m) at `tilt` (rad) under `load` N; both are positive counter-clockwise.
     ///
     /// (2/3) k B³ θ in full contact, N B (1 − (2/3) √(θᵤ/θ)) beyond the uplift at θᵤ.
     ///
@@ -71,7 +69,7 @@ impl WinklerStrip {
     /// Fraction of the width in contact.
     fn contact_ratio(&self, load: f64, tilt: f64) -> Result<f64> {
         finite("tilt of the strip", tilt)?;
-        let uplift = self.uplift_tilt(load)?;
-        Ok(if tilt.abs() <= uplift { 1.0 } else { (uplift / tilt.abs()).sqrt() })
+        let uplift_tilt = self.uplift_tilt(load)?;
+        Ok(if tilt.abs() <= uplift_tilt { 1.0 } else { (uplift_tilt / tilt.abs()).sqrt() })
     }
 }

@@ -1,7 +1,7 @@
 //! Plans of Fourier transforms in double precision.
 //!
-//! The transforms of `rustfft` are generic, some 20 % of the code of a crate that makes plans: they are compiled here
-//! only.
+//! The transforms of `rustfft` are generic: every crate that makes plans compiles them, which is about 20 % of its code.
+//! Here they are compiled once.
 #![forbid(unsafe_code)]
 
 use std::fmt;
@@ -14,7 +14,7 @@ pub use rustfft::{Fft, num_complex};
 pub struct RealPlanner(realfft::RealFftPlanner<f64>);
 
 impl RealPlanner {
-    /// A planner without plans.
+    /// Planner without plans.
     pub fn new() -> Self {
         Self(realfft::RealFftPlanner::new())
     }
@@ -46,7 +46,7 @@ impl fmt::Debug for RealPlanner {
 pub struct ComplexPlanner(rustfft::FftPlanner<f64>);
 
 impl ComplexPlanner {
-    /// A planner without plans.
+    /// Planner without plans.
     pub fn new() -> Self {
         Self(rustfft::FftPlanner::new())
     }
@@ -79,32 +79,37 @@ mod tests {
     use super::num_complex::Complex64;
     use super::{ComplexPlanner, RealPlanner};
 
-    /// Of a cosine of three periods both transforms have the spectrum n/2 at 3, and the inverse returns n times it.
+    /// A cosine of three periods has the spectrum n/2 at 3; the inverse returns n times the cosine.
     #[test]
     fn plans_transform_a_cosine() {
         for length in [24, 31, 128] {
             let cosine = |j: usize| (std::f64::consts::TAU * 3.0 * j as f64 / length as f64).cos();
-            let mut series: Vec<f64> = (0..length).map(cosine).collect();
-            let mut numbers: Vec<Complex64> =
-                series.iter().map(|x| Complex64::new(*x, 0.0)).collect();
-            let mut planner = RealPlanner::new();
-            let forward = planner.plan_fft_forward(length);
+            let mut real_series: Vec<f64> = (0..length).map(cosine).collect();
+            let mut complex_series: Vec<Complex64> =
+                real_series.iter().map(|x| Complex64::new(*x, 0.0)).collect();
+            let mut real_planner = RealPlanner::new();
+            let forward = real_planner.plan_fft_forward(length);
             let mut spectrum = forward.make_output_vec();
-            forward.process(&mut series, &mut spectrum).unwrap();
-            let mut complex = ComplexPlanner::default();
-            complex.plan_fft_forward(length).process(&mut numbers);
+            forward.process(&mut real_series, &mut spectrum).unwrap();
+            let mut complex_planner = ComplexPlanner::default();
+            complex_planner.plan_fft_forward(length).process(&mut complex_series);
             for (k, value) in spectrum.iter().enumerate() {
                 let exact = if k == 3 { 0.5 * length as f64 } else { 0.0 };
                 assert!(
-                    (value - exact).norm() < 1e-12 && (numbers[k] - exact).norm() < 1e-12,
+                    (value - exact).norm() < 1e-12 && (complex_series[k] - exact).norm() < 1e-12,
                     "{k}"
                 );
             }
-            planner.plan_fft_inverse(length).process(&mut spectrum, &mut series).unwrap();
-            complex.plan_fft_inverse(length).process(&mut numbers);
-            for (j, value) in series.iter().enumerate() {
+            real_planner
+                .plan_fft_inverse(length)
+                .process(&mut spectrum, &mut real_series)
+                .unwrap();
+            complex_planner.plan_fft_inverse(length).process(&mut complex_series);
+            for (j, value) in real_series.iter().enumerate() {
                 let exact = length as f64 * cosine(j);
-                assert!((value - exact).abs() < 1e-11 && (numbers[j] - exact).norm() < 1e-11);
+                assert!(
+                    (value - exact).abs() < 1e-11 && (complex_series[j] - exact).norm() < 1e-11
+                );
             }
         }
     }

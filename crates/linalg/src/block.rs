@@ -12,19 +12,24 @@ use crate::error::{Error, Result};
 /// Dense complex matrix, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComplexBlock {
-    rows: usize,
+    row_count: usize,
     values: Vec<Complex64>,
 }
 
 impl ComplexBlock {
-    pub fn zeros(rows: usize, columns: usize) -> Self {
-        Self { rows, values: vec![Complex64::ZERO; rows * columns] }
+    /// Matrix of zeros.
+    pub fn zeros(row_count: usize, column_count: usize) -> Self {
+        Self { row_count, values: vec![Complex64::ZERO; row_count * column_count] }
     }
 
+    /// Number of rows.
+    #[inline]
     pub fn rows(&self) -> usize {
-        self.rows
+        self.row_count
     }
 
+    /// All entries, column by column.
+    #[inline]
     pub fn values(&self) -> &[Complex64] {
         &self.values
     }
@@ -33,9 +38,9 @@ impl ComplexBlock {
     pub fn submatrix(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
         let mut values = Vec::with_capacity(rows.len() * columns.len());
         for column in columns {
-            values.extend_from_slice(&self.values[column * self.rows..][rows.clone()]);
+            values.extend_from_slice(&self.values[column * self.row_count..][rows.clone()]);
         }
-        Self { rows: rows.len(), values }
+        Self { row_count: rows.len(), values }
     }
 
     /// −A.
@@ -51,42 +56,43 @@ impl ComplexBlock {
             .fold(0.0, |maximum, value| maximum.max(value.re.abs()).max(value.im.abs()))
     }
 
-    /// Subtracts Cᵀ M⁻¹ C: eliminates the symmetric `pivot` M.
+    /// Subtracts Cᵀ M⁻¹ C from this symmetric matrix: eliminates the rows of the symmetric `pivot` M.
     ///
-    /// `coupling`: C, from M's rows to this symmetric matrix.
-    ///
-    /// The result is symmetric to the last bit.
+    /// `coupling`: the block C, with the rows of M and the columns of this matrix. The result is symmetric to the last
+    /// bit.
     ///
     /// # Errors
     /// [`Error::Singular`] for a pivot that is singular or not finite.
     pub fn eliminate(&mut self, pivot: &Self, coupling: &Self) -> Result<()> {
-        let order = pivot.rows;
-        let count = self.rows;
-        if order == 0 || count == 0 {
+        let pivot_order = pivot.row_count;
+        let order = self.row_count;
+        if pivot_order == 0 || order == 0 {
             return Ok(());
         }
-        let mut factor = DenseFactor::with_columns(order, count);
-        if !factor.factor_columns(order, |column, values| {
-            values.extend_from_slice(&pivot.values[column * order..][..order]);
-        }) {
-            return Err(Error::Singular { matrix: "finite elements around a trench", order });
+        let mut factor = DenseFactor::with_columns(pivot_order, order);
+        let is_regular = factor.factor_columns(pivot_order, |column, values| {
+            values.extend_from_slice(&pivot.values[column * pivot_order..][..pivot_order]);
+        });
+        if !is_regular {
+            let matrix = "finite elements around a trench";
+            return Err(Error::Singular { matrix, order: pivot_order });
         }
-        let mut solved = coupling.values.clone();
-        factor.solve(&mut solved);
+        let mut solution = coupling.values.clone();
+        factor.solve(&mut solution);
         matmul(
-            MatMut::from_column_major_slice_mut(&mut self.values, count, count),
+            MatMut::from_column_major_slice_mut(&mut self.values, order, order),
             BlockStructure::TriangularLower,
             Accum::Add,
-            MatRef::from_column_major_slice(&coupling.values, order, count).transpose(),
+            MatRef::from_column_major_slice(&coupling.values, pivot_order, order).transpose(),
             BlockStructure::Rectangular,
-            MatRef::from_column_major_slice(&solved, order, count),
+            MatRef::from_column_major_slice(&solution, pivot_order, order),
             BlockStructure::Rectangular,
             Complex64::new(-1.0, 0.0),
             Par::Seq,
         );
-        for column in 1..count {
+        for column in 1..order {
             for row in 0..column {
-                self.values[column * count + row] = self.values[row * count + column];
+                self.values[column * order + row] = self.values[row * order + column];
             }
         }
         Ok(())
@@ -98,13 +104,13 @@ impl Index<(usize, usize)> for ComplexBlock {
 
     #[inline]
     fn index(&self, (row, column): (usize, usize)) -> &Complex64 {
-        &self.values[column * self.rows + row]
+        &self.values[column * self.row_count + row]
     }
 }
 
 impl IndexMut<(usize, usize)> for ComplexBlock {
     #[inline]
     fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut Complex64 {
-        &mut self.values[column * self.rows + row]
+        &mut self.values[column * self.row_count + row]
     }
 }

@@ -1,12 +1,12 @@
-//! Complex numbers: Laplace variables, moduli and the closed forms.
+//! Complex numbers: Laplace variables, moduli, and arguments of closed forms.
 //!
-//! Small functions are inlined: crates above compile them within their loops.
+//! Small functions are `#[inline]`, because other crates call them in loops.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use basemat_fourier::num_complex::Complex64;
 
-/// A complex number: a Laplace variable s, 1/s, or a modulus at it.
+/// Complex number: a Laplace variable s (1/s), or a modulus at s.
 ///
 /// ```
 /// use basemat::Complex;
@@ -24,6 +24,9 @@ pub struct Complex {
     /// Imaginary part.
     pub im: f64,
 }
+
+/// Smallest squared distance from the poles of artanh: the function is finite at the poles.
+const MIN_POLE_DISTANCE_SQUARE: f64 = 1e-30;
 
 impl Complex {
     /// `re` + i `im`.
@@ -49,7 +52,7 @@ impl Complex {
     #[inline]
     pub fn abs(self) -> f64 {
         let square = self.square();
-        // If the square leaves the range of f64, `hypot` is used, which is slower.
+        // `hypot` is slower, but its intermediate results stay in the range of f64.
         if square.is_normal() { square.sqrt() } else { self.re.hypot(self.im) }
     }
 
@@ -84,25 +87,25 @@ impl Complex {
         if square.is_normal() {
             return self.conj().scale(1.0 / square);
         }
-        let size = self.re.abs().max(self.im.abs());
-        let unit = self.scale(1.0 / size);
-        unit.conj().scale(1.0 / unit.square()).scale(1.0 / size)
+        let magnitude = self.re.abs().max(self.im.abs());
+        let scaled = self.scale(1.0 / magnitude);
+        scaled.conj().scale(1.0 / scaled.square()).scale(1.0 / magnitude)
     }
 
     /// Square root with a real part not below zero.
     #[must_use]
     #[inline]
     pub fn sqrt(self) -> Self {
-        let size = self.abs();
-        if size == 0.0 {
+        let modulus = self.abs();
+        if modulus == 0.0 {
             return Self::default();
         }
-        let large = (0.5 * (size + self.re.abs())).sqrt();
-        let small = 0.5 * self.im / large;
+        let larger_part = (0.5 * (modulus + self.re.abs())).sqrt();
+        let smaller_part = 0.5 * self.im / larger_part;
         if self.re >= 0.0 {
-            Self::new(large, small)
+            Self::new(larger_part, smaller_part)
         } else {
-            Self::new(small.abs(), large.copysign(self.im))
+            Self::new(smaller_part.abs(), larger_part.copysign(self.im))
         }
     }
 
@@ -110,44 +113,48 @@ impl Complex {
     #[must_use]
     #[inline]
     pub fn exp(self) -> Self {
-        let size = self.re.exp();
-        if size == 0.0 {
+        let modulus = self.re.exp();
+        if modulus == 0.0 {
             return Self::default();
         }
-        Self::polar(size, self.im)
+        Self::polar(modulus, self.im)
     }
 
     /// Principal logarithm.
     #[must_use]
+    #[inline]
     pub fn ln(self) -> Self {
         Self::new(self.abs().ln(), self.im.atan2(self.re))
     }
 
     /// Principal power with a real exponent.
     #[must_use]
+    #[inline]
     pub fn powf(self, exponent: f64) -> Self {
         Self::polar(self.abs().powf(exponent), exponent * self.im.atan2(self.re))
     }
 
     /// Principal artanh; on the real axis beyond ±1, its real part.
     #[doc(hidden)]
+    #[inline]
     pub fn atanh(self) -> Self {
-        // |1 ± x|²; the lower limit 1e-30 replaces zero at the poles.
-        let plus = ((1.0 + self.re).powi(2) + self.im * self.im).max(1e-30);
-        let minus = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
-        let re = if self.re.abs() < 0.5 * plus.min(minus) {
-            0.25 * (4.0 * self.re / minus).ln_1p()
+        // |1 + x|² and |1 − x|².
+        let plus_square =
+            ((1.0 + self.re).powi(2) + self.im * self.im).max(MIN_POLE_DISTANCE_SQUARE);
+        let minus_square =
+            ((1.0 - self.re).powi(2) + self.im * self.im).max(MIN_POLE_DISTANCE_SQUARE);
+        let re = if self.re.abs() < 0.5 * plus_square.min(minus_square) {
+            0.25 * (4.0 * self.re / minus_square).ln_1p()
         } else {
-            0.25 * (plus / minus).ln()
+            0.25 * (plus_square / minus_square).ln()
         };
         if self.im == 0.0 {
             return Self::real(re);
         }
-        let square = self.re * self.re + self.im * self.im;
-        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - square))
+        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - self.square()))
     }
 
-    /// This number in the type that transforms and matrices use.
+    /// This number in the type of transforms and matrices.
     #[doc(hidden)]
     #[inline]
     pub fn inner(self) -> Complex64 {

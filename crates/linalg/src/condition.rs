@@ -1,18 +1,18 @@
 //! Condition numbers from factors.
 //!
-//! The condition number is computed for the matrix scaled by the roots of its diagonal: SAS with
-//! sᵢ = |aᵢᵢ|^−½. It does not depend on units (a degree of freedom may be a length or an angle). For positive
-//! definite matrices it is at most the order times the smallest condition number that any diagonal scaling
-//! reaches (van der Sluis 1969). It bounds the error of a Cholesky solve, scaled or not (Higham 2002, theorem
-//! 10.6 with § 10.1.1).
+//! The matrix A is first scaled by the roots of its diagonal to S A S with sᵢ = |aᵢᵢ|^−½. The condition number of S A S
+//! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order n
+//! it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
+//! error of a Cholesky solve, with and without scaling (Higham 2002, theorem 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Largest number of products of the estimator, with B and with Bᵀ.
+/// Largest number of iterations of the estimator, as in LAPACK's dlacn2: more seldom improve it.
 const MAX_ESTIMATOR_PRODUCTS: usize = 5;
 
-/// Estimate of ‖B‖₁ from `multiply(b, transposed)`, which overwrites b with B b or Bᵀ b; B is the inverse of a matrix, or
-/// the matrix.
+/// Estimate of the norm ‖B‖₁ of a matrix from its products.
+///
+/// `multiply(b, is_transposed)` overwrites b with B b or Bᵀ b.
 ///
 /// Hager's algorithm with Higham's refinements (Higham 2002, algorithm 15.4; LAPACK's dlacn2): a
 /// lower bound, nearly always within a factor of three. Infinite if a product is not finite.
@@ -20,7 +20,7 @@ fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / order as f64; order];
     let mut signs = vec![0.0; order];
     let mut estimate = 0.0_f64;
-    let mut unit_entry = usize::MAX;
+    let mut unit_index = usize::MAX;
     for iteration in 0..MAX_ESTIMATOR_PRODUCTS {
         multiply(&mut x, false);
         let norm: f64 = x.iter().map(|x| x.abs()).sum();
@@ -36,26 +36,31 @@ fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         signs.iter_mut().zip(&x).for_each(|(s, x)| *s = x.signum());
         x.copy_from_slice(&signs);
         multiply(&mut x, true);
-        let largest_entry = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
-        if largest_entry == unit_entry {
+        let largest_index = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
+        if largest_index == unit_index {
             break;
         }
-        unit_entry = largest_entry;
+        unit_index = largest_index;
         x.fill(0.0);
-        x[unit_entry] = 1.0;
+        x[unit_index] = 1.0;
     }
-    // This vector finds norms that the iteration may miss.
-    let last = order.max(2) as f64 - 1.0;
+    // The product with this vector is large for matrices whose norm the iteration underestimates (Higham 2002).
+    let last_index = order.max(2) as f64 - 1.0;
     for (i, x) in x.iter_mut().enumerate() {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-        *x = sign * (1.0 + i as f64 / last);
+        *x = sign * (1.0 + i as f64 / last_index);
     }
     multiply(&mut x, false);
-    let alternative: f64 = x.iter().map(|x| x.abs()).sum::<f64>() * 2.0 / (3.0 * order as f64);
-    if alternative.is_finite() { estimate.max(alternative) } else { f64::INFINITY }
+    let alternative_estimate: f64 =
+        x.iter().map(|x| x.abs()).sum::<f64>() * 2.0 / (3.0 * order as f64);
+    if alternative_estimate.is_finite() {
+        estimate.max(alternative_estimate)
+    } else {
+        f64::INFINITY
+    }
 }
 
-/// Roots of the diagonal's magnitudes; one where it is zero.
+/// Roots of the diagonal's magnitudes; one for a zero on the diagonal.
 fn roots_of_diagonal(diagonal: impl Iterator<Item = f64>) -> Vec<f64> {
     diagonal.map(|d| if d == 0.0 { 1.0 } else { d.abs().sqrt() }).collect()
 }
@@ -83,14 +88,14 @@ pub fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if !factor.factor(&scaled, order) {
         return f64::INFINITY;
     }
-    norm * one_norm(order, &mut |x, transposed| {
-        if transposed { factor.solve_transposed(x) } else { factor.solve(x) }
+    norm * one_norm(order, &mut |x, is_transposed| {
+        if is_transposed { factor.solve_transposed(x) } else { factor.solve(x) }
     })
 }
 
 /// Condition number of a matrix A with this diagonal, scaled by it, in the 1-norm; both norms are estimates.
 ///
-/// `multiply` and `solve` overwrite b with A b and A⁻¹ b, or with Aᵀ b and A⁻ᵀ b if their flag is set.
+/// `multiply(b, is_transposed)` overwrites b with A b or Aᵀ b, and `solve(b, is_transposed)` with A⁻¹ b or A⁻ᵀ b.
 pub fn condition_by_products(
     diagonal: &[f64],
     multiply: impl Fn(&mut [f64], bool),
@@ -98,14 +103,14 @@ pub fn condition_by_products(
 ) -> f64 {
     let roots = roots_of_diagonal(diagonal.iter().copied());
     let reciprocals: Vec<f64> = roots.iter().map(|root| root.recip()).collect();
-    let norm = one_norm(diagonal.len(), &mut |x, transposed| {
+    let norm = one_norm(diagonal.len(), &mut |x, is_transposed| {
         scale_by(x, &reciprocals);
-        multiply(x, transposed);
+        multiply(x, is_transposed);
         scale_by(x, &reciprocals);
     });
-    norm * one_norm(diagonal.len(), &mut |x, transposed| {
+    norm * one_norm(diagonal.len(), &mut |x, is_transposed| {
         scale_by(x, &roots);
-        solve(x, transposed);
+        solve(x, is_transposed);
         scale_by(x, &roots);
     })
 }
@@ -119,9 +124,9 @@ pub fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> f64 {
         column_sums[column] += value.abs() / (roots[row] * roots[column]);
     }
     let norm = column_sums.into_iter().fold(0.0, f64::max);
-    norm * one_norm(order, &mut |x, transposed| {
+    norm * one_norm(order, &mut |x, is_transposed| {
         scale_by(x, &roots);
-        if transposed {
+        if is_transposed {
             factor.solve_transposed(x);
         } else {
             factor.solve_many(x);
@@ -139,22 +144,22 @@ mod tests {
     #[test]
     fn estimates_are_within_a_factor_of_three_of_the_inverse() {
         let mut random = Random(3);
-        let mut worst = 1.0_f64;
+        let mut max_ratio = 1.0_f64;
         for case in 0..400 {
             let n = 1 + case % 12;
-            // Any condition, any units.
+            // The condition number and the units vary over many decades.
             let smallest_part = random.log_within(1e-10, 1.0);
             let units: Vec<f64> = (0..n).map(|_| random.log_within(1e-6, 1e6)).collect();
             let root: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
             let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
             let mut matrix = vec![0.0; n * n];
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
-                // One direction is almost missing.
+                // The product is singular; the smallest part makes the matrix regular.
                 let product: f64 = (1..n).map(|k| root[i * n + k] * root[j * n + k]).sum();
-                let rest =
+                let addition =
                     if i == j { smallest_part } else { skew * root[i.min(j) * n + i.max(j)] };
                 let sign = if i < j { -1.0 } else { 1.0 };
-                matrix[i * n + j] = (product + sign * rest) * units[i] * units[j];
+                matrix[i * n + j] = (product + sign * addition) * units[i] * units[j];
                 if i == j {
                     matrix[i * n + j] = matrix[i * n + j].abs();
                 }
@@ -166,14 +171,14 @@ mod tests {
             }
             let sparse = SparseMatrix::new("test", &triplets).unwrap();
             let factor = SparseFactor::new("test", &triplets).unwrap();
-            for found in [dense_condition(&matrix, n), sparse_condition(&sparse, &factor)] {
+            for estimate in [dense_condition(&matrix, n), sparse_condition(&sparse, &factor)] {
                 // The estimate is a lower bound up to rounding, and rarely far below the exact value.
-                let ratio = exact / found;
-                assert!(ratio > 0.99 && ratio < 3.0, "{case}: {found:e} for {exact:e}");
-                worst = worst.max(ratio);
+                let ratio = exact / estimate;
+                assert!(ratio > 0.99 && ratio < 3.0, "{case}: {estimate:e} for {exact:e}");
+                max_ratio = max_ratio.max(ratio);
             }
         }
-        println!("exact over estimate: {worst} at most");
+        println!("largest ratio of exact value to estimate: {max_ratio}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
-//! LU factors of dense matrices, real and complex.
+//! Factors of dense matrices: LU, and Cholesky's factors of low rank.
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
 
 use super::matrix_scalar::{LuFactors, MatrixScalar};
 use super::product::{ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_rows, vectorized};
@@ -12,31 +12,32 @@ pub struct DenseFactor<T = f64> {
     order: usize,
     /// L and U, column by column.
     values: Vec<T>,
+    /// Row permutation, and its inverse.
     forward: Vec<usize>,
     inverse: Vec<usize>,
     /// Number of row exchanges of the last factorization.
-    pub(super) transpositions: usize,
+    pub(super) exchange_count: usize,
     buffer: MemBuffer,
-    /// Right-hand side of a small solve.
-    permuted: Vec<T>,
+    /// Right-hand side of a small solve, with permuted rows.
+    permuted_side: Vec<T>,
 }
 
 impl<T: MatrixScalar> DenseFactor<T> {
-    /// Allocates for matrices up to order `capacity` and solves of one right-hand side.
+    /// Allocates memory for matrices up to order `capacity`, and solves with one right-hand side.
     pub fn with_capacity(capacity: usize) -> Self {
         Self::with_columns(capacity, 1)
     }
 
-    /// Allocates for matrices up to order `capacity` and solves of up to `columns` right-hand sides.
-    pub fn with_columns(capacity: usize, columns: usize) -> Self {
+    /// Allocates memory for matrices up to order `capacity`, and solves with up to `column_count` right-hand sides.
+    pub fn with_columns(capacity: usize, column_count: usize) -> Self {
         Self {
             order: 0,
             values: Vec::with_capacity(capacity * capacity),
             forward: Vec::with_capacity(capacity),
             inverse: Vec::with_capacity(capacity),
-            transpositions: 0,
-            buffer: MemBuffer::new(T::lu_scratch(capacity, columns)),
-            permuted: Vec::with_capacity(capacity),
+            exchange_count: 0,
+            buffer: MemBuffer::new(T::lu_scratch(capacity, column_count)),
+            permuted_side: Vec::with_capacity(capacity),
         }
     }
 
@@ -47,17 +48,17 @@ impl<T: MatrixScalar> DenseFactor<T> {
         })
     }
 
-    /// Factors the matrix of `order` whose columns `extend` appends, one after the other.
+    /// Factors the matrix of `order` whose columns `append_column` writes, one after the other.
     ///
     /// Returns false if the matrix is singular or not finite.
     pub fn factor_columns(
         &mut self,
         order: usize,
-        mut extend: impl FnMut(usize, &mut Vec<T>),
+        mut append_column: impl FnMut(usize, &mut Vec<T>),
     ) -> bool {
         self.order = order;
         self.values.clear();
-        (0..order).for_each(|column| extend(column, &mut self.values));
+        (0..order).for_each(|column| append_column(column, &mut self.values));
         self.forward.clear();
         self.forward.resize(order, 0);
         self.inverse.clear();
@@ -65,16 +66,17 @@ impl<T: MatrixScalar> DenseFactor<T> {
         if order == 0 {
             return true;
         }
-        self.transpositions =
+        self.exchange_count =
             T::lu_factor(&mut self.values, &mut self.forward, &mut self.inverse, &mut self.buffer);
         self.pivots().all(|pivot| T::is_finite_impl(&pivot) && pivot != T::zero_impl())
     }
 
+    /// Diagonal of U.
     pub(super) fn pivots(&self) -> impl Iterator<Item = T> {
         (0..self.order).map(|k| self.values[k * (self.order + 1)])
     }
 
-    /// Overwrites `rhs`, one vector or several after each other, with A⁻¹ rhs.
+    /// Overwrites `rhs`, one or several vectors one after the other, with A⁻¹ rhs.
     pub fn solve(&mut self, rhs: &mut [T]) {
         let order = self.order;
         if order == 0 {
@@ -109,50 +111,53 @@ impl<T: MatrixScalar> DenseFactor<T> {
 }
 
 impl DenseFactor {
-    /// Overwrites `rhs` with A⁻¹ rhs, four columns at a time.
+    /// Overwrites `rhs` with A⁻¹ rhs, faster than [`DenseFactor::solve`] for small matrices.
     ///
-    /// Meant for the small systems of a contact problem, where faer's blocked solve takes ten times as long.
+    /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes ten
+    /// times as long.
     pub fn solve_small(&mut self, rhs: &mut [f64]) {
-        self.permuted.clear();
-        self.permuted.extend(self.forward.iter().map(|&row| rhs[row]));
-        vectorized(Substitute { columns: &self.values, x: &mut self.permuted });
-        rhs.copy_from_slice(&self.permuted);
+        self.permuted_side.clear();
+        self.permuted_side.extend(self.forward.iter().map(|&row| rhs[row]));
+        vectorized(Substitution { lu_columns: &self.values, x: &mut self.permuted_side });
+        rhs.copy_from_slice(&self.permuted_side);
     }
 }
 
-/// x ← U⁻¹ L⁻¹ x.
-struct Substitute<'a> {
-    columns: &'a [f64],
+/// Substitution x ← U⁻¹ L⁻¹ x.
+struct Substitution<'a> {
+    /// Columns of L and U.
+    lu_columns: &'a [f64],
     x: &'a mut [f64],
 }
 
-impl WithSimd for Substitute<'_> {
+impl WithSimd for Substitution<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { columns, x } = self;
+        let Self { lu_columns, x } = self;
         let order = x.len();
-        let column = |k: usize| &columns[k * order..][..order];
-        let whole = order - order % COLUMNS_AT_ONCE;
-        for k in (0..whole).step_by(COLUMNS_AT_ONCE) {
-            let (solved, rest) = x[k..].split_at_mut(COLUMNS_AT_ONCE);
+        let column = |k: usize| &lu_columns[k * order..][..order];
+        // The forward substitution ends with an incomplete block, the backward substitution with an incomplete block at
+        // the top: no further rows need an update from them.
+        let incomplete_len = order % COLUMNS_AT_ONCE;
+        let lower_end = order - incomplete_len;
+        for k in (0..lower_end).step_by(COLUMNS_AT_ONCE) {
+            let (block, rows_below) = x[k..].split_at_mut(COLUMNS_AT_ONCE);
             let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| &column(k + j)[k..]);
-            solve_lower(|j| columns[j], solved);
-            let factors = std::array::from_fn(|j| -solved[j]);
-            add_rows(simd, factors, columns.map(|column| &column[COLUMNS_AT_ONCE..]), rest);
+            solve_lower(|j| columns[j], block);
+            let factors = std::array::from_fn(|j| -block[j]);
+            add_rows(simd, factors, columns.map(|column| &column[COLUMNS_AT_ONCE..]), rows_below);
         }
-        solve_lower(|j| &column(whole + j)[whole..], &mut x[whole..]);
-        // The incomplete block is the first one, because no rows above it need an update.
-        let first = order % COLUMNS_AT_ONCE;
-        for k in (first..order).step_by(COLUMNS_AT_ONCE).rev() {
-            let (rest, solved) = x[..k + COLUMNS_AT_ONCE].split_at_mut(k);
+        solve_lower(|j| &column(lower_end + j)[lower_end..], &mut x[lower_end..]);
+        for k in (incomplete_len..order).step_by(COLUMNS_AT_ONCE).rev() {
+            let (rows_above, block) = x[..k + COLUMNS_AT_ONCE].split_at_mut(k);
             let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| column(k + j));
-            solve_upper(|j| &columns[j][k..], solved);
-            let factors = std::array::from_fn(|j| -solved[j]);
-            add_rows(simd, factors, columns.map(|column| &column[..k]), rest);
+            solve_upper(|j| &columns[j][k..], block);
+            let factors = std::array::from_fn(|j| -block[j]);
+            add_rows(simd, factors, columns.map(|column| &column[..k]), rows_above);
         }
-        solve_upper(column, &mut x[..first]);
+        solve_upper(column, &mut x[..incomplete_len]);
     }
 }
 
@@ -179,6 +184,48 @@ fn solve_upper<'a>(column: impl Fn(usize) -> &'a [f64], x: &mut [f64]) {
     }
 }
 
+/// Largest negative value of a remaining diagonal that counts as a rounding error, over the tolerance.
+const MAX_NEGATIVE_FACTOR: f64 = 10.0;
+
+/// Columns of L with V = L Lᵀ for a positive semi-definite matrix V of low rank.
+///
+/// Cholesky's method with pivots (Higham 2002, § 10.3), from the diagonal of V. `write_column(j, column)` overwrites
+/// `column` with column j of V. The diagonal of V − L Lᵀ is at most `tolerance`. `None` if L has more than `max_rank`
+/// columns, or V is not positive semi-definite.
+pub fn pivoted_cholesky(
+    diagonal: Vec<f64>,
+    tolerance: f64,
+    max_rank: usize,
+    mut write_column: impl FnMut(usize, &mut [f64]),
+) -> Option<Vec<Vec<f64>>> {
+    let mut remainders = diagonal;
+    let mut columns: Vec<Vec<f64>> = vec![];
+    loop {
+        let pivot =
+            (0..remainders.len()).max_by(|a, b| remainders[*a].total_cmp(&remainders[*b]))?;
+        if remainders[pivot] <= tolerance {
+            let min_remainder = -MAX_NEGATIVE_FACTOR * tolerance;
+            let is_semi_definite = remainders.iter().all(|remainder| *remainder >= min_remainder);
+            return is_semi_definite.then_some(columns);
+        }
+        if columns.len() == max_rank {
+            return None;
+        }
+        let root = remainders[pivot].sqrt();
+        let mut column = vec![0.0; remainders.len()];
+        write_column(pivot, &mut column);
+        for (i, value) in column.iter_mut().enumerate() {
+            let projection: f64 = columns.iter().map(|other| other[i] * other[pivot]).sum();
+            *value = (*value - projection) / root;
+        }
+        for (remainder, value) in remainders.iter_mut().zip(&column) {
+            *remainder -= value * value;
+        }
+        remainders[pivot] = 0.0;
+        columns.push(column);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -200,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn small_solves_are_exact_for_any_number_of_whole_and_broken_blocks() {
+    fn small_solves_are_exact_with_complete_and_incomplete_blocks() {
         let mut random = basemat_testkit::random::Random(7);
         let mut factor = DenseFactor::with_capacity(18);
         for order in 0..=18 {

@@ -1,4 +1,4 @@
-//! Eigenvalues of symmetric dense matrices.
+//! Eigenvalues and eigenvectors of symmetric dense matrices.
 
 use crate::SparseMatrix;
 use faer::diag::Diag;
@@ -12,7 +12,7 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-/// Row at which a symmetric row-major matrix fails to be positive definite; `None` if it is.
+/// Row at which a symmetric row-major matrix fails to be positive definite; `None` for a positive definite matrix.
 pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);
     match matrix.llt(Side::Lower) {
@@ -23,10 +23,10 @@ pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
 
 /// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1.
 ///
-/// K is symmetric, M symmetric positive definite. Eigenvectors are columns of the row-major matrix returned.
+/// K is symmetric, M symmetric positive definite. Eigenvectors are columns of the returned row-major matrix.
 /// `None` if M is not positive definite or the iteration fails.
 ///
-/// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
+/// With M = L Lᵀ, λ are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ is L⁻ᵀ times its eigenvectors.
 pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Option<Eigenpairs> {
     let factor = dense(mass).llt(Side::Lower).ok()?;
     let mut reduced = dense(stiffness);
@@ -34,18 +34,18 @@ pub fn generalised_modes(stiffness: &SparseMatrix, mass: &SparseMatrix) -> Optio
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
     let SymmetricEigen { values, mut vectors } = symmetric_eigen(&reduced)?;
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
-    let vectors = by_rows(&vectors);
-    let finite = values.iter().chain(&vectors).all(|x| x.is_finite());
-    finite.then_some(Eigenpairs { values, vectors })
+    let vectors = row_major(&vectors);
+    let is_finite = values.iter().chain(&vectors).all(|x| x.is_finite());
+    is_finite.then_some(Eigenpairs { values, vectors })
 }
 
 /// Eigenvalues, ascending, and eigenvectors of a symmetric row-major matrix.
 ///
-/// Eigenvectors are columns of the row-major matrix returned. `None` if the iteration fails.
+/// Eigenvectors are columns of the returned row-major matrix. `None` if the iteration fails.
 pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<Eigenpairs> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order).to_owned();
     let SymmetricEigen { values, vectors } = symmetric_eigen(&matrix)?;
-    Some(Eigenpairs { values, vectors: by_rows(&vectors) })
+    Some(Eigenpairs { values, vectors: row_major(&vectors) })
 }
 
 /// Eigenvalues and eigenvectors.
@@ -53,7 +53,7 @@ pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<Eigenpairs> {
 pub struct Eigenpairs {
     /// Eigenvalues, ascending.
     pub values: Vec<f64>,
-    /// Matrix of the eigenvectors; the function that returns it says whether they are rows or columns.
+    /// Row-major matrix of the eigenvectors: rows or columns, see the function that returns it.
     pub vectors: Vec<f64>,
 }
 
@@ -63,6 +63,7 @@ struct SymmetricEigen {
     vectors: Mat<f64>,
 }
 
+/// Dense copy of a sparse matrix.
 fn dense(matrix: &SparseMatrix) -> Mat<f64> {
     let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
     for (row, column, value) in matrix.entries() {
@@ -71,12 +72,13 @@ fn dense(matrix: &SparseMatrix) -> Mat<f64> {
     dense
 }
 
-/// The values of a matrix, row-major.
-fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
+/// The entries of a matrix, row-major.
+fn row_major(matrix: &Mat<f64>) -> Vec<f64> {
     let n = matrix.ncols();
     (0..matrix.nrows()).flat_map(|i| (0..n).map(move |j| matrix[(i, j)])).collect()
 }
 
+/// Eigenvalues and eigenvectors of a symmetric matrix; `None` if the iteration fails.
 fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
     let n = matrix.nrows();
     // faer does not accept an empty matrix.
@@ -85,9 +87,8 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<SymmetricEigen> {
     }
     let mut values = Diag::<f64>::zeros(n);
     let mut vectors = Mat::<f64>::zeros(n, n);
-    // From order 128 on, faer uses divide and conquer by default. It left residuals of 6e-7 of the largest
-    // force (order 308, the containment of the examples); the QR iteration leaves residuals at rounding
-    // level.
+    // From order 128 on, faer uses divide and conquer by default. Its residuals were 6e-7 of the largest force (order
+    // 308, the containment of the examples). The residuals of the QR iteration are rounding errors.
     let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
     parameters.recursion_threshold = usize::MAX;
     let scratch =

@@ -1,16 +1,16 @@
 //! Complex numbers in the lanes of vector instructions.
 //!
-//! A number that leaves the range of this arithmetic becomes infinite or NaN; the caller then computes with
+//! A result outside the range of this arithmetic is infinite or NaN; the caller then repeats the computation with
 //! [`Complex`].
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
 
 use std::f64::consts::{FRAC_1_PI, LOG2_E};
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::{Complex, ComplexArithmetic, Simd};
 
-/// Largest number of lanes of any instruction set.
+/// Largest number of lanes of any instruction set: 512 bits.
 const MAX_LANES: usize = 8;
 
 /// Complex number in each lane of a vector.
@@ -21,18 +21,26 @@ pub struct Lanes<S: Simd> {
     im: S::f64s,
 }
 
-/// 1.5 · 2⁵²: adding it to a number below 2⁵¹ leaves the rounded integer in the lowest bits.
+/// 1.5 · 2⁵²: after adding it to a number below 2⁵¹, the lowest bits are the rounded integer.
 const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
+/// 1.5 · 2²⁰: after adding it to an integer, the lowest bits of the upper 32 bits are the integer.
+const INTEGER_TO_UPPER_HALF: f64 = 1_572_864.0;
+/// Number of bits of the mantissa in the upper 32 bits, below the exponent.
+const UPPER_MANTISSA_BITS: u32 = 20;
+/// Bits of the exponent of 2⁰.
+const EXPONENT_BIAS_BITS: u64 = 1023 << 52;
 /// Parts of π: the first two have 26 bits, so that products with integers up to 2²⁷ are exact.
 const PI_PARTS: [f64; 3] =
     [3.141_592_621_803_283_7, 3.178_650_942_459_171_3e-8, 1.224_646_799_147_353_2e-16];
-/// Largest angle that is reduced exactly.
+/// Largest angle whose reduction is exact: it has fewer than 2²⁷ half turns.
 const MAX_REDUCED_ANGLE: f64 = 1.0e8;
 /// Parts of ln 2: the first has 32 bits.
 const LN_2_PARTS: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
 /// Smallest and largest real part in the range of the exponential.
 const EXPONENT_RANGE: [f64; 2] = [-708.0, 708.0];
-/// 1/k! from k = 0 up to 21: series end below rounding, e^x at |x| ≤ ½ ln 2 and the others at |x| ≤ π/2.
+/// 1/k! from k = 0 to 21.
+///
+/// The neglected terms are below rounding errors for e^x at |x| ≤ ½ ln 2, and for sine and cosine at |x| ≤ π/2.
 const INVERSE_FACTORIALS: [f64; 22] = {
     let mut values = [1.0; 22];
     let mut k = 1;
@@ -47,7 +55,7 @@ impl<S: Simd> Lanes<S> {
     /// Number of lanes.
     pub const LANE_COUNT: usize = S::F64_LANES;
 
-    /// Loads `numbers` into the lanes; lanes beyond repeat the last number.
+    /// Loads `numbers` into the lanes; further lanes repeat the last number.
     #[inline(always)]
     pub fn load(simd: S, numbers: &[Complex]) -> Self {
         let mut re = [0.0; MAX_LANES];
@@ -74,14 +82,15 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
+    /// These parts, for the same instruction set.
     #[inline(always)]
     fn with(self, re: S::f64s, im: S::f64s) -> Self {
         Self { simd: self.simd, re, im }
     }
 
-    /// `x` where the mask is set, `y` elsewhere.
+    /// `x` in lanes where the mask is set, `y` in the others.
     ///
-    /// It selects bits: pulp's function for bits is compiled for its caller, its function for numbers is not.
+    /// It selects bit patterns, because the caller's instruction set applies only to pulp's selection of integers.
     #[inline(always)]
     fn select(simd: S, mask: S::m64s, x: S::f64s, y: S::f64s) -> S::f64s {
         let x_bits = simd.transmute_u64s_f64s(x);
@@ -89,79 +98,85 @@ impl<S: Simd> Lanes<S> {
         simd.transmute_f64s_u64s(simd.select_u64s(mask, x_bits, y_bits))
     }
 
+    /// −x.
     #[inline(always)]
     fn negative(simd: S, x: S::f64s) -> S::f64s {
         let sign = simd.splat_u64s(1 << 63);
         simd.transmute_f64s_u64s(simd.xor_u64s(simd.transmute_u64s_f64s(x), sign))
     }
 
+    /// |x|.
     #[inline(always)]
     fn absolute(simd: S, x: S::f64s) -> S::f64s {
         let bits = simd.splat_u64s(u64::MAX >> 1);
         simd.transmute_f64s_u64s(simd.and_u64s(simd.transmute_u64s_f64s(x), bits))
     }
 
-    /// `magnitude`, not negative, with the sign of `x`.
+    /// The non-negative `magnitude` with the sign of `x`.
     #[inline(always)]
     fn with_sign(simd: S, magnitude: S::f64s, x: S::f64s) -> S::f64s {
         let sign = simd.and_u64s(simd.transmute_u64s_f64s(x), simd.splat_u64s(1 << 63));
         simd.transmute_f64s_u64s(simd.or_u64s(simd.transmute_u64s_f64s(magnitude), sign))
     }
 
+    /// |x|².
     #[inline(always)]
     fn square(self) -> S::f64s {
         let simd = self.simd;
         simd.mul_add_e_f64s(self.re, self.re, simd.mul_f64s(self.im, self.im))
     }
 
-    /// Σ x^k/(first + step k)!, up to 1/last!.
+    /// Σ x^j/k! for k = `first_order` + j `step`, up to k = `last_order`.
     #[inline(always)]
-    fn series(simd: S, first: usize, step: usize, last: usize, x: S::f64s) -> S::f64s {
-        let mut sum = simd.splat_f64s(INVERSE_FACTORIALS[last]);
-        let mut k = last;
-        while k > first {
+    fn series(simd: S, first_order: usize, step: usize, last_order: usize, x: S::f64s) -> S::f64s {
+        let mut sum = simd.splat_f64s(INVERSE_FACTORIALS[last_order]);
+        let mut k = last_order;
+        while k > first_order {
             k -= step;
             sum = simd.mul_add_e_f64s(sum, x, simd.splat_f64s(INVERSE_FACTORIALS[k]));
         }
         sum
     }
 
-    /// e^x; NaN above the range, and the smallest value in range below it.
+    /// e^x for real x; NaN above the range of x, and the smallest value of the range below it.
     #[inline(always)]
     fn real_exp(simd: S, x: S::f64s) -> S::f64s {
-        let lowest = simd.splat_f64s(EXPONENT_RANGE[0]);
-        let highest = simd.splat_f64s(EXPONENT_RANGE[1]);
-        let x = Self::select(simd, simd.less_than_f64s(x, lowest), lowest, x);
+        let min_exponent = simd.splat_f64s(EXPONENT_RANGE[0]);
+        let max_exponent = simd.splat_f64s(EXPONENT_RANGE[1]);
+        let x = Self::select(simd, simd.less_than_f64s(x, min_exponent), min_exponent, x);
         let n = Self::rounded(simd, simd.mul_f64s(x, simd.splat_f64s(LOG2_E)));
         let mut remainder = x;
         for part in LN_2_PARTS {
             remainder = simd.mul_add_e_f64s(n, simd.splat_f64s(-part), remainder);
         }
-        let value = Self::series(simd, 0, 1, 13, remainder);
-        let value = simd.mul_f64s(value, Self::power_of_two(simd, n));
-        Self::select(simd, simd.less_than_f64s(highest, x), simd.splat_f64s(f64::NAN), value)
+        let remainder_exp = Self::series(simd, 0, 1, 13, remainder);
+        let value = simd.mul_f64s(remainder_exp, Self::power_of_two(simd, n));
+        let is_too_large = simd.less_than_f64s(max_exponent, x);
+        Self::select(simd, is_too_large, simd.splat_f64s(f64::NAN), value)
     }
 
     /// `x` rounded to an integer.
     #[inline(always)]
     fn rounded(simd: S, x: S::f64s) -> S::f64s {
-        let shift = simd.splat_f64s(ROUND_TO_INTEGER);
-        simd.sub_f64s(simd.add_f64s(x, shift), shift)
+        let offset = simd.splat_f64s(ROUND_TO_INTEGER);
+        simd.sub_f64s(simd.add_f64s(x, offset), offset)
     }
 
-    /// 2ⁿ for an integer n, by setting the exponent's bits.
+    /// 2ⁿ for an integer n, by setting the bits of the exponent.
     ///
-    /// Adding 1.5 · 2²⁰ puts n into the lowest bits of the upper half, whose top is the exponent.
+    /// Adding 1.5 · 2²⁰ moves n into the lowest bits of the upper 32 bits; a shift moves n to the exponent.
     #[inline(always)]
     fn power_of_two(simd: S, n: S::f64s) -> S::f64s {
-        let bits = simd.transmute_u64s_f64s(simd.add_f64s(n, simd.splat_f64s(1_572_864.0)));
-        let bits = if S::IS_SCALAR {
-            simd.mul_u64s(bits, simd.splat_u64s(1 << 20))
+        let integer_bits =
+            simd.transmute_u64s_f64s(simd.add_f64s(n, simd.splat_f64s(INTEGER_TO_UPPER_HALF)));
+        let shifted_bits = if S::IS_SCALAR {
+            simd.mul_u64s(integer_bits, simd.splat_u64s(1 << UPPER_MANTISSA_BITS))
         } else {
-            let halves: S::u32s = pulp::bytemuck::cast(bits);
-            pulp::bytemuck::cast(simd.wrapping_dyn_shl_u32s(halves, simd.splat_u32s(20)))
+            let halves: S::u32s = pulp::bytemuck::cast(integer_bits);
+            let shift = simd.splat_u32s(UPPER_MANTISSA_BITS);
+            pulp::bytemuck::cast(simd.wrapping_dyn_shl_u32s(halves, shift))
         };
-        simd.transmute_f64s_u64s(simd.add_u64s(bits, simd.splat_u64s(1023 << 52)))
+        simd.transmute_f64s_u64s(simd.add_u64s(shifted_bits, simd.splat_u64s(EXPONENT_BIAS_BITS)))
     }
 
     /// cos x and sin x; NaN for angles that are too large.
@@ -175,13 +190,14 @@ impl<S: Simd> Lanes<S> {
         }
         let is_large = simd.less_than_f64s(max_angle, Self::absolute(simd, x));
         let angle = Self::select(simd, is_large, simd.splat_f64s(f64::NAN), remainder);
-        let square = Self::negative(simd, simd.mul_f64s(angle, angle));
+        let minus_square = Self::negative(simd, simd.mul_f64s(angle, angle));
         // −1 for odd n: 1 − 4 |n/2 − round(n/2)|.
-        let half = simd.mul_f64s(n, simd.splat_f64s(0.5));
-        let odd = Self::absolute(simd, simd.sub_f64s(half, Self::rounded(simd, half)));
-        let sign = simd.sub_f64s(simd.splat_f64s(1.0), simd.mul_f64s(odd, simd.splat_f64s(4.0)));
-        let cosine = Self::series(simd, 0, 2, 20, square);
-        let sine = simd.mul_f64s(angle, Self::series(simd, 1, 2, 21, square));
+        let half_n = simd.mul_f64s(n, simd.splat_f64s(0.5));
+        let half_if_odd = Self::absolute(simd, simd.sub_f64s(half_n, Self::rounded(simd, half_n)));
+        let sign =
+            simd.sub_f64s(simd.splat_f64s(1.0), simd.mul_f64s(half_if_odd, simd.splat_f64s(4.0)));
+        let cosine = Self::series(simd, 0, 2, 20, minus_square);
+        let sine = simd.mul_f64s(angle, Self::series(simd, 1, 2, 21, minus_square));
         [simd.mul_f64s(cosine, sign), simd.mul_f64s(sine, sign)]
     }
 }
@@ -240,12 +256,13 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     fn inverse(self) -> Self {
         let simd = self.simd;
         let square = self.square();
-        // Not finite if the square is zero or infinite.
-        let scale = simd.div_f64s(simd.splat_f64s(1.0), square);
-        let scale = simd.add_f64s(scale, simd.mul_f64s(square, simd.splat_f64s(0.0)));
+        let reciprocal = simd.div_f64s(simd.splat_f64s(1.0), square);
+        // Adding zero times the square makes the result NaN if the square is infinite.
+        let checked_reciprocal =
+            simd.add_f64s(reciprocal, simd.mul_f64s(square, simd.splat_f64s(0.0)));
         self.with(
-            simd.mul_f64s(self.re, scale),
-            Self::negative(simd, simd.mul_f64s(self.im, scale)),
+            simd.mul_f64s(self.re, checked_reciprocal),
+            Self::negative(simd, simd.mul_f64s(self.im, checked_reciprocal)),
         )
     }
 
@@ -254,13 +271,18 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
         let simd = self.simd;
         let half = simd.splat_f64s(0.5);
         let sum = simd.add_f64s(simd.sqrt_f64s(self.square()), Self::absolute(simd, self.re));
-        let large = simd.sqrt_f64s(simd.mul_f64s(half, sum));
-        // NaN at zero.
-        let small = simd.div_f64s(simd.mul_f64s(half, self.im), large);
+        let larger_part = simd.sqrt_f64s(simd.mul_f64s(half, sum));
+        // NaN for the number zero.
+        let smaller_part = simd.div_f64s(simd.mul_f64s(half, self.im), larger_part);
         let is_negative = simd.less_than_f64s(self.re, simd.splat_f64s(0.0));
         self.with(
-            Self::select(simd, is_negative, Self::absolute(simd, small), large),
-            Self::select(simd, is_negative, Self::with_sign(simd, large, self.im), small),
+            Self::select(simd, is_negative, Self::absolute(simd, smaller_part), larger_part),
+            Self::select(
+                simd,
+                is_negative,
+                Self::with_sign(simd, larger_part, self.im),
+                smaller_part,
+            ),
         )
     }
 
@@ -296,105 +318,4 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::{WithSimd, vectorized};
-    use super::*;
-    use std::f64::consts::FRAC_PI_4;
-
-    /// A function of one number, written for lanes and for single ones.
-    trait Function {
-        fn value<C: ComplexArithmetic>(&self, x: C) -> C;
-    }
-
-    struct Each<'a, F>(&'a F, &'a [Complex]);
-
-    impl<F: Function> WithSimd for Each<'_, F> {
-        type Output = Vec<Complex>;
-
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, simd: S) -> Vec<Complex> {
-            let mut found = vec![Complex::default(); self.1.len()];
-            let count = Lanes::<S>::LANE_COUNT;
-            for (numbers, found) in self.1.chunks(count).zip(found.chunks_mut(count)) {
-                self.0.value(Lanes::load(simd, numbers)).store(found);
-            }
-            found
-        }
-    }
-
-    /// Results in the widest lanes, in single ones, and as complex numbers.
-    fn each(function: &impl Function, numbers: &[Complex]) -> [Vec<Complex>; 3] {
-        [
-            vectorized(Each(function, numbers)),
-            Each(function, numbers).with_simd(pulp::Scalar::new()),
-            numbers.iter().map(|x| function.value(*x)).collect(),
-        ]
-    }
-
-    struct Arithmetic;
-
-    impl Function for Arithmetic {
-        fn value<C: ComplexArithmetic>(&self, x: C) -> C {
-            let other = x.like(Complex::new(0.3, -1.7));
-            let root = (x * x + other).sqrt() - x.scale(3.3);
-            let floored = root.at_least(x.like_real(2.0)).inverse();
-            floored.negated_where_negative(x, 1e-12) - other.sqrt()
-        }
-    }
-
-    struct Exponential;
-
-    impl Function for Exponential {
-        fn value<C: ComplexArithmetic>(&self, x: C) -> C {
-            x.exp()
-        }
-    }
-
-    struct Inverse;
-
-    impl Function for Inverse {
-        fn value<C: ComplexArithmetic>(&self, x: C) -> C {
-            x.inverse()
-        }
-    }
-
-    fn spread(sizes: &[f64]) -> Vec<Complex> {
-        (0..40 * sizes.len())
-            .map(|k| Complex::polar(sizes[k % sizes.len()], 0.1 + 0.613 * k as f64))
-            .collect()
-    }
-
-    /// Against the arithmetic of single numbers and the functions of the standard library.
-    #[test]
-    fn lanes_compute_as_single_numbers() {
-        let numbers = spread(&[1e-3, 1.0, 7.0, 1e5, 1e12]);
-        let computed = each(&Arithmetic, &numbers);
-        for (k, wanted) in computed[2].iter().enumerate() {
-            for found in [computed[0][k], computed[1][k]] {
-                assert!((found - *wanted).abs() <= 4e-15 * wanted.abs(), "{:?}", numbers[k]);
-            }
-        }
-        // Pure decay and pure rotation, and both; quarters of a turn.
-        let mut numbers = spread(&[1e-9, 0.3, 1.0, 20.0, 300.0, 700.0]);
-        numbers.extend((-400..400).map(|k| Complex::new(0.0, FRAC_PI_4 * f64::from(k))));
-        numbers.extend((0..400).map(|k| Complex::new(-0.5, 2.47e5 * f64::from(k))));
-        numbers.extend((0..400).map(|k| Complex::new(-1.8 * f64::from(k), 1e-3)));
-        let computed = each(&Exponential, &numbers);
-        for (k, wanted) in computed[2].iter().enumerate() {
-            for found in [computed[0][k], computed[1][k]] {
-                let slack = 1e-15 * wanted.abs() + 1e-307;
-                assert!((found - *wanted).abs() <= slack, "{:?} {found:?}", numbers[k]);
-            }
-        }
-    }
-
-    #[test]
-    fn lanes_out_of_range_are_not_finite() {
-        let inverses = each(&Inverse, &[0.0, 1e-200, 1e200].map(Complex::real));
-        let beyond = [[0.0, 1e9], [800.0, 1.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]];
-        let exponentials = each(&Exponential, &beyond.map(|[re, im]| Complex::new(re, im)));
-        for computed in [inverses, exponentials] {
-            assert!(computed[..2].iter().flatten().all(|x| !x.is_finite()), "{computed:?}");
-        }
-    }
-}
+mod tests;

@@ -1,6 +1,6 @@
 //! Linear algebra: the only crate that names faer.
 //!
-//! Everything runs sequentially. A factor allocates the workspace of its solves when it is made.
+//! All functions run on one thread. A factor is built with the workspace of its solves.
 #![forbid(unsafe_code)]
 #![allow(
     missing_docs,
@@ -38,7 +38,6 @@ mod matrix_scalar;
 mod number;
 pub mod orthonormal;
 mod partition;
-mod pivoted_cholesky;
 mod product;
 mod sparse;
 mod symmetry;
@@ -48,7 +47,7 @@ mod triplets;
 pub use block::ComplexBlock;
 pub use complex::Complex;
 pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
-pub use dense::DenseFactor;
+pub use dense::{DenseFactor, pivoted_cholesky};
 pub use eigen::{Eigenpairs, generalised_modes, indefinite_pivot, symmetric_modes};
 pub use elimination::Elimination;
 pub use hermitian::hermitian_range;
@@ -59,10 +58,9 @@ pub use matrix::SparseMatrix;
 pub use matrix_scalar::MatrixScalar;
 pub use number::ComplexArithmetic;
 pub use partition::Partition;
-pub use pivoted_cholesky::pivoted_cholesky;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
-    dense_multiply_add, dot, largest, magnitude, mixed, row_products, symmetric_products,
+    dense_multiply_add, dot, largest, magnitude, mixing_sum, row_products, symmetric_products,
     transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{SparseFactor, indefinite_row};

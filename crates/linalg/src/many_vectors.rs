@@ -1,22 +1,22 @@
 //! Products of a sparse matrix with many vectors.
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+#![allow(clippy::inline_always, reason = "the caller compiles them for its instruction set")]
 
 use super::matrix::SparseMatrix;
 use super::product::{Simd, WithSimd, vectorized};
 
-/// Number of vectors that one pass over the matrix multiplies.
+/// Number of vectors that one pass over the matrix multiplies: their sums fit into registers.
 const VECTORS_AT_ONCE: usize = 16;
 
 impl SparseMatrix {
-    /// A x of many vectors, one after the other.
+    /// Products A x of many vectors x, one after the other.
     pub fn times(&self, vectors: &[f64]) -> Vec<f64> {
         let mut products = vec![0.0; vectors.len()];
         self.multiply_many(vectors, &mut products);
         products
     }
 
-    /// Overwrites `products` with A x of many vectors, one after the other.
+    /// Overwrites `products` with A x of many vectors x, one after the other.
     pub fn multiply_many(&self, vectors: &[f64], products: &mut [f64]) {
         let n = self.order.max(1);
         let mut interleaved = vec![[0.0; VECTORS_AT_ONCE]; self.order];
@@ -28,19 +28,19 @@ impl SparseMatrix {
                     *value = *x;
                 }
             }
-            vectorized(Times { matrix: self, x: &interleaved, y });
+            vectorized(InterleavedProducts { matrix: self, x: &interleaved, y });
         }
     }
 }
 
-/// A x of several vectors: interleaved in `x`, one after the other in `y`.
-struct Times<'a> {
+/// Products y = A x of several vectors: interleaved in `x`, one after the other in `y`.
+struct InterleavedProducts<'a> {
     matrix: &'a SparseMatrix,
     x: &'a [[f64; VECTORS_AT_ONCE]],
     y: &'a mut [f64],
 }
 
-impl WithSimd for Times<'_> {
+impl WithSimd for InterleavedProducts<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -48,8 +48,8 @@ impl WithSimd for Times<'_> {
         let Self { matrix, x, y } = self;
         for row in 0..matrix.order {
             let mut sums = [0.0; VECTORS_AT_ONCE];
-            let range = matrix.row_start[row]..matrix.row_start[row + 1];
-            for (&column, a) in matrix.column[range.clone()].iter().zip(&matrix.value[range]) {
+            let range = matrix.row_starts[row]..matrix.row_starts[row + 1];
+            for (&column, a) in matrix.columns[range.clone()].iter().zip(&matrix.values[range]) {
                 let x = &x[column];
                 for k in 0..VECTORS_AT_ONCE {
                     sums[k] += a * x[k];
@@ -66,16 +66,16 @@ mod tests {
     use crate::Triplets;
 
     #[test]
-    fn many_vectors_are_multiplied_as_each() {
+    fn products_of_many_vectors_equal_single_products() {
         let mut triplets = Triplets::new(5);
         (0..20).for_each(|k| triplets.add(k % 5, (3 * k + 1) % 5, 0.3 * k as f64 - 2.0));
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
         let vectors: Vec<f64> =
             (0..5 * (2 * VECTORS_AT_ONCE + 3)).map(|k| (k as f64).sin()).collect();
-        let mut each = vec![0.0; vectors.len()];
-        for (x, y) in vectors.chunks_exact(5).zip(each.chunks_exact_mut(5)) {
+        let mut single_products = vec![0.0; vectors.len()];
+        for (x, y) in vectors.chunks_exact(5).zip(single_products.chunks_exact_mut(5)) {
             matrix.multiply_add(1.0, x, y);
         }
-        assert_eq!(matrix.times(&vectors), each);
+        assert_eq!(matrix.times(&vectors), single_products);
     }
 }

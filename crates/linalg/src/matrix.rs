@@ -5,17 +5,17 @@ use std::sync::Arc;
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::{Triplets, weighted_dot};
 
-/// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
+/// Memory per degree of freedom for a structure's sparse matrices, their factor and its states, bytes.
 const BYTES_PER_DOF: f64 = 400.0;
 
-/// Checks that a structure of this `order` fits into memory.
+/// Returns an error unless the matrices of this `order` fit into memory.
 ///
-/// `quantity` names what the order counts.
+/// `quantity`: name of the counted rows or degrees of freedom.
 pub fn check_order(quantity: &'static str, order: usize) -> std::result::Result<(), MemoryError> {
     memory::check(quantity, order as f64, BYTES_PER_DOF * order as f64)
 }
 
-/// Weights by degree of freedom, zero where there is no (degree of freedom, weight) term.
+/// Dense vector of (degree of freedom, weight) terms; terms at the same degree of freedom are summed.
 pub fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
     let mut weights = vec![0.0; length];
     for &(i, weight) in terms {
@@ -28,15 +28,18 @@ pub fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SparseMatrix {
     pub(super) order: usize,
-    pub(super) row_start: Vec<usize>,
-    pub(super) column: Vec<usize>,
-    pub(super) value: Vec<f64>,
+    /// Index of the first entry of each row, then the number of entries.
+    pub(super) row_starts: Vec<usize>,
+    /// Column of each entry, ascending in each row.
+    pub(super) columns: Vec<usize>,
+    /// Value of each entry.
+    pub(super) values: Vec<f64>,
 }
 
 impl SparseMatrix {
     /// Matrix of the entries that `fill` writes into `triplets`.
     ///
-    /// It has the order of `triplets`, whose entries are overwritten.
+    /// The matrix has the order of `triplets`, whose entries are overwritten.
     pub fn assembled(
         name: &'static str,
         triplets: &mut Triplets,
@@ -49,97 +52,100 @@ impl SparseMatrix {
         Self::new(name, triplets)
     }
 
-    /// Matrix from `triplets`; entries at the same place are summed.
+    /// Matrix of the entries of `triplets`; entries with equal indices are summed.
     pub fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let order = triplets.order();
         check_order("rows of a matrix", order)?;
-        let mut row_start = vec![0; order + 1];
+        let mut row_starts = vec![0; order + 1];
         for &(row, column, value) in triplets.entries() {
             in_bounds(name, row.max(column), order)?;
             finite(name, value)?;
-            row_start[row + 1] += 1;
+            row_starts[row + 1] += 1;
         }
         for row in 0..order {
-            row_start[row + 1] += row_start[row];
+            row_starts[row + 1] += row_starts[row];
         }
-        let mut sorted = vec![(0, 0.0); triplets.entries().len()];
-        let mut next = row_start.clone();
+        // Entries in the order of rows, and the index of the next entry of each row.
+        let mut row_entries = vec![(0, 0.0); triplets.entries().len()];
+        let mut next_index = row_starts.clone();
         for &(row, column, value) in triplets.entries() {
-            sorted[next[row]] = (column, value);
-            next[row] += 1;
+            row_entries[next_index[row]] = (column, value);
+            next_index[row] += 1;
         }
         Ok(Self::by_rows(order, |row, entries| {
-            entries.extend_from_slice(&sorted[row_start[row]..row_start[row + 1]]);
+            entries.extend_from_slice(&row_entries[row_starts[row]..row_starts[row + 1]]);
         }))
     }
 
-    /// Σ factor · A of matrices of this order, as one matrix.
+    /// Sum Σ factor · A of matrices up to this order.
     pub fn sum(name: &'static str, order: usize, terms: &[(f64, &Self)]) -> Result<Self> {
         let sum = Self::by_rows(order, |row, entries| {
             for (factor, matrix) in terms.iter().filter(|(_, matrix)| row < matrix.order) {
                 entries.extend(matrix.row(row).map(|(column, value)| (column, factor * value)));
             }
         });
-        sum.value.iter().try_for_each(|value| finite(name, *value).map(drop))?;
+        sum.values.iter().try_for_each(|value| finite(name, *value).map(drop))?;
         Ok(sum)
     }
 
-    /// Matrix of all its values, row-major.
-    pub fn full(order: usize, value: Vec<f64>) -> Self {
-        let column = (0..value.len()).map(|k| k % order).collect();
-        Self { order, row_start: (0..=order).map(|row| row * order).collect(), column, value }
+    /// Matrix that stores all entries of the row-major `values`.
+    pub fn from_dense(order: usize, values: Vec<f64>) -> Self {
+        let columns = (0..values.len()).map(|k| k % order).collect();
+        let row_starts = (0..=order).map(|row| row * order).collect();
+        Self { order, row_starts, columns, values }
     }
 
-    /// Matrix whose rows `fill` writes as (column, value); entries at the same place are summed.
+    /// Matrix whose rows `fill` writes as (column, value); entries with equal indices are summed.
     pub(super) fn by_rows(
         order: usize,
         mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>),
     ) -> Self {
-        let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
+        let mut matrix = Self { order, row_starts: vec![0], columns: vec![], values: vec![] };
         let mut entries = Vec::new();
         let mut sums = Vec::<(usize, f64)>::new();
-        // Place of each column in the sums of the row, if the row has the column.
-        let mut places = vec![usize::MAX; order];
+        // Index of each column in `sums`; the largest number for columns without an entry in the row.
+        let mut sum_indices = vec![usize::MAX; order];
         for row in 0..order {
             entries.clear();
             fill(row, &mut entries);
             for &(column, value) in &entries {
-                if let Some((_, sum)) = sums.get_mut(places[column]) {
+                if let Some((_, sum)) = sums.get_mut(sum_indices[column]) {
                     *sum += value;
                 } else {
-                    places[column] = sums.len();
+                    sum_indices[column] = sums.len();
                     sums.push((column, value));
                 }
             }
             sums.sort_unstable_by_key(|&(column, _)| column);
             for (column, sum) in sums.drain(..) {
-                places[column] = usize::MAX;
-                matrix.column.push(column);
-                matrix.value.push(sum);
+                sum_indices[column] = usize::MAX;
+                matrix.columns.push(column);
+                matrix.values.push(sum);
             }
-            matrix.row_start.push(matrix.column.len());
+            matrix.row_starts.push(matrix.columns.len());
         }
         matrix
     }
 
     /// Entries of a row: columns and values.
+    #[inline]
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        let places = self.row_start[row]..self.row_start[row + 1];
-        self.column[places.clone()].iter().copied().zip(self.value[places].iter().copied())
+        let range = self.row_starts[row]..self.row_starts[row + 1];
+        self.columns[range.clone()].iter().copied().zip(self.values[range].iter().copied())
     }
 
-    /// The values at the places of another matrix; `None` if an entry is elsewhere.
-    pub fn values_at(&self, other: &Self) -> Option<Vec<f64>> {
-        let mut values = vec![0.0; other.stored()];
+    /// The values in the pattern of another matrix; `None` if an entry is outside this pattern.
+    pub fn values_at(&self, pattern: &Self) -> Option<Vec<f64>> {
+        let mut values = vec![0.0; pattern.entry_count()];
         for row in 0..self.order {
-            let mut place = *other.row_start.get(row)?;
-            let end = *other.row_start.get(row + 1)?;
+            let mut index = *pattern.row_starts.get(row)?;
+            let end = *pattern.row_starts.get(row + 1)?;
             for (column, value) in self.row(row) {
-                place += other.column[place..end].iter().take_while(|j| **j < column).count();
-                if place == end || other.column[place] != column {
+                index += pattern.columns[index..end].iter().take_while(|j| **j < column).count();
+                if index == end || pattern.columns[index] != column {
                     return None;
                 }
-                values[place] = value;
+                values[index] = value;
             }
         }
         Some(values)
@@ -147,23 +153,24 @@ impl SparseMatrix {
 
     /// Replaces the values by the sums of `triplets`, without allocating.
     ///
-    /// Returns false, with undefined values, if an entry has no place in the pattern or is not finite.
+    /// Returns false, with undefined values, if an entry is outside the pattern or not finite.
     pub fn refill(&mut self, triplets: &Triplets) -> bool {
-        self.value.fill(0.0);
+        self.values.fill(0.0);
         triplets.entries().iter().all(|&(row, column, value)| {
-            let start = self.row_start.get(row).copied().unwrap_or(0);
-            let end = self.row_start.get(row + 1).copied().unwrap_or(0);
-            let Ok(k) = self.column[start..end.max(start)].binary_search(&column) else {
+            let start = self.row_starts.get(row).copied().unwrap_or(0);
+            let end = self.row_starts.get(row + 1).copied().unwrap_or(0);
+            let Ok(k) = self.columns[start..end.max(start)].binary_search(&column) else {
                 return false;
             };
-            self.value[start + k] += value;
+            self.values[start + k] += value;
             value.is_finite()
         })
     }
 
-    /// Number of entries stored.
-    pub fn stored(&self) -> usize {
-        self.value.len()
+    /// Number of stored entries.
+    #[inline]
+    pub fn entry_count(&self) -> usize {
+        self.values.len()
     }
 
     /// Adds factor · A to `sum`.
@@ -173,7 +180,7 @@ impl SparseMatrix {
         }
     }
 
-    /// Σ factor · A of matrices of this order; an empty sum is zero.
+    /// Triplets of the sum Σ factor · A of matrices of this order; an empty sum is zero.
     pub fn weighted_sum(order: usize, terms: &[(f64, &Self)]) -> Triplets {
         let mut sum = Triplets::new(order);
         for (factor, matrix) in terms {
@@ -183,6 +190,7 @@ impl SparseMatrix {
     }
 
     /// All stored entries: (row, column, value).
+    #[inline]
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         (0..self.order)
             .flat_map(move |row| self.row(row).map(move |(column, value)| (row, column, value)))
@@ -200,21 +208,24 @@ impl SparseMatrix {
     }
 
     /// Whether no entry is stored.
+    #[inline]
     pub fn is_empty(&self) -> bool {
-        self.value.is_empty()
+        self.values.is_empty()
     }
 
-    /// Rows and columns.
+    /// Number of rows and of columns.
+    #[inline]
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// (A x) of one row.
+    /// Entry of A x in one row.
+    #[inline]
     fn row_product(&self, row: usize, x: &[f64]) -> f64 {
-        let range = self.row_start[row]..self.row_start[row + 1];
-        self.column[range.clone()]
+        let range = self.row_starts[row]..self.row_starts[row + 1];
+        self.columns[range.clone()]
             .iter()
-            .zip(&self.value[range])
+            .zip(&self.values[range])
             .map(|(&j, a)| a * x[j])
             .sum()
     }
@@ -232,7 +243,7 @@ impl SparseMatrix {
     }
 }
 
-/// A matrix of the equations of motion in the coordinates in which they are stepped.
+/// Matrix of the equations of motion, in the coordinates of the time integration.
 #[derive(Debug, Clone)]
 pub enum Matrix {
     /// Matrix in the structure's degrees of freedom.
@@ -241,12 +252,14 @@ pub enum Matrix {
     Diagonal(Vec<f64>),
 }
 
-/// Diagonals of the matrices in modal coordinates.
+/// Diagonals of the structure's matrices in modal coordinates.
 #[derive(Clone, Copy)]
 pub struct Diagonals<'a> {
+    /// Diagonal of the mass matrix.
     pub mass: &'a [f64],
-    /// `None` without damping.
+    /// Diagonal of the damping matrix; `None` without damping.
     pub damping: Option<&'a [f64]>,
+    /// Diagonal of the stiffness matrix.
     pub stiffness: &'a [f64],
 }
 
@@ -259,7 +272,7 @@ impl Matrix {
         }
     }
 
-    /// The matrix with all entries that are stored.
+    /// The matrix as a sparse matrix.
     pub fn as_sparse(&self) -> Arc<SparseMatrix> {
         match self {
             Self::Sparse(matrix) => Arc::clone(matrix),
@@ -283,10 +296,10 @@ impl Matrix {
         }
     }
 
-    /// All entries that are stored.
+    /// Values of all stored entries.
     pub fn values(&self) -> &[f64] {
         match self {
-            Self::Sparse(matrix) => &matrix.value,
+            Self::Sparse(matrix) => &matrix.values,
             Self::Diagonal(values) => values,
         }
     }
@@ -305,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn refill_sums_in_place_or_refuses() {
+    fn refill_sums_entries_or_rejects_them() {
         let mut triplets = Triplets::new(2);
         triplets.add(0, 1, 1.0);
         triplets.add(0, 1, 2.0);
@@ -314,27 +327,27 @@ mod tests {
         assert!(matrix.refill(&triplets));
         assert_eq!(matrix.entries().collect::<Vec<_>>(), [(0, 1, 3.5)]);
         for (row, column, value) in [(1, 1, 1.0), (5, 1, 1.0), (0, 1, f64::NAN)] {
-            let mut more = triplets.clone();
-            more.add(row, column, value);
-            assert!(!matrix.refill(&more));
+            let mut invalid_triplets = triplets.clone();
+            invalid_triplets.add(row, column, value);
+            assert!(!matrix.refill(&invalid_triplets));
         }
     }
 
     #[test]
     fn diagonal_and_sparse_agree() {
-        let d: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
+        let diagonal_values: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
         let mut triplets = Triplets::new(11);
-        d.iter().enumerate().for_each(|(i, d)| triplets.add(i, i, *d));
+        diagonal_values.iter().enumerate().for_each(|(i, value)| triplets.add(i, i, *value));
         let sparse = Matrix::Sparse(Arc::new(SparseMatrix::new("test", &triplets).unwrap()));
-        let diagonal = Matrix::Diagonal(d);
+        let diagonal = Matrix::Diagonal(diagonal_values);
         let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
         let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();
         assert!((sparse.form(&x, &y) - diagonal.form(&x, &y)).abs() < 1e-13);
-        let mut by_sparse = y.clone();
-        let mut by_diagonal = y.clone();
-        sparse.multiply_add(-2.0, &x, &mut by_sparse);
-        diagonal.multiply_add(-2.0, &x, &mut by_diagonal);
-        assert!(by_sparse.iter().zip(&by_diagonal).all(|(a, b)| (a - b).abs() < 1e-13));
+        let mut sparse_sum = y.clone();
+        let mut diagonal_sum = y.clone();
+        sparse.multiply_add(-2.0, &x, &mut sparse_sum);
+        diagonal.multiply_add(-2.0, &x, &mut diagonal_sum);
+        assert!(sparse_sum.iter().zip(&diagonal_sum).all(|(a, b)| (a - b).abs() < 1e-13));
         assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal.is_empty());
     }
 }

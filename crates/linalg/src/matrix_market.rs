@@ -1,7 +1,7 @@
 //! Reads and writes Matrix Market files.
 //!
-//! The format of Boisvert, Pozo & Remington (NIST IR 5935, 1996), as far as structural matrices need it:
-//! coordinate or array, real or integer, general or symmetric.
+//! The part of the format of Boisvert, Pozo & Remington (NIST IR 5935, 1996) for structural matrices: coordinate or
+//! array, real or integer, general or symmetric.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -16,7 +16,7 @@ impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
     ///
     /// Supported: `coordinate` and `array`; `real`, `double` and `integer`; `general` and `symmetric`.
-    /// Entries at the same place are summed. Needs the feature `io`.
+    /// Entries with equal indices are summed. Needs the feature `io`.
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason.
@@ -25,7 +25,7 @@ impl Triplets {
         Self::from_matrix_market(&path.display().to_string(), open_file(path)?)
     }
 
-    /// Reads the same from any source of bytes; errors use `name` for the source.
+    /// Reads a Matrix Market file from any source of bytes; errors name the source `name`.
     ///
     /// Needs the feature `io`.
     ///
@@ -51,8 +51,8 @@ impl Triplets {
 
     /// Writes the matrix to a Matrix Market file, in the coordinate format.
     ///
-    /// The file is written whole, or not changed. Entries at the same place are summed, and zeros left out. A
-    /// matrix that is symmetric to the last bit is written as symmetric. Reading the file returns the same
+    /// If the file cannot be written completely, it is unchanged. Entries with equal indices are summed, and zeros are
+    /// omitted. A matrix that is symmetric to the last bit is written as symmetric. The file reads back as the same
     /// numbers. Needs the feature `io`.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Triplets {
             .map_err(write_error(path))
     }
 
-    /// Writes the same to any sink of bytes; errors use `name` for the sink.
+    /// Writes a Matrix Market file to any sink of bytes; errors name the sink `name`.
     ///
     /// Needs the feature `io`.
     ///
@@ -77,7 +77,7 @@ impl Triplets {
             .map_err(|error| FileFault::Unwritable(error.kind()).of(name, 0))
     }
 
-    /// The matrix with entries at the same place summed; an error for an entry out of range or not finite.
+    /// The matrix with summed entries; an error for an entry that is out of range or not finite.
     fn checked_matrix(&self) -> Result<SparseMatrix> {
         SparseMatrix::new("matrix to be written", self)
     }

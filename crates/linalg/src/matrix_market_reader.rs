@@ -8,20 +8,24 @@ use basemat_base::error::{FileFault, memory};
 use basemat_base::text::bounded_line::{self, LineResult};
 use basemat_base::text::decimal::{excerpt, finite, quoted};
 
+/// Largest number of characters of the first line in an error.
+const MAX_QUOTED_CHARACTERS: usize = 80;
+
 /// Name of the order of the matrix in errors.
 const ORDER_QUANTITY: &str = "rows of the matrix";
 
-/// Result of reading a line, or its fault.
+/// Result of reading a field, or its fault.
 type FieldResult<T> = std::result::Result<T, FileFault>;
 
-/// The first line.
+/// Properties that the first line of the file states.
 struct MatrixMarketHeader {
     /// Whether lines have row, column and value; otherwise they have values only.
     is_coordinate: bool,
+    /// Whether the file has only the lower triangle of a symmetric matrix.
     is_symmetric: bool,
 }
 
-/// The lines of the file.
+/// Lines of the file.
 type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
 /// The next line that is neither empty nor a comment; `None` at the end of the file.
@@ -34,52 +38,53 @@ fn data_line(lines: &mut Lines) -> LineResult<Option<String>> {
     Ok(None)
 }
 
-/// The next line with data; the error `missing` at the end of the file.
-fn required_data_line(lines: &mut Lines, missing: FileFault) -> LineResult<String> {
-    data_line(lines)?.ok_or_else(|| lines.fault(missing))
+/// The next line with data; `end_fault` at the end of the file.
+fn required_data_line(lines: &mut Lines, end_fault: FileFault) -> LineResult<String> {
+    data_line(lines)?.ok_or_else(|| lines.fault(end_fault))
 }
 
 /// Reads a square matrix.
 pub(super) fn read(source: &mut dyn Read) -> LineResult<Triplets> {
     let mut lines = Lines::new(source);
-    let Some(first) = lines.next()? else {
+    let Some(first_line) = lines.next()? else {
         return Err((0, FileFault::missing("header")));
     };
-    let header = lines.with_line_number(header(&first))?;
-    let size_fields = if header.is_coordinate { 3 } else { 2 };
-    let line = required_data_line(&mut lines, wrong_fields(0, size_fields))?;
-    let size = lines.with_line_number(whole_numbers(&line, size_fields))?;
-    let rows = size[0];
-    let columns = size[1];
-    if rows != columns {
-        let found = format!("{rows} x {columns}");
+    let header = lines.with_line_number(parse_header(&first_line))?;
+    let size_field_count = if header.is_coordinate { 3 } else { 2 };
+    let size_line = required_data_line(&mut lines, wrong_field_count(0, size_field_count))?;
+    let sizes = lines.with_line_number(whole_numbers(&size_line, size_field_count))?;
+    let row_count = sizes[0];
+    let column_count = sizes[1];
+    if row_count != column_count {
+        let found = format!("{row_count} x {column_count}");
         return Err(lines.fault(FileFault::value("size of the matrix", found, "square")));
     }
-    lines.with_line_number(check_size(&header, rows))?;
-    let mut matrix = Triplets::new(rows);
+    lines.with_line_number(check_memory(&header, row_count))?;
+    let mut matrix = Triplets::new(row_count);
     if header.is_coordinate {
-        read_coordinates(&mut lines, &header, size[2], &mut matrix)?;
+        read_coordinates(&mut lines, &header, sizes[2], &mut matrix)?;
     } else {
         read_array(&mut lines, &header, &mut matrix)?;
     }
     Ok(matrix)
 }
 
-/// Error unless the matrix fits into memory.
-fn check_size(header: &MatrixMarketHeader, rows: usize) -> FieldResult<()> {
-    check_order(ORDER_QUANTITY, rows)?;
-    // An array file has one line for each entry.
-    let entries = if header.is_coordinate { 0.0 } else { (rows as f64).powi(2) };
-    let bytes = entries * size_of::<(usize, usize, f64)>() as f64;
-    memory::check(ORDER_QUANTITY, rows as f64, bytes)?;
+/// Returns an error unless the matrix fits into memory.
+fn check_memory(header: &MatrixMarketHeader, row_count: usize) -> FieldResult<()> {
+    check_order(ORDER_QUANTITY, row_count)?;
+    // The number of entries of a coordinate file is limited by the file itself.
+    let entry_count = if header.is_coordinate { 0.0 } else { (row_count as f64).powi(2) };
+    let bytes = entry_count * size_of::<(usize, usize, f64)>() as f64;
+    memory::check(ORDER_QUANTITY, row_count as f64, bytes)?;
     Ok(())
 }
 
-fn header(line: &str) -> FieldResult<MatrixMarketHeader> {
+/// Reads the first line.
+fn parse_header(line: &str) -> FieldResult<MatrixMarketHeader> {
     let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let &["%%matrixmarket", object, format, field, symmetry] = words.as_slice() else {
-        let found: String = line.chars().take(80).collect();
+        let found: String = line.chars().take(MAX_QUOTED_CHARACTERS).collect();
         let needed = "'%%MatrixMarket matrix <format> <field> <symmetry>'";
         return Err(FileFault::format(found, needed));
     };
@@ -102,41 +107,45 @@ fn header(line: &str) -> FieldResult<MatrixMarketHeader> {
     Ok(MatrixMarketHeader { is_coordinate, is_symmetric })
 }
 
-/// Fault of a word in the header.
+/// Fault of a word in the header that is not supported.
 fn unsupported(word: &str) -> FileFault {
     let needed = "a real matrix, coordinate or array, general or symmetric";
     FileFault::format(excerpt(word), needed)
 }
 
 /// Splits a line into exactly `needed` fields.
-fn fields(line: &str, needed: usize) -> FieldResult<Vec<&str>> {
+fn split_fields(line: &str, needed: usize) -> FieldResult<Vec<&str>> {
     let fields: Vec<&str> = line.split_ascii_whitespace().collect();
     let found = fields.len();
-    if found == needed { Ok(fields) } else { Err(wrong_fields(found, needed)) }
+    if found == needed { Ok(fields) } else { Err(wrong_field_count(found, needed)) }
 }
 
-fn wrong_fields(found: usize, needed: usize) -> FileFault {
+/// Fault of a line with another number of fields.
+fn wrong_field_count(found: usize, needed: usize) -> FileFault {
     FileFault::count("fields", found, needed.to_string())
 }
 
-fn wrong_entries(found: usize, needed: usize) -> FileFault {
+/// Fault of a file with another number of entries than its size line states.
+fn wrong_entry_count(found: usize, needed: usize) -> FileFault {
     FileFault::count("entries", found, format!("{needed}, as the size line states"))
 }
 
 /// The `needed` whole numbers of a line.
 fn whole_numbers(line: &str, needed: usize) -> FieldResult<Vec<usize>> {
-    fields(line, needed)?.into_iter().map(whole_number).collect()
+    split_fields(line, needed)?.into_iter().map(whole_number).collect()
 }
 
+/// The whole number of a field.
 fn whole_number(field: &str) -> FieldResult<usize> {
     field.parse().map_err(|_| FileFault::value("field", quoted(field), "a whole number"))
 }
 
-fn number(field: &str) -> FieldResult<f64> {
+/// The finite number of a field.
+fn finite_number(field: &str) -> FieldResult<f64> {
     finite(field).ok_or_else(|| FileFault::value("field", quoted(field), "a finite number"))
 }
 
-/// Converts an index that starts from 1 to one that starts from 0.
+/// The index of a field, converted from a count from 1 to a count from 0.
 fn index(field: &str, order: usize) -> FieldResult<usize> {
     let index = whole_number(field)?;
     if (1..=order).contains(&index) {
@@ -154,7 +163,7 @@ fn read_coordinates(
     matrix: &mut Triplets,
 ) -> LineResult<()> {
     for found in 0..needed {
-        let line = required_data_line(lines, wrong_entries(found, needed))?;
+        let line = required_data_line(lines, wrong_entry_count(found, needed))?;
         let (row, column, value) =
             lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
         if header.is_symmetric && row < column {
@@ -169,11 +178,11 @@ fn read_coordinates(
 
 /// Row and column, from 0, and value of an entry.
 fn coordinate_entry(line: &str, order: usize) -> FieldResult<(usize, usize, f64)> {
-    let fields = fields(line, 3)?;
-    Ok((index(fields[0], order)?, index(fields[1], order)?, number(fields[2])?))
+    let fields = split_fields(line, 3)?;
+    Ok((index(fields[0], order)?, index(fields[1], order)?, finite_number(fields[2])?))
 }
 
-/// Reads values column by column, from the diagonal down if symmetric; zeros are left out.
+/// Reads values column by column, from the diagonal down if symmetric; zeros are omitted.
 fn read_array(
     lines: &mut Lines,
     header: &MatrixMarketHeader,
@@ -184,9 +193,9 @@ fn read_array(
     let mut found = 0;
     for column in 0..order {
         for row in if header.is_symmetric { column } else { 0 }..order {
-            let line = required_data_line(lines, wrong_entries(found, needed))?;
-            let field = lines.with_line_number(fields(&line, 1))?[0];
-            let value = lines.with_line_number(number(field))?;
+            let line = required_data_line(lines, wrong_entry_count(found, needed))?;
+            let field = lines.with_line_number(split_fields(&line, 1))?[0];
+            let value = lines.with_line_number(finite_number(field))?;
             found += 1;
             if value != 0.0 {
                 add_entry(matrix, header, row, column, value);
@@ -196,7 +205,7 @@ fn read_array(
     check_end(lines, needed)
 }
 
-/// Adds an entry, and its mirror image in a symmetric matrix.
+/// Adds an entry, and its mirrored entry in a symmetric matrix.
 fn add_entry(
     matrix: &mut Triplets,
     header: &MatrixMarketHeader,
@@ -210,10 +219,10 @@ fn add_entry(
     }
 }
 
-/// Error for more entries than the size line states.
+/// Returns an error for more entries than the size line states.
 fn check_end(lines: &mut Lines, needed: usize) -> LineResult<()> {
     match data_line(lines)? {
-        Some(_) => Err(lines.fault(wrong_entries(needed + 1, needed))),
+        Some(_) => Err(lines.fault(wrong_entry_count(needed + 1, needed))),
         None => Ok(()),
     }
 }

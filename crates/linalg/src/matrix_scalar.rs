@@ -1,7 +1,7 @@
-//! Numbers of dense matrices, and the algorithms that are compiled for them.
+//! Number types of dense matrices, and the algorithms that are compiled for them.
 //!
-//! The matrix library is generic: a crate that calls it for a type compiles it for that type. The methods of this trait
-//! are not generic, so users of this crate do not.
+//! The matrix library is generic: a crate that calls it for a number type compiles it again. The methods of this trait
+//! are not generic, so they are compiled only in this crate.
 
 use basemat_fourier::num_complex::Complex64;
 use faer::diag::DiagMut;
@@ -17,6 +17,7 @@ use faer::{Conj, MatMut, MatRef, Par, Spec};
 pub struct LuFactors<'a, T> {
     order: usize,
     values: &'a [T],
+    /// Row permutation, and its inverse.
     forward: &'a [usize],
     inverse: &'a [usize],
 }
@@ -32,10 +33,10 @@ impl<'a, T> LuFactors<'a, T> {
     }
 }
 
-/// Real (`f64`) and complex (`Complex64`) numbers.
+/// Number type of dense matrices: `f64` or `Complex64`.
 pub trait MatrixScalar: ComplexField<Real = f64> + Copy {
-    /// Memory to factor matrices up to this order and to solve for up to this number of columns.
-    fn lu_scratch(order: usize, columns: usize) -> StackReq;
+    /// Memory for factorising matrices up to `order` and for solving with up to `column_count` right-hand sides.
+    fn lu_scratch(order: usize, column_count: usize) -> StackReq;
 
     /// Factors the matrix in place; returns the number of row exchanges.
     fn lu_factor(
@@ -45,21 +46,23 @@ pub trait MatrixScalar: ComplexField<Real = f64> + Copy {
         buffer: &mut MemBuffer,
     ) -> usize;
 
-    /// Overwrites `right_side` with A⁻¹ times it.
+    /// Overwrites `right_side` b with A⁻¹ b.
     fn lu_solve(factors: LuFactors<Self>, right_side: MatMut<'_, Self>, buffer: &mut MemBuffer);
 
-    /// Overwrites the one column of `right_side` with A⁻ᵀ times it.
+    /// Overwrites `right_side` b, of one column, with A⁻ᵀ b.
     fn lu_solve_transposed(factors: LuFactors<Self>, right_side: MatMut<'_, Self>);
 
     /// Smallest and largest eigenvalue of the Hermitian part of a row-major matrix.
+    ///
+    /// `None` if the matrix is empty or not finite.
     fn hermitian_range(matrix: &[Self], order: usize) -> Option<[f64; 2]>;
 }
 
 macro_rules! matrix_scalar {
     ($type:ty) => {
         impl MatrixScalar for $type {
-            fn lu_scratch(order: usize, columns: usize) -> StackReq {
-                lu_scratch::<Self>(order, columns)
+            fn lu_scratch(order: usize, column_count: usize) -> StackReq {
+                lu_scratch::<Self>(order, column_count)
             }
 
             fn lu_factor(
@@ -93,9 +96,10 @@ macro_rules! matrix_scalar {
 matrix_scalar! { f64 }
 matrix_scalar! { Complex64 }
 
-fn lu_scratch<T: ComplexField>(order: usize, columns: usize) -> StackReq {
-    let factor = factor::lu_in_place_scratch::<usize, T>(order, order, Par::Seq, Spec::default());
-    factor.or(solve::solve_in_place_scratch::<usize, T>(order, columns, Par::Seq))
+fn lu_scratch<T: ComplexField>(order: usize, column_count: usize) -> StackReq {
+    let factor_scratch =
+        factor::lu_in_place_scratch::<usize, T>(order, order, Par::Seq, Spec::default());
+    factor_scratch.or(solve::solve_in_place_scratch::<usize, T>(order, column_count, Par::Seq))
 }
 
 fn lu_factor<T: ComplexField>(
@@ -146,17 +150,17 @@ fn hermitian_range<T>(matrix: &[T], order: usize) -> Option<[f64; 2]>
 where
     T: ComplexField<Real = f64> + Copy,
 {
-    let mut part = Vec::with_capacity(order * order);
+    let mut hermitian_part = Vec::with_capacity(order * order);
     for row in 0..order {
         for column in 0..order {
-            let twin = conj(&matrix[column * order + row]);
-            part.push(mul_real(&add(&matrix[row * order + column], &twin), &0.5));
+            let mirrored = conj(&matrix[column * order + row]);
+            hermitian_part.push(mul_real(&add(&matrix[row * order + column], &mirrored), &0.5));
         }
     }
-    if order == 0 || !part.iter().all(is_finite) {
+    if order == 0 || !hermitian_part.iter().all(is_finite) {
         return None;
     }
-    let mut values = part[..order].to_vec();
+    let mut eigenvalues = hermitian_part[..order].to_vec();
     let mut buffer = MemBuffer::new(evd::self_adjoint_evd_scratch::<T>(
         order,
         evd::ComputeEigenvectors::No,
@@ -164,15 +168,15 @@ where
         Spec::default(),
     ));
     evd::self_adjoint_evd(
-        MatRef::from_row_major_slice(&part, order, order),
-        DiagMut::from_slice_mut(&mut values),
+        MatRef::from_row_major_slice(&hermitian_part, order, order),
+        DiagMut::from_slice_mut(&mut eigenvalues),
         None,
         Par::Seq,
         MemStack::new(&mut buffer),
         Spec::default(),
     )
     .ok()?;
-    let range = values
+    let range = eigenvalues
         .iter()
         .map(real)
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);

@@ -1,18 +1,19 @@
-//! Arithmetic written once for one complex number and for several at a time.
+//! Complex arithmetic, written once for single numbers and for lanes of several numbers.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::Complex;
 
-/// Complex number, or several of them, one in each lane.
+/// Complex number, or several complex numbers, one in each lane.
 #[doc(hidden)]
 pub trait ComplexArithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + 'static
 {
-    /// `value` in as many lanes as this number has.
+    /// `value` in all lanes; as many lanes as `self`.
     fn like(self, value: Complex) -> Self;
 
-    /// A real number in as many lanes as this number has.
+    /// A real number in all lanes; as many lanes as `self`.
+    #[inline]
     fn like_real(self, value: f64) -> Self {
         self.like(Complex::real(value))
     }
@@ -29,10 +30,10 @@ pub trait ComplexArithmetic:
     /// e^x.
     fn exp(self) -> Self;
 
-    /// This number, or `minimum` where that has the larger magnitude.
+    /// This number, or `minimum` in lanes where `minimum` has the larger magnitude.
     fn at_least(self, minimum: Self) -> Self;
 
-    /// −x where Re `other` < −`fraction` |`other`|, x elsewhere.
+    /// −x in lanes where Re `other` < −`fraction` |`other`|, x in the others.
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self;
 }
 

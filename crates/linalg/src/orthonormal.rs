@@ -1,34 +1,42 @@
-//! Rows that are orthonormal with respect to a mass matrix.
+//! Vectors that are orthonormal with respect to a mass matrix.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | V | rows, V M Vᵀ = 1 |
+//! | M | mass matrix |
+//! | V | matrix of the vectors, a row each, V M Vᵀ = 1 |
 
 use super::matrix::SparseMatrix;
 use super::product::{add_combined_rows, largest, row_products, symmetric_products};
 
-/// M-orthonormal rows V, with V M, to which rows can be added.
+/// M-orthonormal rows V, stored with V M.
 pub struct OrthonormalRows<'a> {
     mass: &'a SparseMatrix,
-    /// Largest error of V M Vᵀ for which one pass of orthogonalisation is enough.
+    /// Largest error of V M Vᵀ that needs no second pass of orthogonalisation.
     tolerance: f64,
+    /// V, row-major.
     vectors: Vec<f64>,
+    /// V M, row-major.
     momenta: Vec<f64>,
 }
 
-/// Smallest component outside V for which a row counts as a new direction.
+/// Smallest remainder of a row for which the row is a new direction.
+///
+/// The remainder is the length, in the norm of M, of the component orthogonal to V.
 #[derive(Clone, Copy)]
 pub enum MinRemainder {
     /// Relative to the length of the row.
     Fraction(f64),
-    /// Length, in the norm of M.
+    /// Absolute.
     Length(f64),
 }
+
+/// Smallest length of a row after the second pass: rows of unit length keep nearly all of it.
+const MIN_SECOND_PASS_LENGTH: f64 = 0.5;
 
 impl<'a> OrthonormalRows<'a> {
     /// Empty set of rows.
     ///
-    /// `tolerance`: a second pass of orthogonalisation follows where the error of V M Vᵀ may be larger.
+    /// `tolerance`: largest error of V M Vᵀ that needs no second pass of orthogonalisation.
     pub fn new(mass: &'a SparseMatrix, tolerance: f64) -> Self {
         Self { mass, tolerance, vectors: Vec::new(), momenta: Vec::new() }
     }
@@ -58,17 +66,17 @@ impl<'a> OrthonormalRows<'a> {
         self.vectors.len() / self.mass.order().max(1)
     }
 
-    /// Adds the directions of `block` whose component outside V exceeds `min_remainder`.
+    /// Adds the rows of `block` whose remainders exceed `min_remainder`, after orthogonalisation.
     pub fn extend(&mut self, mut block: Vec<f64>, min_remainder: MinRemainder) {
         let n = self.mass.order().max(1);
-        let count_before = self.count();
-        // The block and its orthogonalised copy exchange their buffers after each pass.
+        let old_count = self.count();
+        // The block and its orthogonalised copy exchange their memory after each pass.
         let mut images = vec![0.0; block.len()];
         let mut orthogonal = vec![0.0; block.len()];
         let mut projections = row_products(&self.momenta, &block, n);
         for pass in 0..2 {
             let count = block.len() / n;
-            if count_before > 0 {
+            if old_count > 0 {
                 add_combined_rows(&projections, &self.vectors, n, -1.0, &mut block);
             }
             images.truncate(block.len());
@@ -76,9 +84,9 @@ impl<'a> OrthonormalRows<'a> {
             let mut products = symmetric_products(&images, &block, n);
             let mut lengths = Vec::with_capacity(count);
             for i in 0..count {
-                let inside: f64 =
-                    (0..count_before).map(|j| projections[j * count + i].powi(2)).sum();
-                lengths.push((inside + products[i * (count + 1)]).sqrt());
+                let projected_square: f64 =
+                    (0..old_count).map(|j| projections[j * count + i].powi(2)).sum();
+                lengths.push((projected_square + products[i * (count + 1)]).sqrt());
             }
             let mut scales = vec![1.0; count];
             let mut max_length = largest(&lengths);
@@ -95,12 +103,11 @@ impl<'a> OrthonormalRows<'a> {
                 MinRemainder::Fraction(length) | MinRemainder::Length(length) if pass == 0 => {
                     length
                 }
-                _ => 0.5,
+                _ => MIN_SECOND_PASS_LENGTH,
             };
             let mut weights = independent_combinations(products, count, min_length * min_length);
-            // The weight of a row on itself is the reciprocal of its remainder: short remainders have
-            // larger rounding errors.
-            let rounding = f64::EPSILON * (max_length * largest(&weights)).powi(2);
+            // Weights are reciprocals of remainders: rows with short remainders have large rounding errors.
+            let rounding_error = f64::EPSILON * (max_length * largest(&weights)).powi(2);
             let rank = weights.len() / count.max(1);
             for row in weights.chunks_exact_mut(count.max(1)) {
                 row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
@@ -111,7 +118,7 @@ impl<'a> OrthonormalRows<'a> {
             if pass == 0 {
                 projections = row_products(&self.momenta, &orthogonal, n);
             }
-            if pass == 1 || rounding.max(largest(&projections)) < self.tolerance {
+            if pass == 1 || rounding_error.max(largest(&projections)) < self.tolerance {
                 append_combined_rows(&columns, &images, n, rank, &mut self.momenta);
                 self.vectors.append(&mut orthogonal);
                 return;
@@ -134,31 +141,31 @@ fn append_combined_rows(
     add_combined_rows(weights, rows, order, 1.0, &mut sum[start..]);
 }
 
-/// Weights, a row each, of orthonormal combinations of vectors with these scalar products.
+/// Weights of orthonormal combinations of vectors, a row each, from the vectors' scalar products.
 ///
-/// Gram–Schmidt, the longest remainder first, while its square exceeds `min_square`. Vectors of separate parts
-/// stay separate.
+/// Gram–Schmidt orthogonalisation of `count` vectors with the row-major `products`, the longest remainder first, while
+/// the square of its length exceeds `min_square`. A combination has no vectors that are orthogonal to all its others.
 pub fn independent_combinations(mut products: Vec<f64>, count: usize, min_square: f64) -> Vec<f64> {
-    let mut remainders: Vec<Vec<f64>> = (0..count)
+    let mut remainder_weights: Vec<Vec<f64>> = (0..count)
         .map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect())
         .collect();
     let mut weights = Vec::new();
     let mut candidates: Vec<usize> = (0..count).collect();
     let square = |products: &[f64], i: usize| products[i * (count + 1)];
-    while let Some(place) = (0..candidates.len())
+    while let Some(candidate_index) = (0..candidates.len())
         .max_by(|a, b| {
             square(&products, candidates[*a]).total_cmp(&square(&products, candidates[*b]))
         })
-        .filter(|place| square(&products, candidates[*place]) > min_square)
+        .filter(|index| square(&products, candidates[*index]) > min_square)
     {
-        let pivot = candidates.swap_remove(place);
+        let pivot = candidates.swap_remove(candidate_index);
         let scale = square(&products, pivot).sqrt().recip();
         let pivot_weights: Vec<f64> =
-            remainders[pivot].iter().map(|weight| scale * weight).collect();
+            remainder_weights[pivot].iter().map(|weight| scale * weight).collect();
         let projections: Vec<f64> =
             (0..count).map(|j| scale * products[pivot * count + j]).collect();
         for &i in &candidates {
-            for (weight, pivot_weight) in remainders[i].iter_mut().zip(&pivot_weights) {
+            for (weight, pivot_weight) in remainder_weights[i].iter_mut().zip(&pivot_weights) {
                 *weight -= projections[i] * pivot_weight;
             }
             let row = &mut products[i * count..(i + 1) * count];
@@ -185,7 +192,7 @@ mod tests {
         (0.37 * (k * k) as f64).sin()
     }
 
-    /// Rows of which a fraction `outside` is new, block after block, are orthonormal.
+    /// Blocks whose rows differ from the previous rows by a fraction `new_fraction` become orthonormal.
     #[test]
     fn rows_are_orthonormal_after_one_pass_or_two() {
         const N: usize = 200;
@@ -195,25 +202,25 @@ mod tests {
             mass.add_spring(i - 1, i, 0.7);
         }
         let mass = SparseMatrix::new("mass", &mass).unwrap();
-        for outside in [1.0, 0.03, 1e-2, 1e-4, 1e-6] {
+        for new_fraction in [1.0, 0.03, 1e-2, 1e-4, 1e-6] {
             let mut rows = OrthonormalRows::new(&mass, 1e-12);
-            let mut last: Vec<f64> = (0..8 * N).map(sample).collect();
-            rows.extend(last.clone(), MinRemainder::Fraction(1e-9));
-            for block in 1..10 {
-                for (k, value) in last.iter_mut().enumerate() {
-                    *value += outside * sample(k + 8 * N * block);
+            let mut block_rows: Vec<f64> = (0..8 * N).map(sample).collect();
+            rows.extend(block_rows.clone(), MinRemainder::Fraction(1e-9));
+            for block_index in 1..10 {
+                for (k, value) in block_rows.iter_mut().enumerate() {
+                    *value += new_fraction * sample(k + 8 * N * block_index);
                 }
-                rows.extend(last.clone(), MinRemainder::Fraction(1e-9));
+                rows.extend(block_rows.clone(), MinRemainder::Fraction(1e-9));
             }
             rows.extend(
-                (0..8 * N).map(|k| outside * sample(k + 31)).collect(),
+                (0..8 * N).map(|k| new_fraction * sample(k + 31)).collect(),
                 MinRemainder::Length(1e-9),
             );
             assert_eq!(rows.count(), 88);
             for momenta in [rows.momenta(), &mass.times(rows.vectors())] {
                 let mut products = row_products(rows.vectors(), momenta, N);
                 (0..88).for_each(|i| products[89 * i] -= 1.0);
-                assert!(largest(&products) < 2e-12, "{outside:e}: {:e}", largest(&products));
+                assert!(largest(&products) < 2e-12, "{new_fraction:e}: {:e}", largest(&products));
             }
         }
     }

@@ -1,17 +1,20 @@
-//! Disjoint sets of numbers, such as the connected parts of a structure.
+//! Disjoint sets of indices, such as the connected parts of a structure.
 
 use crate::SparseMatrix;
 
-/// Disjoint sets of the numbers below an order (union–find).
+/// Disjoint sets of the indices below an order (union–find).
+///
+/// For each index, an index of the same set that is not larger.
 pub struct Partition(Vec<usize>);
 
 impl Partition {
-    /// Sets of one number each.
+    /// Sets of one index each.
     pub fn new(order: usize) -> Self {
         Self((0..order).collect())
     }
 
-    /// The smallest number in the set of `index`.
+    /// The smallest index in the set of `index`.
+    #[inline]
     pub fn root(&mut self, mut index: usize) -> usize {
         while self.0[index] != index {
             self.0[index] = self.0[self.0[index]];
@@ -20,7 +23,8 @@ impl Partition {
         index
     }
 
-    /// Merges the sets of two numbers.
+    /// Merges the sets of two indices.
+    #[inline]
     pub fn join(&mut self, first: usize, second: usize) {
         let first_root = self.root(first);
         let second_root = self.root(second);
@@ -36,7 +40,7 @@ impl Partition {
         }
     }
 
-    /// The sets, ordered by their smallest numbers, each ascending.
+    /// The sets, each ascending, in the order of their smallest indices.
     pub fn sets(&mut self) -> Vec<Vec<usize>> {
         let mut sets = vec![Vec::new(); self.0.len()];
         for index in 0..self.0.len() {
@@ -53,7 +57,7 @@ mod tests {
     use crate::Triplets;
 
     #[test]
-    fn coupled_numbers_are_one_set() {
+    fn coupled_indices_are_one_set() {
         let mut matrix = Triplets::new(6);
         matrix.add_spring(5, 1, 2.0);
         matrix.add(1, 3, 1e-300);

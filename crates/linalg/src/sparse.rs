@@ -15,8 +15,13 @@ use crate::error::{Error, Result};
 use crate::product::symmetric_product;
 use crate::{SparseMatrix, Triplets};
 
-/// Largest number of values in the right-hand sides of one solve.
+/// Largest number of values in the right-hand sides of one solve: a solve needs as much workspace.
 const MAX_SOLVE_BLOCK_VALUES: usize = 1 << 22;
+
+/// Largest relative asymmetry of a matrix that is factored as a symmetric one: a rounding error.
+const MAX_ASYMMETRY: f64 = 1e-13;
+/// Smallest number of right-hand sides in one solve, if there are more.
+const MIN_SOLVE_BLOCK_COLUMNS: usize = 8;
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub struct SparseFactor {
@@ -25,19 +30,22 @@ pub struct SparseFactor {
     buffer: MemBuffer,
 }
 
+/// Factors by one of the two methods.
 enum Factors {
     Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
     Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
 }
 
 impl Factors {
-    /// Workspace of a solve for `columns` right-hand sides.
-    fn scratch(&self, columns: usize) -> StackReq {
+    /// Workspace of a solve with `column_count` right-hand sides.
+    fn scratch(&self, column_count: usize) -> StackReq {
         match self {
             Self::Cholesky { symbolic, .. } => {
-                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
+                symbolic.solve_in_place_scratch::<f64>(column_count, Par::Seq)
             }
-            Self::Lu { symbolic, .. } => symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq),
+            Self::Lu { symbolic, .. } => {
+                symbolic.solve_in_place_scratch::<f64>(column_count, Par::Seq)
+            }
         }
     }
 }
@@ -45,21 +53,23 @@ impl Factors {
 impl SparseFactor {
     /// Factors by Cholesky if the matrix is symmetric positive definite, else by LU with partial pivoting.
     pub fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
-        Self::of(name, &SparseMatrix::new(name, triplets)?, &Elimination::default())
+        let matrix = SparseMatrix::new(name, triplets)?;
+        Self::with_elimination(name, &matrix, &Elimination::default())
     }
 
-    /// Factors as [`SparseFactor::new`] does, in an order of elimination that matrices of a structure share.
-    pub fn of(
+    /// Factors as [`SparseFactor::new`], in an order of elimination that matrices of one structure share.
+    pub fn with_elimination(
         name: &'static str,
         matrix: &SparseMatrix,
         elimination: &Elimination,
     ) -> Result<Self> {
         let columns = by_columns(matrix);
-        let symmetric = matrix.asymmetry() <= 1e-13;
-        let factor = if symmetric { Self::cholesky(&columns, elimination).ok() } else { None };
-        factor
+        let is_symmetric = matrix.asymmetry() <= MAX_ASYMMETRY;
+        let cholesky_factor =
+            if is_symmetric { Self::cholesky(&columns, elimination).ok() } else { None };
+        cholesky_factor
             .or_else(|| Self::lu(&columns))
-            .and_then(Self::probed)
+            .and_then(Self::checked_by_solve)
             .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
     }
 
@@ -67,22 +77,22 @@ impl SparseFactor {
     pub fn positive_definite(name: &'static str, matrix: &SparseMatrix) -> Result<Self> {
         Self::cholesky(&by_columns(matrix), &Elimination::default())
             .ok()
-            .and_then(Self::probed)
+            .and_then(Self::checked_by_solve)
             .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
     }
 
-    /// Whether the matrix was found positive definite.
+    /// Whether the matrix is positive definite: its factors are Cholesky's.
     pub fn is_positive_definite(&self) -> bool {
         matches!(self.factors, Factors::Cholesky { .. })
     }
 
-    /// This factor, or `None` if a solve is not finite.
+    /// This factor, or `None` if the solution for a test vector is not finite.
     ///
-    /// LU may accept a singular matrix with a pivot of rounding size.
-    fn probed(mut self) -> Option<Self> {
-        let mut probe = vec![1.0; self.order];
-        self.solve(&mut probe);
-        probe.iter().all(|x| x.is_finite()).then_some(self)
+    /// The pivots of a singular matrix may be rounding errors instead of zeros, so that its factorisation succeeds.
+    fn checked_by_solve(mut self) -> Option<Self> {
+        let mut solution = vec![1.0; self.order];
+        self.solve(&mut solution);
+        solution.iter().all(|x| x.is_finite()).then_some(self)
     }
 
     /// Factors the matrix by Cholesky's method.
@@ -115,6 +125,7 @@ impl SparseFactor {
         Ok(Self { order: matrix.nrows(), factors: Factors::Cholesky { symbolic, values }, buffer })
     }
 
+    /// Factors the matrix by LU with partial pivoting; `None` if it fails.
     fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
         let symbolic =
             factorize_symbolic_lu(matrix.symbolic(), LuSymbolicParams::default()).ok()?;
@@ -135,7 +146,7 @@ impl SparseFactor {
     }
 
     /// Approximate number of values that a solve reads.
-    pub fn stored(&self) -> usize {
+    pub fn entry_count(&self) -> usize {
         match &self.factors {
             Factors::Cholesky { values, .. } => values.len(),
             Factors::Lu { .. } => self.order * self.order,
@@ -156,62 +167,63 @@ impl SparseFactor {
     /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub fn solve_many(&self, rhs: &mut [f64]) {
         let order = self.order.max(1);
-        let columns = (rhs.len() / order).min((MAX_SOLVE_BLOCK_VALUES / order).max(8));
-        let mut buffer = MemBuffer::new(self.factors.scratch(columns));
-        for block in rhs.chunks_mut(columns.max(1) * order) {
-            let columns = block.len() / order;
-            Self::solve_with(&self.factors, self.order, columns, false, block, &mut buffer);
+        let max_columns = (MAX_SOLVE_BLOCK_VALUES / order).max(MIN_SOLVE_BLOCK_COLUMNS);
+        let block_columns = (rhs.len() / order).min(max_columns);
+        let mut buffer = MemBuffer::new(self.factors.scratch(block_columns));
+        for block in rhs.chunks_mut(block_columns.max(1) * order) {
+            let column_count = block.len() / order;
+            Self::solve_with(&self.factors, self.order, column_count, false, block, &mut buffer);
         }
     }
 
-    /// The matrix condensed on the rows `last`, row-major: L Lᵀ of its last rows.
+    /// The matrix condensed on `last_rows`, row-major: L Lᵀ of the last block of L.
     ///
-    /// `None` unless `last` are the last rows in the order of elimination, of a factor by Cholesky in blocks.
-    pub fn condensed(&self, last: &[usize]) -> Option<Vec<f64>> {
-        let count = last.len();
+    /// `None` unless these rows are the last in the order of elimination, and the factors are Cholesky's with dense
+    /// blocks.
+    pub fn condensed(&self, last_rows: &[usize]) -> Option<Vec<f64>> {
+        let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &self.factors else { return None };
         let mut lower = vec![0.0; count * count];
-        for (place, at) in last_entries(symbolic, last)? {
-            lower[place] = values[at];
+        for LastEntry { matrix_index, factor_index } in last_entries(symbolic, last_rows)? {
+            lower[matrix_index] = values[factor_index];
         }
         let lower = MatRef::from_row_major_slice(&lower, count, count);
         let shapes = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
         Some(symmetric_product([lower, lower.transpose()], shapes))
     }
 
-    /// Factor of the matrix whose condensation on the rows `last` is `matrix`.
+    /// Factor of a matrix that differs only on `last_rows`, where its condensed matrix is `condensed`.
     ///
-    /// Elsewhere the matrix is the same as this factor's.
-    ///
-    /// `matrix`: row-major, of which the lower triangle is read. `None` where [`SparseFactor::condensed`] is, and for a
-    /// matrix that is not positive definite.
-    pub fn with_condensed(mut self, last: &[usize], matrix: &[f64]) -> Option<Self> {
-        let count = last.len();
+    /// `condensed`: row-major; only the lower triangle is read. `None` where [`SparseFactor::condensed`] returns `None`,
+    /// and for a condensed matrix that is not positive definite.
+    pub fn with_condensed(mut self, last_rows: &[usize], condensed: &[f64]) -> Option<Self> {
+        let count = last_rows.len();
         let Factors::Cholesky { symbolic, values } = &mut self.factors else {
             return None;
         };
-        let lower = MatRef::from_row_major_slice(matrix, count, count).llt(Side::Lower).ok()?;
-        let entries = last_entries(symbolic, last)?;
-        // Entries outside the pattern are zero in this factor, and may not be in the new one.
+        let lower = MatRef::from_row_major_slice(condensed, count, count).llt(Side::Lower).ok()?;
+        let entries = last_entries(symbolic, last_rows)?;
+        // The new factor may need entries outside the pattern of this factor.
         if 2 * entries.len() != count * (count + 1) {
             return None;
         }
-        for (place, at) in entries {
-            values[at] = lower.L()[(place / count, place % count)];
+        for LastEntry { matrix_index, factor_index } in entries {
+            values[factor_index] = lower.L()[(matrix_index / count, matrix_index % count)];
         }
         Some(self)
     }
 
+    /// Overwrites `rhs` with A⁻¹ rhs, or A⁻ᵀ rhs if `is_transposed`.
     fn solve_with(
         factors: &Factors,
         order: usize,
-        columns: usize,
-        transposed: bool,
+        column_count: usize,
+        is_transposed: bool,
         rhs: &mut [f64],
         buffer: &mut MemBuffer,
     ) {
         let stack = MemStack::new(buffer);
-        let rhs = MatMut::from_column_major_slice_mut(rhs, order, columns);
+        let rhs = MatMut::from_column_major_slice_mut(rhs, order, column_count);
         match factors {
             Factors::Cholesky { symbolic, values } => {
                 let factor = LltRef::new(symbolic, values);
@@ -219,7 +231,7 @@ impl SparseFactor {
             }
             Factors::Lu { symbolic, numeric } => {
                 let lu = LuRef::new_unchecked(symbolic, numeric);
-                if transposed {
+                if is_transposed {
                     lu.solve_transpose_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
                 } else {
                     lu.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
@@ -229,44 +241,51 @@ impl SparseFactor {
     }
 }
 
-/// Places of the last rows' lower triangle: in their matrix, and among a factor's values.
+/// Entry in the lower triangle of the last rows.
+struct LastEntry {
+    /// Index in the row-major matrix of the last rows.
+    matrix_index: usize,
+    /// Index in the values of the factor.
+    factor_index: usize,
+}
+
+/// Entries of a factor in the lower triangle of `last_rows`.
 ///
-/// The matrix is row-major.
-///
-/// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
-fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {
+/// `None` unless these rows are the last in the order of elimination, and the factor has dense blocks.
+fn last_entries(symbolic: &SymbolicCholesky<usize>, last_rows: &[usize]) -> Option<Vec<LastEntry>> {
     let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else {
         return None;
     };
-    let count = last.len();
-    let first = symbolic.nrows().checked_sub(count)?;
-    if symbolic.perm()?.arrays().0[first..] != *last {
+    let count = last_rows.len();
+    let first_row = symbolic.nrows().checked_sub(count)?;
+    if symbolic.perm()?.arrays().0[first_row..] != *last_rows {
         return None;
     }
     let mut entries = Vec::new();
     for k in (0..blocks.n_supernodes()).rev() {
-        let begin = blocks.supernode_begin()[k];
-        let end = blocks.supernode_end()[k];
-        let pattern = blocks.supernode(k).pattern();
-        let start = blocks.col_ptr_for_val()[k];
-        let height = end - begin + pattern.len();
-        for column in begin.max(first)..end {
-            let rows = (begin..end).chain(pattern.iter().copied()).enumerate();
-            entries.extend(rows.filter(|(_, row)| *row >= column).map(|(offset, row)| {
-                let place = (row - first) * count + column - first;
-                (place, start + (column - begin) * height + offset)
+        let begin_column = blocks.supernode_begin()[k];
+        let end_column = blocks.supernode_end()[k];
+        let rows_below = blocks.supernode(k).pattern();
+        let first_index = blocks.col_ptr_for_val()[k];
+        let height = end_column - begin_column + rows_below.len();
+        for column in begin_column.max(first_row)..end_column {
+            let rows = (begin_column..end_column).chain(rows_below.iter().copied()).enumerate();
+            let lower_rows = rows.filter(|(_, row)| *row >= column);
+            entries.extend(lower_rows.map(|(offset, row)| LastEntry {
+                matrix_index: (row - first_row) * count + column - first_row,
+                factor_index: first_index + (column - begin_column) * height + offset,
             }));
         }
     }
     Some(entries)
 }
 
-/// Row at which a symmetric matrix fails to be positive semi-definite; `None` if it is.
+/// Row at which a symmetric matrix fails to be positive semi-definite; `None` if the matrix is semi-definite.
 ///
-/// Diagonal entries below `floor` count as `floor`, if they are above −`floor`: they are rounding.
-/// Eigenvalues of the matrix scaled to a unit diagonal may be as low as −`tolerance`. A matrix that passes is
-/// therefore semi-definite except for 2 `floor` on the diagonal and `tolerance` relative to the diagonal. The
-/// check costs a sparse Cholesky factorisation, or almost nothing if the matrix is diagonal.
+/// Diagonal entries between −`floor` and `floor` are rounding errors and count as `floor`. Eigenvalues of the matrix
+/// scaled to a unit diagonal may be as low as −`tolerance`. A matrix without such a row is therefore semi-definite after
+/// adding 2 `floor` to the diagonal, and `tolerance` times the diagonal. The check costs a sparse Cholesky
+/// factorisation, or almost nothing for a diagonal matrix.
 pub fn indefinite_row(
     matrix: &SparseMatrix,
     tolerance: f64,
@@ -274,17 +293,20 @@ pub fn indefinite_row(
     elimination: &Elimination,
 ) -> Option<usize> {
     let diagonal_entries = matrix.diagonal();
-    let smallest = (0..diagonal_entries.len())
+    let min_row = (0..diagonal_entries.len())
         .min_by(|i, j| diagonal_entries[*i].total_cmp(&diagonal_entries[*j]));
-    if let Some(row) = smallest.filter(|row| diagonal_entries[*row] < -floor) {
+    if let Some(row) = min_row.filter(|row| diagonal_entries[*row] < -floor) {
         return Some(row);
     }
-    let diagonal: Vec<f64> = diagonal_entries.iter().map(|value| value.max(floor)).collect();
-    let scale = |row: usize, column: usize| diagonal[row].sqrt() * diagonal[column].sqrt();
-    let mut coupled = false;
+    let positive_diagonal: Vec<f64> =
+        diagonal_entries.iter().map(|value| value.max(floor)).collect();
+    let scale = |row: usize, column: usize| {
+        positive_diagonal[row].sqrt() * positive_diagonal[column].sqrt()
+    };
+    let mut is_diagonal = true;
     for (row, column, value) in matrix.entries() {
         if row != column && value != 0.0 {
-            coupled = true;
+            is_diagonal = false;
             if value.abs() > (1.0 + tolerance) * scale(row, column) {
                 return Some(if diagonal_entries[column] < diagonal_entries[row] {
                     column
@@ -294,16 +316,16 @@ pub fn indefinite_row(
             }
         }
     }
-    if !coupled {
+    if is_diagonal {
         return None;
     }
-    let scaled = SparseMatrix::by_rows(matrix.order(), |row, entries| {
+    let scaled_matrix = SparseMatrix::by_rows(matrix.order(), |row, entries| {
         let off_diagonal =
             matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
         entries.extend(off_diagonal.map(|(column, value)| (column, value / scale(row, column))));
         entries.push((row, 1.0 + tolerance));
     });
-    SparseFactor::cholesky(&by_columns(&scaled), elimination).err()
+    SparseFactor::cholesky(&by_columns(&scaled_matrix), elimination).err()
 }
 
 #[cfg(test)]
@@ -340,23 +362,23 @@ mod tests {
         }
     }
 
-    /// Chains with one spring of the opposite sign: indefinite, although every diagonal entry is positive.
+    /// A chain with one negative spring is indefinite, although every diagonal entry is positive.
     #[test]
-    fn indefinite_matrices_are_told_by_a_row() {
-        for (negative, tolerance) in [(None, 1e-12), (Some(17), 1e-12), (Some(17), 1e-6)] {
+    fn indefinite_matrices_have_an_indefinite_row() {
+        for (negative_spring, tolerance) in [(None, 1e-12), (Some(17), 1e-12), (Some(17), 1e-6)] {
             let mut chain = Triplets::new(40);
             chain.add(0, 0, 5.0e6);
             for i in 1..40 {
-                chain.add_spring(i - 1, i, if Some(i) == negative { -1.0e5 } else { 4.0e6 });
+                chain.add_spring(i - 1, i, if Some(i) == negative_spring { -1.0e5 } else { 4.0e6 });
             }
             let matrix = SparseMatrix::new("test", &chain).unwrap();
             assert_eq!(
                 indefinite_row(&matrix, tolerance, 1e-6, &Elimination::default()).is_some(),
-                negative.is_some()
+                negative_spring.is_some()
             );
             assert!(matrix.diagonal().iter().all(|k| *k > 0.0));
         }
-        let rows = |entries: &[(usize, usize, f64)]| {
+        let row_of_entries = |entries: &[(usize, usize, f64)]| {
             let mut matrix = Triplets::new(3);
             for &(i, j, value) in entries {
                 matrix.add(i, j, value);
@@ -364,31 +386,33 @@ mod tests {
             let matrix = SparseMatrix::new("test", &matrix).unwrap();
             indefinite_row(&matrix, 1e-6, 1e-12, &Elimination::default())
         };
-        assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
-        assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
-        assert_eq!(rows(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
+        assert_eq!(row_of_entries(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
+        assert_eq!(row_of_entries(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
+        assert_eq!(
+            row_of_entries(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]),
+            Some(0)
+        );
         // The row of the most negative entry is returned.
-        assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
-        // An entry below the floor counts as rounding; just above the floor it does not.
-        for (value, found) in [(0.99e-12, None), (1.01e-12, Some(1))] {
-            assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -value)]), found);
+        assert_eq!(row_of_entries(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
+        // A negative entry is a rounding error below the floor, and an error above it.
+        for (value, expected_row) in [(0.99e-12, None), (1.01e-12, Some(1))] {
+            assert_eq!(row_of_entries(&[(0, 0, 1.0), (1, 1, -value)]), expected_row);
         }
-        for (value, found) in [(0.99e-6, None), (1.01e-6, Some(1))] {
-            assert_eq!(rows(&[(0, 0, 1.0), (0, 1, value), (1, 0, value)]), found);
+        for (value, expected_row) in [(0.99e-6, None), (1.01e-6, Some(1))] {
+            assert_eq!(row_of_entries(&[(0, 0, 1.0), (0, 1, value), (1, 0, value)]), expected_row);
         }
-        // Singular matrices are semi-definite: a row of zeros, a mass on a weighted sum of degrees of
-        // freedom.
-        assert_eq!(rows(&[(0, 0, 1.0)]), None);
-        assert_eq!(rows(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);
+        // Singular matrices may be semi-definite: with a row of zeros, or with one mass for a sum of degrees of freedom.
+        assert_eq!(row_of_entries(&[(0, 0, 1.0)]), None);
+        assert_eq!(row_of_entries(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);
     }
 
     #[test]
-    fn singular_and_bad_matrices_are_errors() {
-        let mut zero = Triplets::new(2);
-        zero.add(0, 0, 1.0);
-        assert!(matches!(SparseFactor::new("k", &zero), Err(Error::Singular { .. })));
-        zero.add(1, 2, 1.0);
-        assert!(matches!(SparseMatrix::new("k", &zero), Err(Error::Index { index: 2, .. })));
+    fn singular_and_invalid_matrices_are_errors() {
+        let mut singular = Triplets::new(2);
+        singular.add(0, 0, 1.0);
+        assert!(matches!(SparseFactor::new("k", &singular), Err(Error::Singular { .. })));
+        singular.add(1, 2, 1.0);
+        assert!(matches!(SparseMatrix::new("k", &singular), Err(Error::Index { index: 2, .. })));
         let mut nan = Triplets::new(1);
         nan.add(0, 0, f64::NAN);
         assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));

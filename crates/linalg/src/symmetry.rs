@@ -2,56 +2,58 @@
 
 use super::matrix::SparseMatrix;
 
-/// A stored entry a_ij, and a_ji.
+/// Stored entry a_ij with its mirrored entry a_ji.
 struct MirroredEntry {
     row: usize,
     column: usize,
     value: f64,
-    mirrored: f64,
+    mirrored_value: f64,
 }
 
 impl SparseMatrix {
     /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
     pub fn asymmetry(&self) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut difference = 0.0_f64;
+        let mut max_value = 0.0_f64;
+        let mut max_difference = 0.0_f64;
         for entry in self.mirrored_entries() {
-            largest = largest.max(entry.value.abs());
-            difference = difference.max((entry.value - entry.mirrored).abs());
+            max_value = max_value.max(entry.value.abs());
+            max_difference = max_difference.max((entry.value - entry.mirrored_value).abs());
         }
-        if largest > 0.0 { difference / largest } else { 0.0 }
+        if max_value > 0.0 { max_difference / max_value } else { 0.0 }
     }
 
-    /// The pair whose difference exceeds the allowed one by the most.
+    /// The pair of mirrored entries with the largest excess of their difference; `None` without an excess.
     ///
-    /// `allowed(row, column)`: allowed difference. Returns row, column, and a_ij with a_ji.
+    /// `allowed_difference(row, column)`: the excess is the difference above it. Returns row, column, and a_ij with a_ji.
     pub fn unsymmetric_pair(
         &self,
-        allowed: impl Fn(usize, usize) -> f64,
+        allowed_difference: impl Fn(usize, usize) -> f64,
     ) -> Option<(usize, usize, [f64; 2])> {
-        let mut largest_excess = 0.0;
-        let mut found = None;
-        for MirroredEntry { row, column, value, mirrored } in self.mirrored_entries() {
-            let excess = (value - mirrored).abs() - allowed(row, column);
-            // The first of equal pairs.
-            if excess > largest_excess {
-                largest_excess = excess;
-                found = Some((row, column, [value, mirrored]));
+        let mut max_excess = 0.0;
+        let mut worst_pair = None;
+        for MirroredEntry { row, column, value, mirrored_value } in self.mirrored_entries() {
+            let excess = (value - mirrored_value).abs() - allowed_difference(row, column);
+            // Of equal excesses, the first pair is returned.
+            if excess > max_excess {
+                max_excess = excess;
+                worst_pair = Some((row, column, [value, mirrored_value]));
             }
         }
-        found
+        worst_pair
     }
 
-    /// All stored entries with their mirrored ones.
+    /// All stored entries with their mirrored entries.
     fn mirrored_entries(&self) -> impl Iterator<Item = MirroredEntry> {
-        // Rows ascend, so that the search in each column's row starts where the previous one ended.
-        let mut next = self.row_start.clone();
+        // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search there.
+        let mut search_starts = self.row_starts.clone();
         self.entries().map(move |(row, column, value)| {
-            let places = next[column]..self.row_start[column + 1];
-            next[column] += self.column[places.clone()].iter().take_while(|j| **j < row).count();
-            let is_stored = places.end > next[column] && self.column[next[column]] == row;
-            let mirrored = if is_stored { self.value[next[column]] } else { 0.0 };
-            MirroredEntry { row, column, value, mirrored }
+            let end = self.row_starts[column + 1];
+            let start = search_starts[column];
+            let index = start + self.columns[start..end].iter().take_while(|j| **j < row).count();
+            search_starts[column] = index;
+            let is_stored = index < end && self.columns[index] == row;
+            let mirrored_value = if is_stored { self.values[index] } else { 0.0 };
+            MirroredEntry { row, column, value, mirrored_value }
         })
     }
 }
@@ -63,23 +65,22 @@ mod tests {
 
     /// REFERENCE: the dense matrix.
     #[test]
-    fn entries_meet_their_mirrored_ones() {
+    fn asymmetry_is_that_of_the_dense_matrix() {
         let mut triplets = Triplets::new(7);
         (0..25).for_each(|k| triplets.add(k * k % 7, (5 * k + 2) % 7, k as f64 - 9.5));
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
         let mut dense = [[0.0; 7]; 7];
         matrix.entries().for_each(|(i, j, value)| dense[i][j] = value);
-        let mut largest = 0.0_f64;
-        let mut difference = 0.0_f64;
+        let mut max_value = 0.0_f64;
+        let mut max_difference = 0.0_f64;
         for (i, j, value) in matrix.entries() {
-            largest = largest.max(value.abs());
-            difference = difference.max((value - dense[j][i]).abs());
+            max_value = max_value.max(value.abs());
+            max_difference = max_difference.max((value - dense[j][i]).abs());
         }
-        assert!(difference > 0.0);
-        assert_eq!(matrix.asymmetry(), difference / largest);
-        let found = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
-        let pair = found.2;
-        assert_eq!(pair, [dense[found.0][found.1], dense[found.1][found.0]]);
-        assert_eq!((pair[0] - pair[1]).abs(), difference);
+        assert!(max_difference > 0.0);
+        assert_eq!(matrix.asymmetry(), max_difference / max_value);
+        let (row, column, pair) = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
+        assert_eq!(pair, [dense[row][column], dense[column][row]]);
+        assert_eq!((pair[0] - pair[1]).abs(), max_difference);
     }
 }

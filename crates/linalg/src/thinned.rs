@@ -1,77 +1,82 @@
-//! A square matrix with products by its diagonal, its sparse entries or FFT where that is cheaper.
+//! Square matrix whose products use its diagonal, its sparse entries or Fourier transforms, if these are cheaper.
 
 use std::ops::Deref;
 
 use super::{LatticeProduct, LatticeScratch, SparseMatrix, Triplets, dense_multiply_add};
 
-/// Smallest number of elements on a lattice for which products transform along the surface.
+/// Smallest number of elements on a lattice for which products by Fourier transforms are faster than dense products.
 const MIN_LATTICE_ELEMENTS: usize = 36;
 
-/// A square matrix: all entries, row by row, or a diagonal.
+/// Smallest number of entries for each nonzero entry for which a sparse copy is used.
 ///
-/// If most entries are zero, products use a sparse copy of the others. For three components of many elements on a
-/// lattice, products use Fourier transforms along the surface.
+/// A product with a sparse entry costs about as much as products with four dense entries.
+const MIN_ENTRIES_PER_NONZERO: usize = 8;
+
+/// Square matrix, stored as all entries row by row, or as a diagonal.
 ///
-/// As a slice it is all entries, or the diagonal of a diagonal matrix.
+/// If most entries are zero, products use a sparse copy of the nonzero entries. For three components of many elements on
+/// a lattice, products use Fourier transforms along the surface.
+///
+/// The matrix dereferences to a slice of all entries, or of the diagonal of a diagonal matrix.
 #[derive(Debug)]
 pub struct CompressedMatrix {
     values: Vec<f64>,
     is_diagonal: bool,
-    entries: Option<SparseMatrix>,
+    /// Copy of the nonzero entries, if there are few.
+    sparse: Option<SparseMatrix>,
+    /// Product by Fourier transforms, if the matrix has the structure for it.
     lattice: Option<LatticeProduct>,
 }
 
 impl CompressedMatrix {
+    /// Matrix of these entries, row by row; products use a sparse copy if most entries are zero.
     pub fn new(values: Vec<f64>, order: usize) -> Self {
-        let nonzeros = values.iter().filter(|value| **value != 0.0).count();
-        // A product with a sparse entry costs about as much as with four dense ones.
-        let entries = (nonzeros <= values.len() / 8)
-            .then(|| {
-                let mut entries = Triplets::new(order);
-                for (place, &value) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                    entries.add(place / order, place % order, value);
-                }
-                SparseMatrix::new("step compliance of the ground", &entries).ok()
-            })
-            .flatten();
-        Self { entries, ..Self::full(values) }
+        let nonzeros = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
+        let mut sparse = None;
+        if nonzeros.clone().count() <= values.len() / MIN_ENTRIES_PER_NONZERO {
+            let entries = nonzeros.map(|(index, &value)| (index / order, index % order, value));
+            let triplets = Triplets::from_entries(order, entries);
+            sparse = SparseMatrix::new("step compliance of the ground", &triplets).ok();
+        }
+        Self { sparse, ..Self::dense(values) }
     }
 
-    /// Matrix of these entries, all of which are multiplied.
-    pub fn full(values: Vec<f64>) -> Self {
-        Self { values, is_diagonal: false, entries: None, lattice: None }
+    /// Matrix of these entries, row by row; products use all entries.
+    pub fn dense(values: Vec<f64>) -> Self {
+        Self { values, is_diagonal: false, sparse: None, lattice: None }
     }
 
     /// Diagonal matrix, of which only the diagonal is stored.
     pub fn of_diagonal(diagonal: Vec<f64>) -> Self {
-        Self { is_diagonal: true, ..Self::full(diagonal) }
+        Self { is_diagonal: true, ..Self::dense(diagonal) }
     }
 
-    /// The diagonal, if nothing else is stored.
+    /// The diagonal of a matrix that is stored as a diagonal; `None` for other matrices.
+    #[inline]
     pub fn as_diagonal(&self) -> Option<&[f64]> {
         self.is_diagonal.then_some(&self.values)
     }
 
-    /// Entry on the diagonal of this matrix of `order`.
-    pub fn diagonal(&self, order: usize, place: usize) -> f64 {
-        self.values[if self.is_diagonal { place } else { place * (order + 1) }]
+    /// Diagonal entry in a row of this matrix of `order`.
+    #[inline]
+    pub fn diagonal(&self, order: usize, row: usize) -> f64 {
+        self.values[if self.is_diagonal { row } else { row * (order + 1) }]
     }
 
     /// All entries of this matrix of `order`, row by row.
     pub fn filled(&self, order: usize) -> Vec<f64> {
         let Some(diagonal) = self.as_diagonal() else { return self.values.clone() };
-        let mut all = vec![0.0; order * order];
-        all.iter_mut()
-            .step_by(order + 1)
-            .zip(diagonal)
-            .for_each(|(entry, own)| *entry = *own);
-        all
+        let mut entries = vec![0.0; order * order];
+        for (entry, value) in entries.iter_mut().step_by(order + 1).zip(diagonal) {
+            *entry = *value;
+        }
+        entries
     }
 
     /// Matrix of three components of elements on a lattice, component by component.
     ///
-    /// `areas`: of the elements; `cells`: their columns and rows. Products use transforms only if blocks divided by
-    /// the area of their source depend on the offset alone.
+    /// `areas`: areas of the elements; `cells`: columns and rows of the elements. Products use Fourier transforms only if
+    /// blocks divided by the area of their source depend only on the offset.
     pub fn on_lattice(values: Vec<f64>, cells: &[[usize; 2]], areas: &[f64]) -> Self {
         let count = areas.len();
         let mut matrix = Self::new(values, 3 * count);
@@ -86,7 +91,7 @@ impl CompressedMatrix {
         matrix
     }
 
-    /// Cells of many elements whose blocks depend on the offset alone.
+    /// Columns and rows of the elements, if products use Fourier transforms.
     pub fn cells(&self) -> Option<&[[usize; 2]]> {
         self.lattice.as_ref().map(LatticeProduct::cells)
     }
@@ -96,27 +101,29 @@ impl CompressedMatrix {
         self.lattice.as_ref().map(LatticeProduct::scratch).unwrap_or_default()
     }
 
-    /// Number of values that a product reads.
-    pub fn stored(&self) -> usize {
-        self.entries.as_ref().map_or(self.values.len(), SparseMatrix::stored)
+    /// Number of entries that a product reads.
+    pub fn entry_count(&self) -> usize {
+        self.sparse.as_ref().map_or(self.values.len(), SparseMatrix::entry_count)
     }
 
     /// y ← y + A x.
     pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
         if let Some(diagonal) = self.as_diagonal() {
-            y.iter_mut().zip(diagonal).zip(x).for_each(|((y, own), x)| *y += own * x);
+            for ((y, value), x) in y.iter_mut().zip(diagonal).zip(x) {
+                *y += value * x;
+            }
             return;
         }
-        match &self.entries {
-            Some(entries) => entries.multiply_add(1.0, x, y),
+        match &self.sparse {
+            Some(sparse) => sparse.multiply_add(1.0, x, y),
             None => dense_multiply_add(&self.values, 1.0, x, y),
         }
     }
 
-    /// y ← y + A x, by transforms along the surface where that is faster.
+    /// y ← y + A x, by Fourier transforms along the surface if these are faster.
     pub fn multiply_add_with(&self, scratch: &mut LatticeScratch, x: &[f64], y: &mut [f64]) {
         match &self.lattice {
-            Some(lattice) if self.entries.is_none() => {
+            Some(lattice) if self.sparse.is_none() => {
                 let count = x.len() / 3;
                 lattice.multiply(x, scratch, |k, e, value| y[k * count + e] += value);
             }
@@ -128,6 +135,7 @@ impl CompressedMatrix {
 impl Deref for CompressedMatrix {
     type Target = [f64];
 
+    #[inline]
     fn deref(&self) -> &[f64] {
         &self.values
     }

@@ -1,16 +1,16 @@
-//! The container into which structures and elements write their matrices.
+//! Container into which structures and elements write their matrices.
 
 use crate::error::{Result, in_bounds, same_length};
 
-/// Square sparse matrix under construction: entries at the same place are summed.
+/// Square sparse matrix under construction: entries with equal indices are summed.
 ///
-/// Indices out of range and values that are not finite are recorded and reported as a typed
-/// error when the matrix is used, so that filling it never fails.
+/// Indices out of range and values that are not finite are stored. They give a typed error when the matrix is used, so
+/// that adding entries never fails.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triplets {
     order: usize,
     entries: Vec<(usize, usize, f64)>,
-    /// Offset of indices while a member of a group writes its block.
+    /// Offset of indices while a block is written, see [`Triplets::block`].
     shift: Option<usize>,
 }
 
@@ -37,7 +37,7 @@ impl Triplets {
         Self { order, entries: entries.into_iter().collect(), shift: None }
     }
 
-    /// Matrix of `order` rows and columns from all its `values`, row-major; zeros are left out.
+    /// Matrix of `order` rows and columns from all its `values`, row-major; zeros are omitted.
     ///
     /// ```
     /// use basemat::structure::Triplets;
@@ -51,14 +51,14 @@ impl Triplets {
     pub fn from_dense(order: usize, values: &[f64]) -> Result<Self> {
         same_length("dense matrix", values.len(), order.saturating_mul(order))?;
         let nonzeros = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
-        let entries = nonzeros.map(|(place, &value)| (place / order, place % order, value));
+        let entries = nonzeros.map(|(index, &value)| (index / order, index % order, value));
         Ok(Self::from_entries(order, entries))
     }
 
     /// Matrix of `order` rows and columns in compressed sparse rows, as SciPy's `csr_matrix` has them.
     ///
-    /// Row i has the entries `pointers[i]..pointers[i + 1]` of `columns` and `values`, in any order. Entries
-    /// at the same place are summed.
+    /// Row i has the entries `pointers[i]..pointers[i + 1]` of `columns` and `values`, in any order. Entries with equal
+    /// indices are summed.
     ///
     /// ```
     /// use basemat::structure::Triplets;
@@ -68,9 +68,9 @@ impl Triplets {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) unless there are `order + 1` row pointers, as many columns as values, and
-    /// the last pointer is their number; [`Error::Index`](crate::Error::Index) for a first pointer that is not zero,
-    /// one above the next, and a column that does not exist.
+    /// [`Error::Size`](crate::Error::Size) unless there are `order + 1` row pointers, equal numbers of columns and values,
+    /// and the last pointer is this number. [`Error::Index`](crate::Error::Index) if the first pointer is not zero, a
+    /// pointer is larger than the next one, or a column does not exist.
     pub fn from_csr(
         order: usize,
         pointers: &[usize],
@@ -95,28 +95,32 @@ impl Triplets {
     }
 
     /// Number of rows and columns.
+    #[inline]
     pub fn order(&self) -> usize {
         self.order
     }
 
     /// Adds `value` at (`row`, `column`).
+    #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.entries.push((self.shifted(row), self.shifted(column), value));
     }
 
-    /// Index in the whole matrix of an index in the block that is being written.
+    /// Index in the whole matrix of an index in the current block.
+    #[inline]
     fn shifted(&self, index: usize) -> usize {
         match self.shift {
             None => index,
             Some(shift) if index < self.order => index + shift,
-            // An index beyond the block must not become a valid index of the whole matrix.
+            // An index outside the block must not become a valid index of the whole matrix.
             Some(_) => usize::MAX,
         }
     }
 
     /// Adds a dense block (row-major) at rows and columns `indices`.
     ///
-    /// The block has `indices.len()` squared entries; entries missing from a shorter block are left out.
+    /// The block has `indices.len()` squared entries; a shorter block has only the first of them.
+    #[inline]
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
         for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
             for (column, &value) in indices.iter().zip(values) {
@@ -125,7 +129,8 @@ impl Triplets {
         }
     }
 
-    /// Adds a spring `stiffness` between two degrees of freedom.
+    /// Adds a spring of this `stiffness` between two degrees of freedom.
+    #[inline]
     pub fn add_spring(&mut self, first: usize, second: usize, stiffness: f64) {
         self.add(first, first, stiffness);
         self.add(second, second, stiffness);
@@ -135,8 +140,7 @@ impl Triplets {
 
     /// Adds `factor · l lᵀ`, the matrix of a spring or dashpot with the deformation l·u.
     ///
-    /// The row vector l is a `DofCombination` or a list of (degree of
-    /// freedom, weight) terms.
+    /// The row vector l is a `DofCombination` or a list of (degree of freedom, weight) terms.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
         let terms = row.as_ref();
         for &(i, a) in terms {
@@ -146,26 +150,27 @@ impl Triplets {
         }
     }
 
-    /// The entries so far, in the order in which they were added: (row, column, value).
+    /// The entries so far, in the order of their addition: (row, column, value).
+    #[inline]
     pub fn entries(&self) -> &[(usize, usize, f64)] {
         &self.entries
     }
 
-    /// Lets `write` fill the diagonal block of `order` rows that begins at row `first`.
+    /// Calls `write` with indices relative to a diagonal block: `order` rows from `first_row` on.
     #[doc(hidden)]
     pub fn block<T>(
         &mut self,
-        first: usize,
+        first_row: usize,
         order: usize,
         write: impl FnOnce(&mut Self) -> T,
     ) -> T {
         let outer_order = self.order;
         let outer_shift = self.shift;
-        let block_shift = Some(outer_shift.unwrap_or(0) + first);
+        let block_shift = Some(outer_shift.unwrap_or(0) + first_row);
         self.order = order;
         self.shift = block_shift;
         let result = write(self);
-        // If `write` replaced the triplets, they keep their order, which a later check finds.
+        // If `write` has replaced the triplets, their order is kept, and a later check of the order fails.
         if self.order == order && self.shift == block_shift {
             self.order = outer_order;
             self.shift = outer_shift;
@@ -173,7 +178,7 @@ impl Triplets {
         result
     }
 
-    /// Removes all entries, and keeps the memory allocated.
+    /// Removes all entries without releasing their memory.
     #[doc(hidden)]
     pub fn clear(&mut self) {
         self.entries.clear();
@@ -182,12 +187,12 @@ impl Triplets {
 
 /// Triplets whose order follows from the largest index.
 ///
-/// Rows without entries at the end are therefore lost; [`Triplets::from_entries`] keeps them.
+/// Empty rows at the end are therefore missing; [`Triplets::from_entries`] includes them.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
-        let largest = entries.iter().map(|&(row, column, _)| row.max(column)).max();
-        let order = largest.map_or(0, |index| index.saturating_add(1));
+        let max_index = entries.iter().map(|&(row, column, _)| row.max(column)).max();
+        let order = max_index.map_or(0, |index| index.saturating_add(1));
         Self { order, entries, shift: None }
     }
 }

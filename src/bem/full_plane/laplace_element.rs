@@ -129,7 +129,7 @@ fn add_pieces(
         if half_length <= 0.0 || decay > NEGLIGIBLE_EXPONENT {
             continue;
         }
-        let reach = gauss::reach([0.0, height], low, high)
+        let reach = gauss::ellipse_size([0.0, height], low, high)
             .min(exponential_reach(wave_number * half_length));
         match gauss::rule_for(reach) {
             Some(rule) => {

@@ -104,12 +104,12 @@ fn smooth_rules(
         passed = passed_with_wave;
         let front = ((c * begin - h.abs()) * (c * begin + h.abs())).sqrt();
         for point in [front, -front] {
-            space_reach = space_reach.min(gauss::reach([point, 0.0], ends[0], ends[1]));
+            space_reach = space_reach.min(gauss::ellipse_size([point, 0.0], ends[0], ends[1]));
         }
-        time_reach = time_reach.min(gauss::reach([largest_distance / c, 0.0], begin, end));
+        time_reach = time_reach.min(gauss::ellipse_size([largest_distance / c, 0.0], begin, end));
     }
     if passed == PassedWaves::Pressure {
-        space_reach = space_reach.min(gauss::reach([0.0, h], ends[0], ends[1]));
+        space_reach = space_reach.min(gauss::ellipse_size([0.0, h], ends[0], ends[1]));
     }
     if passed == PassedWaves::None {
         // Any rule integrates zero.

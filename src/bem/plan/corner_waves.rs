@@ -81,7 +81,7 @@ pub(super) struct WaveBuffers {
 impl CornerWaves {
     /// Smallest wavenumber at which the waves are accurate to rounding, 1/m.
     pub(super) fn min_wavenumber(lattice: &Lattice) -> f64 {
-        MIN_WAVENUMBER_SIDE / lattice.finest()
+        MIN_WAVENUMBER_SIDE / lattice.shorter_side()
     }
 
     /// Waves from `first_wavenumber` up to `last_wavenumber`, 1/m.

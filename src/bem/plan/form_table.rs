@@ -185,7 +185,7 @@ impl FormTable {
             waves: CornerWaves::new(lattice, 0.0, 0.0),
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
-        let side = lattice.finest();
+        let side = lattice.shorter_side();
         let cell_count = (lattice.counts[0] * lattice.counts[1]) as f64;
         let max_k = (MIN_K_SIDE / side).max(top_layer_wavenumber).max(MIN_K_PER_ROOT * max_root);
         // The error beyond K* is about q₂ K*⁻⁵. Compliances decrease like 1/|√q₂| from |√q₂| = 2/side on.
@@ -228,7 +228,7 @@ impl FormTable {
 
     /// Number of panels up to K for a |√q₂|.
     pub(super) fn panels_to_k(&self, root: f64) -> usize {
-        let resolved_wavenumber = MIN_K_SIDE / self.lattice.finest();
+        let resolved_wavenumber = MIN_K_SIDE / self.lattice.shorter_side();
         let min_k = resolved_wavenumber.max(self.top_layer_wavenumber).max(MIN_K_PER_ROOT * root);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let count = (min_k / self.panel_width).ceil() as usize;
@@ -252,7 +252,7 @@ impl FormTable {
 
     /// Wavenumber κ that scales the tail integrals, 1/m.
     pub(super) fn wavenumber_scale(&self) -> f64 {
-        1.0 / self.lattice.finest()
+        1.0 / self.lattice.shorter_side()
     }
 
     /// Computes forms at all points, from the last panel to the first, and the integrals beyond each K.

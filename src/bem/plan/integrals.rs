@@ -193,7 +193,7 @@ impl CellIntegrals {
             max_root = max_root.max(ground.root());
         }
         let table = FormTable::new(lattice, max_root, top_layer_wavenumber(profile))?;
-        Ok(Self { table, shorter_side: lattice.finest(), tolerance })
+        Ok(Self { table, shorter_side: lattice.shorter_side(), tolerance })
     }
 
     /// Overwrites `buffers.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.

@@ -33,7 +33,7 @@ pub(crate) fn solve(
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
-    let mut soil = CompressedMatrix::full(Vec::new());
+    let mut soil = CompressedMatrix::dense(Vec::new());
     if parts.builder.is_static() {
         soil = compliance(parts)?;
         let loads = loads(parts, assembled)?;
@@ -95,7 +95,7 @@ pub(crate) fn compliance(parts: &Parts) -> Result<CompressedMatrix> {
     let mut soil = vec![0.0; parts.elements.layout().square()];
     parts.ground.static_compliance(&mut soil)?;
     parts.elements.refer_inside(&mut soil);
-    Ok(CompressedMatrix::full(soil))
+    Ok(CompressedMatrix::dense(soil))
 }
 
 /// Weight and loads at t = 0; empty without a static state.

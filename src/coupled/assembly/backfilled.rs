@@ -38,7 +38,7 @@ pub(super) fn state(
     for row in &places {
         soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
     }
-    let soil = CompressedMatrix::full(soil);
+    let soil = CompressedMatrix::dense(soil);
     let shared = RefCell::default();
     let on_floor = Standing { assembled: &assembled, soil: &soil, shared: &shared, ..*stage };
 

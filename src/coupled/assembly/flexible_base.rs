@@ -28,7 +28,7 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
+use crate::geometry::{ContactElement, axis_name, far_ends, min_interval_count};
 use crate::linalg::{CompressedMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
@@ -172,13 +172,13 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, CompressedMatr
     if patch[0].parts().count() * patch.layout().len() > MAX_REFINED_ORDER {
         return None;
     }
-    let finer = patch.finer().ok()?;
+    let finer = patch.refined().ok()?;
     let mut soil = parts.ground.finer_compliance().ok()??;
     if soil.len() != finer.layout().square() {
         return None;
     }
     finer.refer_inside(&mut soil);
-    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, CompressedMatrix::full(soil)))
+    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, CompressedMatrix::dense(soil)))
 }
 
 /// The face with the largest difference of its shape between two static states, and the difference.
@@ -267,7 +267,7 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let sides = patch.layout().axes().map(|axis| {
         let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
         let edges = far_ends(ends.iter().copied());
-        (edges[1] - edges[0], in_a_row(ends), axis)
+        (edges[1] - edges[0], min_interval_count(ends), axis)
     });
     let shorter = sides.min_by(|(one, ..), (other, ..)| one.total_cmp(other));
     let (_, count, axis) = shorter.unwrap_or_default();

@@ -221,7 +221,8 @@ impl<'a> Reduction<'a> {
         let stiffness_factor = c.displacement[0] + c.velocity[0] * beta;
         let terms = [(mass_factor, mass), (stiffness_factor, &self.assembled.stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
-        SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination).map(Box::new)
+        SparseFactor::with_elimination(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
+            .map(Box::new)
     }
 
     /// Responses over the steps of the run to forces that grow over `growth_steps` steps.
@@ -280,7 +281,7 @@ impl<'a> Reduction<'a> {
         let Assembled { mass, stiffness, .. } = self.assembled;
         let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
-        SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
+        SparseFactor::with_elimination(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
     }
 }
 

@@ -75,7 +75,7 @@ impl Stepped {
             Coordinates::Physical => Chosen::Physical(factored()?),
             Coordinates::Auto => {
                 let factor = factored()?;
-                let modes = cheaper_modes(assembled, factor.stored(), steps);
+                let modes = cheaper_modes(assembled, factor.entry_count(), steps);
                 modes.map_or(Chosen::Physical(factor), Chosen::Modes)
             }
             Coordinates::Modes => {
@@ -150,8 +150,8 @@ fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<M
     let n = assembled.dofs() as f64;
     let steps = steps as f64;
     let contact = assembled.base.layout().len();
-    let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
-    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
+    let entry_count: usize = assembled.matrices().into_iter().map(SparseMatrix::entry_count).sum();
+    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * entry_count) as f64;
     let modal = cost::MODE_AND_STEP * n + cost::MODE_AND_CONTACT * n * contact as f64;
     let computation = cost::ALL_MODES[0] * n.powi(2) + cost::ALL_MODES[1] * n.powi(3);
     let saves_time = modal * steps + computation < sparse * steps;

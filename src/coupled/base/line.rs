@@ -4,7 +4,7 @@ use super::faces::GAUSS_POINT_OFFSET;
 use super::transformation::{Terms, Weights, accumulate};
 use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
 use crate::bem::ContactElement;
-use crate::error::{Error, Result, short};
+use crate::error::{Error, Result, number_text};
 use crate::geometry::Patch;
 use crate::structure::{BaseNode, check_line, from_the_left};
 
@@ -109,7 +109,7 @@ impl NodesOnElement {
         let run =
             Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
         let [start, .., end] = run.places[..] else {
-            let center = element.center().map(short);
+            let center = element.center().map(number_text);
             let x = &center[0];
             let z = &center[2];
             let reason = format!(
@@ -123,10 +123,10 @@ impl NodesOnElement {
         if start - left <= slack && right - end <= slack {
             return Ok(run);
         }
-        let left = short(left);
-        let right = short(right);
-        let start = short(start);
-        let end = short(end);
+        let left = number_text(left);
+        let right = number_text(right);
+        let start = number_text(start);
+        let end = number_text(end);
         Err(Error::part(
             "ground",
             format!(

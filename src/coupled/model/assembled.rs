@@ -69,7 +69,7 @@ impl Assembled {
             at_rest = Some(SparseMatrix::sum("stiffness matrix", dofs, &terms)?);
         }
         // Masses and dampings may couple far fewer degrees of freedom: the stiffness chooses the order.
-        let elimination = Elimination::of(at_rest.as_ref().unwrap_or(&stiffness));
+        let elimination = Elimination::for_matrix(at_rest.as_ref().unwrap_or(&stiffness));
         let is_massive = check_mass(&mass, &elimination)?;
         if !structure.has_active_stiffness() {
             check_stiffness(&stiffness, &mass)?;
@@ -244,7 +244,8 @@ impl Assembled {
         let ending =
             if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = ending.as_ref().unwrap_or(&self.elimination);
-        let factor = SparseFactor::of(HeldBase::STIFFNESS_NAME, &matrix, elimination)?;
+        let factor =
+            SparseFactor::with_elimination(HeldBase::STIFFNESS_NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }

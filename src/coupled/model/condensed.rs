@@ -76,7 +76,7 @@ impl Condensed {
             is_massive: false,
             mass: Arc::new(SparseMatrix::new("mass at the base", &mass)?),
             damping: Arc::new(SparseMatrix::new("damping at the base", &Triplets::new(order))?),
-            stiffness: Arc::new(SparseMatrix::full(order, stiffness)),
+            stiffness: Arc::new(SparseMatrix::from_dense(order, stiffness)),
             at_rest: None,
             influence: Arc::new(whole.influence.converted(|vector| {
                 let place = |&(dof, r): &(usize, f64)| Some((dofs.binary_search(&dof).ok()?, r));

@@ -63,7 +63,7 @@ impl Model {
             Matrix::Diagonal(modes.damping.clone())
         } else {
             let coupled = modes.coupled_damping.clone();
-            Matrix::Sparse(Arc::new(SparseMatrix::full(count, coupled)))
+            Matrix::Sparse(Arc::new(SparseMatrix::from_dense(count, coupled)))
         };
         Self {
             coordinates: count,

@@ -109,7 +109,8 @@ impl Factor {
         tangent: &SparseMatrix,
     ) -> Result<Box<SparseFactor>> {
         let matrix = effective_stiffness(model, coefficients, tangent)?;
-        SparseFactor::of(EFFECTIVE_STIFFNESS_NAME, &matrix, &model.elimination).map(Box::new)
+        SparseFactor::with_elimination(EFFECTIVE_STIFFNESS_NAME, &matrix, &model.elimination)
+            .map(Box::new)
     }
 
     /// Inverts K_eff of modes, or factors it if the damping couples them.

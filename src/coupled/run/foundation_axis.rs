@@ -1,7 +1,7 @@
 //! Elements and largest forces of a foundation along an axis, for the resolution of its rocking.
 
 use crate::coupled::state::foundation::Foundation;
-use crate::geometry::{Patch, far_ends, in_a_row};
+use crate::geometry::{Patch, far_ends, min_interval_count};
 
 /// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
 ///
@@ -28,7 +28,7 @@ impl FoundationAxis {
     fn new(ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
         let edges = far_ends(ends.iter().copied());
         Self {
-            elements: in_a_row(ends),
+            elements: min_interval_count(ends),
             width: edges[1] - edges[0],
             static_moment,
             ..Self::default()

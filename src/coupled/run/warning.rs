@@ -3,7 +3,7 @@
 use crate::coupled::run::Quantity;
 use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning_text::{across, height, with_twice_as_many};
-use crate::error::{along, of_units};
+use crate::error::{axis_text, units_hint};
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -118,7 +118,7 @@ pub enum Warning {
         needed: f64,
     },
     /// Fewer elements under a foundation than its rocking stiffness needs.
-    #[error("elements{} under foundation {foundation}: {elements}, its rocking needs {needed}", along(*axis))]
+    #[error("elements{} under foundation {foundation}: {elements}, its rocking needs {needed}", axis_text(*axis))]
     FewElements {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -133,8 +133,8 @@ pub enum Warning {
     ///
     /// Between elements only the structure resists deformation of the base. It is softer there than the neglected
     /// soil, or not stiff enough relative to it.
-    #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}{}", along(*axis),
-        with_twice_as_many(*difference), of_units(*elements, *needed))]
+    #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}{}", axis_text(*axis),
+        with_twice_as_many(*difference), units_hint(*elements, *needed))]
     CoarseBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -151,7 +151,7 @@ pub enum Warning {
     ///
     /// That part of the base has no ground.
     #[error("foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
-        along(*axis))]
+        axis_text(*axis))]
     UncoveredBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,

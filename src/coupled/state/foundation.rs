@@ -167,7 +167,7 @@ impl Foundation {
         // Zero in the plane, without the sign of minus zero.
         self.moment_across = 0.0 - moment[1];
         self.torque = torque;
-        self.base_moment = footing.turn * moment[0];
+        self.base_moment = footing.rotation_sign * moment[0];
         let area = sums.area.max(f64::MIN_POSITIVE);
         self.uplifted_fraction = sums.open / area;
         self.mean_slip = sums.slip / area;

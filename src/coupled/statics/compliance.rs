@@ -37,7 +37,8 @@ impl Floating {
         let Assembled { stiffness, mass, .. } = assembled;
         let terms = [(1.0, &**stiffness), (1.0, tangent), (springs, mass)];
         let matrix = SparseMatrix::sum(STATIC_STIFFNESS_NAME, assembled.dofs(), &terms)?;
-        let factor = SparseFactor::of(STATIC_STIFFNESS_NAME, &matrix, &assembled.elimination)?;
+        let factor =
+            SparseFactor::with_elimination(STATIC_STIFFNESS_NAME, &matrix, &assembled.elimination)?;
         Ok(Self { springs, matrix: matrix.into(), factor })
     }
 

@@ -59,7 +59,7 @@ impl LoadedPart {
             return None;
         }
         // By the right-hand rule about y, a moment that lifts the right side is negative.
-        let moment = [-self.layout.turn() * self.moments[0], self.moments[1]][axis];
+        let moment = [-self.layout.rotation_sign() * self.moments[0], self.moments[1]][axis];
         Some(self.once_parted(StabilityError::Overturning {
             ends: self.ends(),
             across: self.ends_across(),

@@ -113,7 +113,7 @@ impl State {
             sums.open += foundation_sums.open;
             sums.slip += foundation_sums.slip;
             let lever = foundation.normal_force * footing.center[0];
-            let moment = foundation.base_moment + footing.turn * lever;
+            let moment = foundation.base_moment + footing.rotation_sign * lever;
             let forces = [foundation.base_shear, foundation.normal_force, moment];
             for (sum, force) in total.iter_mut().zip(forces) {
                 *sum += force;

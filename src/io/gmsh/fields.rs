@@ -211,7 +211,7 @@ impl<R: Read> MshFields<R> {
         if self.is_binary {
             self.position = self.text.len();
             let end = format!("$End{section}");
-            return match self.source.skip_behind(end.as_bytes()) {
+            return match self.source.skip_past(end.as_bytes()) {
                 Ok(true) => Ok(()),
                 Ok(false) => Err(self.fault(FileFault::missing(end))),
                 Err(fault) => Err(self.fault(fault)),

@@ -1,4 +1,4 @@
-//! Faults of files: records, meshes, matrices, convolution weights, tables of cases.
+//! Errors of files (records, meshes, matrices, convolution weights, tables of cases) and of checkpoints.
 
 use std::io::ErrorKind;
 
@@ -31,17 +31,17 @@ pub struct FileError {
     pub fault: FileFault,
 }
 
-/// Kind of a fault of a file, with the quantity, what was found and what is needed.
+/// Fault of a file, with the quantity, its value and the requirement.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileFault {
     /// The file cannot be opened or read.
     #[error("cannot be read: {}", system_message(*.0))]
     Unreadable(ErrorKind),
-    /// The file cannot be written; a file of that name is as it was.
+    /// The file cannot be written; an existing file is unchanged.
     #[error("cannot be written: {}", system_message(*.0))]
     Unwritable(ErrorKind),
-    /// The file has another format than the one that is read, or uses a part of it that is not read.
+    /// The file has another format, or uses a part of the format that is not supported.
     #[error("'{found}' instead of {needed}")]
     Format {
         /// Text of the file, cut to 80 characters, or a description of it.
@@ -51,13 +51,13 @@ pub enum FileFault {
     },
     /// The content differs from the content that was written.
     #[error(
-        "{quantity} does not agree with its check sum: damaged or changed by hand (delete it to have it made anew)"
+        "{quantity} does not agree with its check sum: damaged or changed by hand (delete the file to compute it again)"
     )]
     Damaged {
         /// Damaged part of the file.
         quantity: String,
     },
-    /// A quantity is not there, or has no value.
+    /// A quantity is missing, or has no value.
     #[error("there is no {quantity}")]
     Missing {
         /// Name of the quantity.
@@ -76,9 +76,43 @@ pub enum FileFault {
     /// The content is too large for the memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// The numbers can be read, but a constructor does not accept them.
+    /// The numbers can be read, but a constructor rejects them.
     #[error("{0}")]
     Unusable(Box<Error>),
+}
+
+/// Reason why a run could not be saved or resumed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// A part of the scene cannot save its state.
+    #[error("the {part} cannot save or restore its state")]
+    Unsupported {
+        /// The part.
+        part: &'static str,
+    },
+    /// The checkpoint has a format that this version does not read.
+    #[error("format {found}, but this version reads {needed}")]
+    Format {
+        /// Format of the checkpoint.
+        found: u32,
+        /// Format of this version.
+        needed: u32,
+    },
+    /// The checkpoint belongs to another scene.
+    #[error("made in another scene: the {quantity} differs")]
+    OtherScene {
+        /// The quantity that differs.
+        quantity: &'static str,
+    },
+    /// The contents are damaged, or were changed by hand.
+    #[error(
+        "{quantity}: damaged or changed by hand (wrong check sum, wrong number of values, or a value that is not finite)"
+    )]
+    Corrupt {
+        /// Quantity with the fault; the contents as a whole if the check sum is wrong.
+        quantity: &'static str,
+    },
 }
 
 impl FileFault {
@@ -98,7 +132,7 @@ impl FileFault {
         Self::value(format!("number of {items}"), found.to_string(), needed)
     }
 
-    /// A quantity that is not there.
+    /// A missing quantity.
     #[doc(hidden)]
     pub fn missing(quantity: impl Into<String>) -> Self {
         Self::Missing { quantity: quantity.into() }
@@ -117,7 +151,7 @@ impl FileFault {
     }
 }
 
-/// Beginning of a message: the file, and the line if it is one line's fault.
+/// Beginning of a message: the file, and the line unless `line` is 0.
 fn message_start(file: &str, line: usize, fault: &FileFault) -> String {
     match (line, fault) {
         (0, FileFault::Unreadable(_) | FileFault::Unwritable(_)) => format!("{file} "),
@@ -130,6 +164,6 @@ fn message_start(file: &str, line: usize, fault: &FileFault) -> String {
 fn system_message(kind: ErrorKind) -> String {
     match kind {
         ErrorKind::NotFound => "it does not exist".to_owned(),
-        other => other.to_string(),
+        kind => kind.to_string(),
     }
 }

@@ -1,14 +1,14 @@
 //! Errors of soils, of grounds and of mats in plan.
 
-use crate::error::short;
+use crate::error::number_text;
 
-/// Why waves do not travel through a soil as asked.
+/// Reason why a soil's waves cannot be computed as requested.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SoilError {
     /// A damping law that exists at real frequencies only.
     #[error(
-        "{law} damping of layer {layer} is not causal and cannot march in time (use \
+        "{law} damping of layer {layer} is not causal and cannot be used in the time domain (use \
          GeneralizedMaxwell::constant_q with the same ratio over the band of the motion)"
     )]
     NotCausal {
@@ -19,14 +19,14 @@ pub enum SoilError {
     },
     /// A damping law with a modulus that no passive soil has.
     ///
-    /// It is not finite, zero, or generates energy: Re(μ(s)/s) is negative although Re s > 0.
+    /// The modulus is not finite, is zero, or generates energy: Re(μ(s)/s) is negative although Re s > 0.
     #[error("{quantity} of layer {layer} is {value:e} at s = {} + {}i 1/s, but must be {needed}", s[0], s[1])]
     Modulus {
         /// Layer, from 1 at the surface.
         layer: usize,
         /// Name of the quantity: the modulus, or Re(μ/s)/|μ/s|.
         quantity: &'static str,
-        /// Its value.
+        /// Value of this quantity.
         value: f64,
         /// Real and imaginary part of s, 1/s.
         s: [f64; 2],
@@ -36,8 +36,8 @@ pub enum SoilError {
     /// An inclined wave without a first arrival.
     #[error(
         "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
-         but must be below {limit} s/m, that of its fastest waves there, to begin in time (its transfer \
-         functions exist)"
+         but must be below {limit} s/m, the slowness of the fastest waves in this layer, so that a first arrival \
+         exists (transfer functions exist without one)"
     )]
     BeyondCritical {
         /// Layer, from 1 at the surface; the half-plane counts as the last.
@@ -49,15 +49,15 @@ pub enum SoilError {
     },
 }
 
-/// Why the weights or the compliance of a ground cannot be computed or used.
+/// Reason why a ground's convolution weights or compliance cannot be computed or used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GroundError {
-    /// A wavenumber integral that bisection does not resolve: a pole lies on the path.
+    /// Bisection does not resolve a wavenumber integral: a pole lies on its path.
     #[error(
         "wavenumber integral at s = {re} + {im}i 1/s is not resolved near k = {wavenumber} 1/m \
-         (without damping the real frequency axis has poles on the path: give every layer some; \
-         stiffnesses may also differ by more than double precision carries)"
+         (without damping, poles lie on the path at real frequencies: give every layer some damping; \
+         or the stiffnesses of the layers differ by more than double precision resolves)"
     )]
     Unresolved {
         /// Re s, 1/s.
@@ -67,7 +67,9 @@ pub enum GroundError {
         /// Wavenumber at which bisection stopped, 1/m.
         wavenumber: f64,
     },
-    /// A time step, top layer or element too small relative to the contact: integrals would take too long.
+    /// A time step, top layer or element is too small relative to the contact.
+    ///
+    /// The wavenumber integrals would take too long.
     #[error(
         "contact of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, but at most {most:.3e} 1/m, {:.2} times \
          less, are allowed (increase the time step, or lower the frequencies, by this factor; or take a thicker top \
@@ -76,16 +78,16 @@ pub enum GroundError {
     TooFine {
         /// Length of the contact, or diagonal of the mat, m.
         span: f64,
-        /// Wavenumber up to which integrals would be computed, 1/m.
+        /// Upper end of the wavenumber integrals, 1/m.
         wavenumber: f64,
-        /// Largest wavenumber that is allowed, 1/m.
+        /// Largest allowed wavenumber, 1/m.
         most: f64,
     },
     /// A guided wave of undamped layers around a trench, near its cut-off frequency.
     #[error(
         "a guided wave of the layers around the trench begins near s = {re} + {im}i 1/s, and the model of the \
-         half-plane below does not absorb it (give every layer some damping: 0.2 % are enough; another frequency \
-         may also do)"
+         half-plane below does not absorb it (give every layer some damping, for example 0.2 %, or use another \
+         frequency)"
     )]
     GuidedWave {
         /// Re s, 1/s.
@@ -96,7 +98,7 @@ pub enum GroundError {
     /// A boundary equation whose perturbations grow from step to step.
     #[error(
         "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
-         fastest by {growth_per_step:.1e} per step (take a longer step or another kernel, or allow it)"
+         fastest by {growth_per_step:.1e} per step (use a longer time step or another kernel, or allow the growth)"
     )]
     Unstable {
         /// Factor minus one by which the fastest mode grows in a step.
@@ -106,50 +108,50 @@ pub enum GroundError {
     },
 }
 
-/// Why a mat in plan cannot be divided into cells, or its cells are too large.
+/// Reason why a mat in plan cannot be divided into cells, or needs smaller cells.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// A mat or a mask without a cell.
-    #[error("mat {mat} has no cell: cells are {} m x {} m (more of them help)", short(pitch[0]), short(pitch[1]))]
+    #[error("mat {mat} has no cell: cells are {} m x {} m (use more cells)", number_text(pitch[0]), number_text(pitch[1]))]
     NoCells {
         /// Mat, from 0 in the order of its first face.
         mat: usize,
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Two faces that overlap, so that a part of the base would touch the ground twice.
+    /// Two faces overlap, so that their common area would count twice.
     #[error(
         "faces {} and {} overlap by {} m2 (give each part of the base once; faces of one mat share corners)",
-        faces[0], faces[1], short(*area)
+        faces[0], faces[1], number_text(*area)
     )]
     Overlap {
         /// Numbers of the two faces.
         faces: [usize; 2],
-        /// Area that they share, m².
+        /// Area of the overlap, m².
         area: f64,
     },
-    /// Faces too narrow for their cells.
+    /// The faces are too narrow for their cells.
     #[error(
-        "cells inside the faces have an area of {} m2, but the faces together one of {} m2: the faces are too narrow for \
-         cells of {} m x {} m (at most 1 % may differ)",
-        short(*cells),
-        short(*faces),
-        short(pitch[0]),
-        short(pitch[1])
+        "cells inside the faces have an area of {} m2, but the faces together have {} m2: the faces are too narrow for \
+         cells of {} m x {} m (the areas may differ by at most 1 %)",
+        number_text(*cells),
+        number_text(*faces),
+        number_text(pitch[0]),
+        number_text(pitch[1])
     )]
     Uncovered {
         /// Area of the faces, m².
         faces: f64,
-        /// Area of the cells that is inside the outline, m².
+        /// Area of the cells inside the outline, m².
         cells: f64,
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Mats that share a cell, or have cells side by side.
+    /// Two mats share a cell, or have adjacent cells.
     #[error(
-        "mats {} and {} are closer to each other than one cell of {} m x {} m (more cells help; faces of one mat \
-         share corners)", mats[0], mats[1], short(pitch[0]), short(pitch[1])
+        "mats {} and {} are closer to each other than one cell of {} m x {} m (use more cells; faces of one mat \
+         share corners)", mats[0], mats[1], number_text(pitch[0]), number_text(pitch[1])
     )]
     TooClose {
         /// Numbers of the two mats, from 0 in the order of their first faces.
@@ -157,13 +159,13 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Cells that do not resolve the waves of a frequency.
+    /// The cells do not resolve the waves of a frequency.
     #[error(
-        "cells of {} m are too large for {} Hz: shear waves at the surface are {} m long there, \
-         and at least {needed} cells are needed in one",
-        short(*cell),
-        short(*frequency),
-        short(*wavelength)
+        "cells of {} m are too large for {} Hz: shear waves at the surface are {} m long at this frequency, \
+         and at least {needed} cells are needed in one wavelength",
+        number_text(*cell),
+        number_text(*frequency),
+        number_text(*wavelength)
     )]
     CoarseCells {
         /// Longer side of a cell, m.

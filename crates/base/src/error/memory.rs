@@ -1,9 +1,8 @@
-//! Limit of memory for sizes that the caller states as numbers, checked before allocation.
+//! Memory limit for sizes that the caller states as numbers, checked before allocation.
 
 /// A size that needs more memory than is allowed; nothing was allocated.
 ///
-/// The limit is [`memory_limit`], for a convolution history
-/// `HistoryOptions::memory`.
+/// The limit is [`memory_limit`]; a convolution history has the limit `HistoryOptions::memory`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "{quantity}: {asked} would take about {} of memory, but at most {} are allowed \
@@ -13,37 +12,41 @@
 pub struct MemoryError {
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// Number in the request.
+    /// Requested number.
     pub asked: f64,
     /// Estimated memory for this number, bytes.
     pub needed: f64,
     /// The limit, bytes.
     pub limit: f64,
-    /// Remedies.
+    /// Ways to need less memory.
     pub remedy: &'static str,
 }
 
-fn bytes_text(number: f64) -> String {
-    if number < 1e6 {
-        format!("{:.1} kB", number / 1e3)
-    } else if number < 1e9 {
-        format!("{:.1} MB", number / 1e6)
-    } else if number < 1e15 {
-        format!("{:.1} GB", number / 1e9)
+/// Number of bytes from which the text has an exponent.
+const EXPONENT_BYTES: f64 = 1e15;
+
+/// A number of bytes with its unit.
+fn bytes_text(bytes: f64) -> String {
+    if bytes < 1e6 {
+        format!("{:.1} kB", bytes / 1e3)
+    } else if bytes < 1e9 {
+        format!("{:.1} MB", bytes / 1e6)
+    } else if bytes < EXPONENT_BYTES {
+        format!("{:.1} GB", bytes / 1e9)
     } else {
-        format!("{:.0e} GB", number / 1e9)
+        format!("{:.0e} GB", bytes / 1e9)
     }
 }
 
-/// Largest memory of one part, bytes: parts of usual models take less, and a mistyped number would take more.
+/// Largest memory of one part, bytes: more than usual models need, less than a mistyped number would need.
 const MEMORY_LIMIT: u64 = 8 << 30;
 
-/// Memory limit for the size of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.
+/// Memory limit of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.
 ///
 /// Sizes stated as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
-/// record, convolution weights of layered ground) are compared with it before anything is allocated; a
-/// [`MemoryError`] states the memory that they would take. The estimate is for each part alone, not a count of all
-/// memory of a program.
+/// record, convolution weights of layered ground) are compared with this limit before allocation; a
+/// [`MemoryError`] states the memory that they would need. The estimate is for each part alone, not for the whole
+/// program.
 ///
 /// ```
 /// use basemat::bem::Strip;
@@ -88,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_told_in_their_units() {
+    fn bytes_are_printed_with_their_units() {
         assert_eq!(
             message(4.84e9),
             "rows: 100000 would take about 4.8 GB of memory, but at most 4.3 GB are allowed \

@@ -4,7 +4,6 @@
 //! complete, and printed with its chain of sources nothing occurs twice. A field called `source` is therefore
 //! written `r#source`, which `thiserror` does not treat as a source.
 
-mod checkpoint;
 mod file;
 mod ground;
 pub mod memory;
@@ -14,19 +13,18 @@ mod stability;
 mod step;
 mod sweep;
 
-pub use checkpoint::CheckpointError;
-pub use file::{FileError, FileFault};
+pub use file::{CheckpointError, FileError, FileFault};
 pub use ground::{GroundError, PlanError, SoilError};
 #[allow(deprecated, reason = "the path stays for one release")]
 pub use memory::set_memory_limit;
 pub use memory::{MemoryError, memory_limit};
 pub use progress::{Observer, Progress, ProgressReporter, unobserved};
 pub use requirement::{
-    all_finite, at_least, damping_ratio, finite, in_bounds, in_brackets, names, not_finite,
-    not_negative, positive, require, require_part, same_length, short,
+    all_finite, at_least, damping_ratio, finite, first_not_finite, in_bounds, not_negative,
+    number_text, point_text, positive, require, require_part, same_length, valid_names_text,
 };
 pub use stability::{CoarseBaseError, StabilityError, StructureError};
-pub use stability::{along, of_units};
+pub use stability::{axis_text, units_hint};
 pub use step::{LawError, StepError};
 pub use sweep::{CaseError, SweepError};
 
@@ -42,7 +40,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[non_exhaustive]
 pub enum Error {
     /// A number out of its range (NaN and infinities included).
-    #[error("{quantity} is {}, but must be {needed}", short(*.value))]
+    #[error("{quantity} is {}, but must be {needed}", number_text(*.value))]
     Input {
         /// Name of the quantity.
         quantity: &'static str,
@@ -51,12 +49,12 @@ pub enum Error {
         /// Requirement.
         needed: &'static str,
     },
-    /// A number of a list that is NaN or infinite.
+    /// A list with an entry that is NaN or infinite.
     #[error("{quantity} is not finite: entry {index} is {value}")]
     NotFinite {
         /// Name of the list.
         quantity: &'static str,
-        /// Place in the list, from 0: a degree of freedom, or the number of a load.
+        /// Index of the entry, from 0: a degree of freedom, or the number of a load.
         index: usize,
         /// The value.
         value: f64,
@@ -71,7 +69,7 @@ pub enum Error {
         /// Required length.
         needed: usize,
     },
-    /// A size that would not fit into memory.
+    /// A size that needs more memory than is allowed.
     #[error(transparent)]
     Memory(#[from] MemoryError),
     /// An index that points outside its list.
@@ -88,13 +86,13 @@ pub enum Error {
     #[error(transparent)]
     File(#[from] FileError),
     /// A name that does not exist.
-    #[error("there is no {quantity} '{name}'{}", names(.known))]
+    #[error("there is no {quantity} '{name}'{}", valid_names_text(.known))]
     Name {
         /// Kind of the item.
         quantity: &'static str,
         /// The unknown name.
         name: String,
-        /// The names that are known.
+        /// The names that exist.
         known: Vec<String>,
     },
     /// A name that occurs more than once.
@@ -105,7 +103,7 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A fault of one of several items: of a probe, a layer, an element, a parameter.
+    /// A fault of one item, such as a probe, a layer, an element or a parameter.
     #[error("{item}: {source}")]
     Item {
         /// The item, with its name or number.
@@ -116,7 +114,7 @@ pub enum Error {
     /// A point without a node.
     #[error(
         "no node at {}: the nearest, at {}, is {distance} m away",
-        in_brackets(point, &[*point, *nearest]), in_brackets(nearest, &[*point, *nearest])
+        point_text(point, &[*point, *nearest]), point_text(nearest, &[*point, *nearest])
     )]
     NoNode {
         /// Coordinates of the point, m.
@@ -126,7 +124,7 @@ pub enum Error {
         /// Distance to it, m.
         distance: f64,
     },
-    /// A part of the scene that is missing, or does not fit another part.
+    /// A part of the scene is missing, or contradicts another part.
     #[error("{quantity}: {needed}")]
     Scene {
         /// Name of the part.
@@ -134,12 +132,12 @@ pub enum Error {
         /// Requirement.
         needed: &'static str,
     },
-    /// A part that the user wrote and that does not accept the scene, a file or a checkpoint: see [`Error::part`].
+    /// A part that the user wrote rejects the scene, a file or a checkpoint: see [`Error::part`].
     #[error("{part}: {reason}")]
     Part {
         /// Name of the part.
         part: String,
-        /// Reason that the part gives.
+        /// Reason that the part states.
         reason: String,
     },
     /// A matrix that cannot be factored.
@@ -150,19 +148,19 @@ pub enum Error {
         /// Order of the matrix.
         order: usize,
     },
-    /// A matrix with which a motion would gain energy without end.
+    /// A matrix that is not positive semi-definite: motions would grow without limit.
     ///
-    /// It has negative mass or damping, or columns above their buckling load.
+    /// The cause is a negative mass or damping, or a column above its buckling load.
     #[error(
-        "{matrix} is not positive semi-definite: it shows at row {row}, which has {diagonal:e} on the \
-         diagonal"
+        "{matrix} is not positive semi-definite: its factorisation fails at row {row}, whose diagonal entry is \
+         {diagonal:e}"
     )]
     Indefinite {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Row, and degree of freedom, at which the factorisation shows it.
+        /// Row (degree of freedom) at which the factorisation fails.
         row: usize,
-        /// Entry on the diagonal there.
+        /// Diagonal entry of this row.
         diagonal: f64,
     },
     /// A matrix that must be symmetric.
@@ -171,16 +169,16 @@ pub enum Error {
     Unsymmetric {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Row of the first of two entries that differ.
+        /// Row of an entry that differs from its mirrored entry.
         row: usize,
-        /// Its column.
+        /// Column of this entry.
         column: usize,
-        /// Both entries.
+        /// This entry, and the mirrored entry.
         entries: [f64; 2],
     },
-    /// A matrix of the step too ill-conditioned for double precision.
+    /// A matrix of a time step is too ill-conditioned for double precision.
     #[error(
-        "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; \
+        "{matrix}: condition about {condition:.1e}, but double precision allows {limit:.0e}; \
          cause: {quantity}, {ratio:.1e}"
     )]
     IllConditioned {
@@ -192,22 +190,22 @@ pub enum Error {
         limit: f64,
         /// Cause.
         quantity: &'static str,
-        /// Size of the cause.
+        /// Value of the cause.
         ratio: f64,
     },
-    /// The static state under the structure's weight was not found.
+    /// The iteration for the static state under the weight did not converge.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:.2e} of the load \
-         (loads are balanced and the structure is not a mechanism: check whether a part of it, or of its soil, is loaded \
-         beyond its capacity)"
+         (loads are balanced and the structure is not a mechanism: check whether a part of the structure, or of its \
+         soil, is loaded beyond its capacity)"
     )]
     Preload {
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
-        /// Last change, relative to the load.
+        /// Change in the last iteration, relative to the load.
         residual: f64,
     },
-    /// Weight and loads at t = 0 that cannot be carried, and the reason.
+    /// Weight and loads at t = 0 have no stable equilibrium, and the reason.
     #[error("the structure cannot stand: {0}")]
     Stability(Box<StabilityError>),
     /// A flexible base with too few contact elements for its static state.
@@ -219,28 +217,32 @@ pub enum Error {
     /// A structure that cannot stand on a ground, whatever its loads.
     #[error(transparent)]
     Structure(#[from] StructureError),
-    /// An accuracy that is not reached.
-    #[error("{quantity}: relative error {reached:e}, but {tolerance:e} was asked for ({remedy})")]
+    /// A required accuracy was not reached.
+    #[error(
+        "{quantity}: relative error {reached:e}, but at most {tolerance:e} is allowed ({remedy})"
+    )]
     Accuracy {
         /// Name of the approximation.
         quantity: &'static str,
         /// Smallest relative error that was reached.
         reached: f64,
-        /// Relative error that is allowed.
+        /// Largest allowed relative error.
         tolerance: f64,
         /// Circumstances and remedies.
         remedy: String,
     },
-    /// Convolution weights or their exponentials that could generate energy, so that runs could grow.
+    /// Convolution weights that could generate energy, so that runs could grow.
     #[error(
-        "{quantity} is not passive: least eigenvalue {margin:e}, but at least {allowed:e} is needed, at {angle} radians \
+        "{quantity} is not passive: smallest eigenvalue {margin:e}, but at least {allowed:e} is needed, at {angle} radians \
          per step on the circle |z| = {radius} (a smaller tolerance helps)"
     )]
     NotPassive {
         /// Name of the operator.
         quantity: &'static str,
-        /// Least eigenvalue of its Hermitian part: of exponentials relative to the step compliance, of weights relative
-        /// to its trace.
+        /// Smallest eigenvalue of the operator's Hermitian part.
+        ///
+        /// It is relative to the step compliance for exponentials, and to the trace of the operator for convolution
+        /// weights.
         margin: f64,
         /// Smallest accepted value.
         allowed: f64,
@@ -249,10 +251,10 @@ pub enum Error {
         /// Radius of the circle.
         radius: f64,
     },
-    /// A call that its [`Observer`] stopped; everything is as before the call.
+    /// An [`Observer`] stopped the call; the state is as before the call.
     #[error("stopped by its observer: {0}")]
     Stopped(Progress),
-    /// A soil through which waves do not travel as requested.
+    /// A soil whose waves cannot be computed as requested.
     #[error(transparent)]
     Soil(#[from] SoilError),
     /// A ground that cannot be computed or used.
@@ -268,18 +270,18 @@ pub enum Error {
     #[error("checkpoint: {0}")]
     Checkpoint(CheckpointError),
     /// A time step that could not be solved; the simulation stays at the last accepted step.
-    #[error("step {step} (t = {} s): {source}", short(*.time))]
+    #[error("step {step} (t = {} s): {source}", number_text(*.time))]
     Step {
         /// Number of the step that failed, from 1.
         step: usize,
-        /// Time at its end, s.
+        /// Time at the end of this step, s.
         time: f64,
         /// Failure of the step.
         r#source: StepError,
     },
 }
 
-// `#[from]` would make them sources, whose texts the error's own text contains.
+// `#[from]` would make these causes sources, and chains of sources would print their texts twice.
 
 impl From<CheckpointError> for Error {
     fn from(error: CheckpointError) -> Self {

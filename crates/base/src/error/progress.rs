@@ -5,24 +5,23 @@ use std::ops::ControlFlow;
 
 use super::{Error, Result};
 
-/// Progress of a long call: the finished parts of its work, and all parts.
+/// Progress of a long call: the number of finished parts, and of all parts.
 ///
-/// `done` never falls, and ends at `total`, which does not change during a call. All parts take about the same
+/// `done` never decreases, and ends at `total`, which does not change during a call. All parts take about the same
 /// time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
     /// Name of the computation.
     pub task: &'static str,
-    /// Parts that are done.
+    /// Number of finished parts.
     pub done: usize,
-    /// All parts.
+    /// Number of all parts.
     pub total: usize,
 }
 
 impl Progress {
-    /// Progress of one of the library's own computations.
-    /// Reporter for a computation of `total` parts, called `task` in its progress.
+    /// Progress of a computation of the library.
     #[doc(hidden)]
     pub fn new(task: &'static str, done: usize, total: usize) -> Self {
         Self { task, done, total }
@@ -40,8 +39,8 @@ impl fmt::Display for Progress {
 ///
 /// It is called on the calling thread, at least every half second on meshes of up to some hundred elements, and
 /// more often if parts are short: an observer that draws should check the time. After [`ControlFlow::Break`] the
-/// call returns [`Error::Stopped`], and everything is as before the call; later calls return the same to the last
-/// bit.
+/// call returns [`Error::Stopped`], and the state is as before the call; later calls return the same results to the
+/// last bit.
 ///
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
@@ -64,7 +63,7 @@ impl fmt::Display for Progress {
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Before a run, to observe the computation of its weights:
+/// Before a run, the computation of its convolution weights can be observed:
 ///
 /// ```
 /// use std::ops::ControlFlow::{Break, Continue};
@@ -86,7 +85,7 @@ impl fmt::Display for Progress {
 ///     .interface(Coulomb::new(0.4)?)
 ///     .motion(el_centro_1940())
 ///     .build()?;
-/// // A key pressed half way: nothing has changed, and the weights that are there stay.
+/// // Stopped halfway: the simulation is unchanged, and the weights computed so far are kept.
 /// let stopped = simulation.prepare(300, &mut |progress| {
 ///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
 /// });
@@ -95,7 +94,7 @@ impl fmt::Display for Progress {
 ///     eprint!("\r{progress}");
 ///     Continue(())
 /// })?;
-/// simulation.run(300, |_| ())?; // All weights are there.
+/// simulation.run(300, |_| ())?; // All weights are already computed.
 /// # Ok::<(), Error>(())
 /// ```
 pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
@@ -130,7 +129,7 @@ impl<'a> ProgressReporter<'a> {
         Self { observer: Some(observer), progress: Progress { task, done: 0, total } }
     }
 
-    /// Whether the progress is observed.
+    /// Whether there is an observer.
     #[doc(hidden)]
     pub fn has_observer(&self) -> bool {
         self.observer.is_some()
@@ -139,7 +138,7 @@ impl<'a> ProgressReporter<'a> {
     /// Reports that `done` parts are finished; `done` never decreases.
     ///
     /// # Errors
-    /// [`Error::Stopped`].
+    /// [`Error::Stopped`] if the observer stops the call.
     #[doc(hidden)]
     pub fn reach(&mut self, done: usize) -> Result<()> {
         let Some(observer) = &mut self.observer else { return Ok(()) };

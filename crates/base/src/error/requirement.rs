@@ -2,71 +2,75 @@
 
 use super::{Error, Result};
 
-/// `value`, or an error unless its requirement `holds`.
+/// Returns `value`, or an error unless `is_satisfied`.
 pub fn require(
     quantity: &'static str,
     value: f64,
-    holds: bool,
+    is_satisfied: bool,
     needed: &'static str,
 ) -> Result<f64> {
-    if holds { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
+    if is_satisfied { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
 }
 
-/// `value`, or an error unless it is finite and above zero.
+/// Returns `value`, or an error unless it is finite and above zero.
 pub fn positive(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value > 0.0, "finite and above zero")
 }
 
-/// `value`, or an error unless it is finite and not below zero.
+/// Returns `value`, or an error unless it is finite and not below zero.
 pub fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
 }
 
-/// `value`, or an error unless it is a damping ratio, a fraction of critical damping (5 % are 0.05).
+/// Returns `value`, or an error unless it is a damping ratio: a fraction of critical damping (5 % are 0.05).
 pub fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
 }
 
-/// `value`, or an error unless it is finite.
+/// Returns `value`, or an error unless it is finite.
 pub fn finite(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite(), "finite")
 }
 
 /// The first of `values` that is not finite, and its index.
-pub fn not_finite(values: &[f64]) -> Option<(usize, f64)> {
+pub fn first_not_finite(values: &[f64]) -> Option<(usize, f64)> {
     values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
 }
 
-/// Error if one of `values` is not finite.
+/// Returns an error if one of `values` is not finite.
 pub fn all_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
-    match not_finite(values) {
+    match first_not_finite(values) {
         None => Ok(()),
         Some((index, value)) => Err(Error::NotFinite { quantity, index, value }),
     }
 }
 
-/// Error unless `found == needed`.
+/// Returns an error unless the length `found` equals `needed`.
 pub fn same_length(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
     if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
 }
 
-/// Error unless `found >= needed`.
+/// Returns an error unless the length `found` is at least `needed`.
 pub fn at_least(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
     if found >= needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
 }
 
-/// `index`, or an error unless it is below `bound`.
+/// Returns `index`, or an error unless it is below `bound`.
 pub fn in_bounds(quantity: &'static str, index: usize, bound: usize) -> Result<usize> {
     if index < bound { Ok(index) } else { Err(Error::Index { quantity, index, bound }) }
 }
 
-/// Error unless the requirement of a part of a scene `holds`.
-pub fn require_part(quantity: &'static str, holds: bool, needed: &'static str) -> Result<()> {
-    if holds { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
+/// Returns an error for a part of a scene unless `is_satisfied`.
+pub fn require_part(
+    quantity: &'static str,
+    is_satisfied: bool,
+    needed: &'static str,
+) -> Result<()> {
+    if is_satisfied { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
 }
 
-/// A point for a message, without z if that is zero for all `points`, as in the plane.
-pub fn in_brackets([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
+/// Text of a point for a message, without z if z is zero for all `points`, as in the plane.
+pub fn point_text([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
     if points.iter().all(|point| point[2] == 0.0) {
         format!("({x}, {y})")
     } else {
@@ -74,24 +78,32 @@ pub fn in_brackets([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
     }
 }
 
-/// A number for a message, without rounding errors of its computation.
+/// Figures of a printed number.
+const PRINTED_FIGURES: usize = 6;
+/// A number that its rounding shortens to so many figures may be a round number plus a small difference.
+const ROUND_NUMBER_FIGURES: usize = 3;
+/// Figures of such a number: they show the difference, but no rounding errors of a computation.
+const PRECISE_FIGURES: usize = 12;
+
+/// Text of a number for a message, without rounding errors of its computation.
 ///
-/// Whole numbers stay as they are. Others have six figures, or twelve if six would make them round.
-pub fn short(value: f64) -> String {
+/// Whole numbers are unchanged. Others have six figures, or twelve if six figures show only a round number.
+pub fn number_text(value: f64) -> String {
     let is_whole = value.fract() == 0.0 || !value.is_finite();
-    let three_figures = rounded_to(3, value);
-    let six_figures = rounded_to(6, value);
+    let round_number = rounded_to(ROUND_NUMBER_FIGURES, value);
+    let printed_number = rounded_to(PRINTED_FIGURES, value);
     let rounded = if is_whole {
         value
-    } else if six_figures.to_bits() == three_figures.to_bits() {
-        rounded_to(12, value)
+    } else if printed_number.to_bits() == round_number.to_bits() {
+        rounded_to(PRECISE_FIGURES, value)
     } else {
-        six_figures
+        printed_number
     };
-    // No negative zero.
+    // Adding zero removes the sign of a negative zero.
     (rounded + 0.0).to_string()
 }
 
+/// `value` rounded to a number of decimal figures.
 fn rounded_to(figures: usize, value: f64) -> f64 {
     let decimals = figures - 1;
     format!("{value:.decimals$e}").parse().unwrap_or(value)
@@ -134,28 +146,28 @@ impl Error {
         Self::Part { part: part.into(), reason: reason.into() }
     }
 
-    /// This fault of an item, named in the error.
+    /// The error of `item` with this fault.
     #[doc(hidden)]
     pub fn within(self, item: impl Into<String>) -> Self {
         Self::Item { item: item.into(), r#source: Box::new(self) }
     }
 
-    /// [`Error::Name`] for a name that is not in `known`.
+    /// [`Error::Name`] for a name that is not among `valid_names`.
     #[doc(hidden)]
     pub fn no_name<T: Into<String>>(
         quantity: &'static str,
         name: &str,
-        known: impl Iterator<Item = T>,
+        valid_names: impl Iterator<Item = T>,
     ) -> Self {
-        Self::Name { quantity, name: name.into(), known: known.map(Into::into).collect() }
+        Self::Name { quantity, name: name.into(), known: valid_names.map(Into::into).collect() }
     }
 }
 
-/// Largest number of known names that a message lists.
+/// Largest number of valid names in a message: more would hide the fault.
 const MAX_LISTED_NAMES: usize = 40;
 
-/// Text of the known names.
-pub fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(MAX_LISTED_NAMES)].join(", ");
-    if known.is_empty() { listed } else { format!(", only {listed}") }
+/// Text that lists the valid names; empty if there are none.
+pub fn valid_names_text(valid_names: &[String]) -> String {
+    let listed_names = valid_names[..valid_names.len().min(MAX_LISTED_NAMES)].join(", ");
+    if valid_names.is_empty() { listed_names } else { format!(", only {listed_names}") }
 }

@@ -1,19 +1,23 @@
 //! Errors of structures that cannot stand on the ground.
 
-use crate::error::short;
+use crate::error::number_text;
 
-/// The reason why weight and loads at t = 0 have no equilibrium.
+/// Reason why weight and loads at t = 0 have no stable equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StabilityError {
     /// The loads lift the structure off.
-    #[error("weight and loads at t = 0 lift it by {upward:.4e} {}{}", force_unit(*across), base_text(*ends, *across))]
+    #[error(
+        "weight and loads at t = 0 lift it off with {upward:.4e} {}{}",
+        force_unit(*across),
+        base_text(*ends, *across)
+    )]
     Uplift {
-        /// Left and right end of the base of the part that is lifted, m.
+        /// Left and right end of the base of the lifted part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
+        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
-        /// Resultant upwards, N/m; zero without any pressure.
+        /// Upward resultant, N/m; zero if no part of the base is under pressure.
         upward: f64,
     },
     /// The horizontal load exceeds friction.
@@ -24,9 +28,9 @@ pub enum StabilityError {
         base_text(*ends, *across)
     )]
     Sliding {
-        /// Left and right end of the base of the part that slides, m.
+        /// Left and right end of the base of the sliding part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
+        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// Horizontal resultant, positive to the right, N/m; in plan the resultant of both directions.
         horizontal: f64,
@@ -34,121 +38,123 @@ pub enum StabilityError {
         normal: f64,
         /// Largest friction coefficient times the normal force, N/m.
         resistance: f64,
-        /// Horizontal resultant over friction; infinite without friction.
+        /// Horizontal resultant divided by the friction; infinite without friction.
         ratio: f64,
     },
     /// In plan: the torque of the loads exceeds friction.
     #[error(
         "the load at t = 0 twists it: a torque of {torque:.4e} N·m, {ratio:.3} times the {resistance:.4e} N·m of friction \
-         under a normal force of {normal:.4e} N that is spread evenly{}",
+         under an evenly spread normal force of {normal:.4e} N{}",
         base_text(*ends, Some(*across))
     )]
     Twisting {
-        /// Left and right end of the base of the part that is twisted, m.
+        /// Left and right end of the base of the twisted part, m.
         ends: [f64; 2],
-        /// Front and back end of that base along y, m.
+        /// Front and back end of this base along y, m.
         across: [f64; 2],
         /// Torque of the loads about the middle of the base, counter-clockwise from above, N·m.
         torque: f64,
         /// Normal force, N.
         normal: f64,
-        /// Torque of friction under even pressure, N·m.
+        /// Torque of the friction under even pressure, N·m.
         resistance: f64,
-        /// Torque over the torque of friction; infinite without friction.
+        /// Torque of the loads divided by that of the friction; infinite without friction.
         ratio: f64,
     },
-    /// The resultant of weight and loads passes beside the base.
+    /// The resultant of weight and loads passes outside the base.
     #[error(
         "weight and loads at t = 0 overturn it{1}: moment {moment:.4e} N·m{0} about the middle of the base \
          under a normal force of {normal:.4e} N{0}, whose resultant passes {eccentricity:.4} m from it{2}, \
          {ratio:.3} times half the width{3}",
         if across.is_some() { "" } else { "/m" },
-        edge(*axis, *eccentricity),
-        along(*axis),
+        edge_text(*axis, *eccentricity),
+        axis_text(*axis),
         base_text(*ends, *across)
     )]
     Overturning {
-        /// Left and right end of the base of the part that overturns, m.
+        /// Left and right end of the base of the overturning part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
+        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// In plan: `x` if it overturns to the left or the right, `y` if to the front or the back.
         axis: Option<char>,
-        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m; in plan by the
-        /// right-hand rule about the other axis: about y if it overturns to the left or the right.
+        /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m.
+        ///
+        /// In plan by the right-hand rule about the other axis: about y if it overturns to the left or the right.
         moment: f64,
         /// Normal force, N/m.
         normal: f64,
         /// Distance of the resultant from the middle of the base, positive to the right, in plan along the axis, m.
         eccentricity: f64,
-        /// Eccentricity over half the width; in plan, for a base that is not rectangular, over the distance to its
-        /// edge.
+        /// Eccentricity divided by half the width.
+        ///
+        /// In plan, for a base that is not rectangular, divided by the distance of the edge.
         ratio: f64,
     },
-    /// The weight makes it fall over or buckle (P–Δ), even with its base bonded to the ground.
+    /// The structure buckles under its weight (P–Δ), even with its base bonded to the ground.
     ///
-    /// Also for an upright structure, whose static state is then an unstable equilibrium.
+    /// The static state of a symmetric structure is then an unstable equilibrium.
     #[error(
-        "it falls over or buckles under its weight (P–Δ): the load factor is {factor:.4}, with its base bonded to the \
-         ground where it touches it"
+        "it buckles under its weight (P–Δ): the load factor is {factor:.4}, with its base bonded to the ground over the \
+         contact area"
     )]
     Buckling {
-        /// Multiple of the forces at rest at which it does, below 1.
+        /// Buckling load divided by the static forces, below 1.
         factor: f64,
     },
-    /// It leans by its weight or loads and by its P–Δ, lifts its base off, and falls over.
+    /// The structure tilts, uplifts and overturns because of P–Δ.
     ///
-    /// With its base bonded to the ground it would stand.
+    /// With its base bonded to the ground it would be stable.
     #[error(
-        "it leans, lifts its base off and falls over (P–Δ): it stands under {factor:.3} times {} at most, although it would \
-         stand with its base bonded to the ground",
+        "it tilts, uplifts and overturns (P–Δ): it is stable under at most {factor:.3} times {}, although it would be \
+         stable with its base bonded to the ground",
         if *by_loads { "its loads at t = 0 in addition to its weight" } else { "its weight" }
     )]
     Toppling {
         /// Largest multiple of the weight, or of the loads, under which an equilibrium was found.
         ///
-        /// The equilibrium is followed from no weight in increments down to 1/64, and under loads in tenths.
+        /// The weight is increased from zero in increments of down to 1/64; the loads are increased in tenths.
         factor: f64,
-        /// Whether the factor applies to the loads that come on after the weight.
+        /// Whether the factor multiplies the loads at t = 0 instead of the weight.
         by_loads: bool,
     },
-    /// The weight exceeds the bearing pressure of the interface.
+    /// Weight and loads exceed the bearing pressure of the interface.
     #[error(
-        "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \
-         times the {capacity:.4e} {0} that the bearing pressure gives on the {width:.4} {1} whose middle \
-         is under the resultant{2}",
+        "weight and loads at t = 0 exceed the bearing capacity: a normal force of {normal:.4e} {0}, {ratio:.3} \
+         times the capacity {capacity:.4e} {0} of the effective {3} {width:.4} {1} under the resultant{2}",
         force_unit(*across),
         if across.is_some() { "m²" } else { "m" },
-        base_text(*ends, *across)
+        base_text(*ends, *across),
+        if across.is_some() { "area" } else { "width" }
     )]
     BearingFailure {
-        /// Left and right end of the base of the part that sinks in, m.
+        /// Left and right end of the base of the overloaded part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
+        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// Normal force, N/m.
         normal: f64,
-        /// Width minus twice the eccentricity (Meyerhof 1953), m; in plan the area that both eccentricities leave,
-        /// m².
+        /// Effective width: the width minus twice the eccentricity (Meyerhof 1953), m; in plan the effective area, m².
         width: f64,
-        /// Bearing pressure times this width or area, N/m.
+        /// Bearing pressure times the effective width or area, N/m.
         capacity: f64,
-        /// Normal force over capacity.
+        /// Normal force divided by the capacity.
         ratio: f64,
     },
-    /// The resultant of weight and loads passes through the base, but beyond the middle of its outermost element.
+    /// The resultant of weight and loads passes beyond the middle of the outermost element.
     ///
-    /// The traction on an element is constant, so its resultant is in the middle.
+    /// It passes through the base, but the traction on an element is constant, with its resultant in the middle of the
+    /// element.
     #[error(
         "the resultant of weight and loads at t = 0 passes at {} = {resultant:.4} m{}, but {}",
         axis.unwrap_or('x'),
         base_text(*ends, *across),
-        carried_range(*elements, *reach, axis.unwrap_or('x'))
+        center_range_text(*elements, *reach, axis.unwrap_or('x'))
     )]
     Beyond {
         /// Left and right end of the base of the part, m.
         ends: [f64; 2],
-        /// In plan: front and back end of that base along y, m; forces then act on the whole body.
+        /// In plan: front and back end of this base along y, m; forces are then those of the whole body.
         across: Option<[f64; 2]>,
         /// In plan: axis along which the resultant passes beyond the elements, `x` or `y`.
         axis: Option<char>,
@@ -156,71 +162,72 @@ pub enum StabilityError {
         elements: usize,
         /// Coordinate at which the resultant passes, m.
         resultant: f64,
-        /// Middles of the first and the last element along that axis, m.
+        /// Middles of the first and the last element along this axis, m.
         reach: [f64; 2],
     },
-    /// A bond of the interface breaks, and this failure follows.
+    /// The bond of the interface breaks, and this failure follows.
     #[error("the bond of the interface breaks, and without it: {then}")]
     BondBreaks {
-        /// Failure that follows.
+        /// The failure without the bond.
         then: Box<StabilityError>,
     },
-    /// Part of the structure moves without resistance, while the base is at rest or at all.
-    #[error("{}", unresisted(.place, *.massless))]
+    /// A part of the structure can move without resistance.
+    #[error("{}", mechanism_text(.place, *.massless))]
     Mechanism {
-        /// The degrees of freedom of that motion, ascending.
+        /// The degrees of freedom of this motion, ascending.
         dofs: Vec<usize>,
-        /// The structure's names of them.
+        /// Names of these degrees of freedom in the structure.
         place: String,
-        /// Whether the part has no mass either, and no damping.
+        /// Whether the part has neither mass nor damping.
         massless: bool,
     },
 }
 
 /// Message of [`StabilityError::Mechanism`].
-fn unresisted(place: &str, massless: bool) -> String {
-    if massless {
+fn mechanism_text(dof_names: &str, is_massless: bool) -> String {
+    if is_massless {
         format!(
-            "nothing resists a motion of {place}: neither stiffness nor damping nor mass of the structure (give it a \
-             mass: the ground does not hold it while it is lifted)"
+            "nothing resists a motion of {dof_names}: neither stiffness nor damping nor mass of the structure (give \
+             these degrees of freedom a mass: the ground does not restrain them after uplift)"
         )
     } else {
         format!(
-            "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
+            "the structure is a mechanism: with its base at rest nothing resists a motion of {dof_names}"
         )
     }
 }
 
-/// The end of the message of [`StabilityError::Beyond`].
-fn carried_range(elements: usize, reach: [f64; 2], axis: char) -> String {
-    if elements == 1 {
+/// End of the message of [`StabilityError::Beyond`].
+fn center_range_text(element_count: usize, center_range: [f64; 2], axis: char) -> String {
+    if element_count == 1 {
         "a base of one element resists no moment".to_owned()
     } else {
         format!(
-            "{elements} elements, on each of which the traction is constant, carry it from {axis} = {:.4} to \
-             {:.4} m only, the middles of the outermost ones (shorter ones there reach further)",
-            reach[0], reach[1]
+            "{element_count} elements with constant tractions balance a resultant only between the middles of the \
+             outer elements, {axis} = {:.4} to {:.4} m (shorten the outer elements)",
+            center_range[0], center_range[1]
         )
     }
 }
 
-/// Text that names the base in a message.
-fn base_text(ends: [f64; 2], across: Option<[f64; 2]>) -> String {
-    let depth = across.map_or(String::new(), |ends| format!(", y = {}", range_text(ends)));
-    format!(" (base from x = {}{depth})", range_text(ends))
+/// Text for the ends of the base along x, and in plan along y.
+fn base_text(x_ends: [f64; 2], y_ends: Option<[f64; 2]>) -> String {
+    let y_text = y_ends.map_or(String::new(), |y_ends| format!(", y = {}", range_text(y_ends)));
+    format!(" (base from x = {}{y_text})", range_text(x_ends))
 }
 
+/// Text for an interval in metres.
 fn range_text([start, end]: [f64; 2]) -> String {
-    format!("{} to {} m", short(start), short(end))
+    format!("{} to {} m", number_text(start), number_text(end))
 }
 
-/// Unit of forces.
-fn force_unit(across: Option<[f64; 2]>) -> &'static str {
-    if across.is_some() { "N" } else { "N/m" }
+/// Unit of forces: of the whole body in plan, where the base has ends along y.
+fn force_unit(y_ends: Option<[f64; 2]>) -> &'static str {
+    if y_ends.is_some() { "N" } else { "N/m" }
 }
 
-/// Text that names the axis in plan, empty in the plane.
-pub fn along(axis: Option<char>) -> String {
+/// Text that names the axis of elements in plan, or their wall; empty in the plane.
+pub fn axis_text(axis: Option<char>) -> String {
     match axis {
         Some('z') => " of each wall".to_owned(),
         Some(axis) => format!(" along {axis}"),
@@ -228,8 +235,8 @@ pub fn along(axis: Option<char>) -> String {
     }
 }
 
-/// The edge over which the structure falls, in plan.
-fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
+/// Text for the edge over which the structure overturns; empty in the plane.
+fn edge_text(axis: Option<char>, eccentricity: f64) -> &'static str {
     match (axis, eccentricity > 0.0) {
         (None, _) => "",
         (Some('x'), true) => " over its right edge",
@@ -239,85 +246,86 @@ fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
     }
 }
 
-/// A flexible base with too few contact elements: between them only the structure resists deformation.
+/// A flexible base has too few contact elements for its static shape.
+///
+/// Between the elements' middles only the structure resists deformation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed}{}{}",
-    along(*axis),
-    twice_as_many(*difference),
-    of_units(*elements, *needed)
+    axis_text(*axis),
+    shape_change_text(*difference),
+    units_hint(*elements, *needed)
 )]
 pub struct CoarseBaseError {
     /// Number of the foundation, from the left, from 0.
     pub foundation: usize,
-    /// Elements of the foundation; in plan along its shorter side.
+    /// Number of elements of the foundation; in plan along its shorter side.
     pub elements: usize,
     /// Approximate number of elements needed.
     pub needed: usize,
-    /// Relative change of its static shape with twice the elements; `None` if that was not computed.
+    /// Relative change of the static shape with twice the elements; `None` if it was not computed.
     pub difference: Option<f64>,
     /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
     pub axis: Option<char>,
 }
 
-/// Ratio of needed to present elements from which the structure is far softer than any built one.
-const SOFTEST_BUILT_RATIO: usize = 16;
+/// Largest plausible ratio of needed to existing elements: no built structure is as soft as a larger one implies.
+const MAX_PLAUSIBLE_ELEMENT_RATIO: usize = 16;
 
-/// Doubt about units of a base so soft that it needs many times its elements, as with moduli in GPa or lengths in mm.
-pub fn of_units(elements: usize, needed: usize) -> &'static str {
-    if needed / SOFTEST_BUILT_RATIO < elements {
+/// Hint to check the units if a base is implausibly soft, as with moduli in GPa or lengths in mm.
+pub fn units_hint(element_count: usize, needed_count: usize) -> &'static str {
+    if needed_count / MAX_PLAUSIBLE_ELEMENT_RATIO < element_count {
         ""
     } else {
-        "; so soft a base is rare: check the units (moduli in Pa, lengths in m, masses in kg)"
+        "; such a soft base is implausible: check the units (moduli in Pa, lengths in m, masses in kg)"
     }
 }
 
 /// Text for the change of the static shape with twice the elements.
-fn twice_as_many(difference: Option<f64>) -> String {
+fn shape_change_text(difference: Option<f64>) -> String {
     difference.map_or(String::new(), |change| {
-        format!(" (twice as many change its static shape by {:.0} %)", 100.0 * change)
+        format!(" (twice as many elements change its static shape by {:.0} %)", 100.0 * change)
     })
 }
 
-/// Why a structure cannot stand on a ground, whatever its loads.
+/// Reason why a structure cannot stand on a ground, for any loads.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StructureError {
-    /// A structure with stiffness to a fixed point: the ground alone must hold it up.
+    /// The structure has a stiffness to a fixed point: only the ground may support it.
     #[error(
-        "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
-         {force:.2e} N at degree of freedom {dof}, {ratio:.1e} of the stiffness around (entries of a \
+        "the structure must translate freely, without supports: a translation {direction} by 1 m causes a force of \
+         {force:.2e} N at degree of freedom {dof}, {ratio:.1e} of the stiffness coefficients in its row (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
     Restrained {
-        /// Direction of the translation that is resisted.
+        /// Direction of the resisted translation.
         direction: &'static str,
         /// Force per metre of translation at the degree of freedom, N/m.
         ///
-        /// If the structure can hardly translate, it is the force at the contact nodes.
+        /// If the structure can hardly translate, this is the force at the contact nodes.
         force: f64,
-        /// The degree of freedom with the largest force relative to the stiffness around.
+        /// The degree of freedom with the largest force relative to the stiffness coefficients in its row.
         dof: usize,
-        /// That force relative to the stiffness around.
+        /// This force relative to the stiffness coefficients.
         ratio: f64,
     },
-    /// A part of a structure that no stiffness connects to its contact nodes.
+    /// No stiffness connects a part of the structure to its contact nodes.
     ///
-    /// It would neither weigh on the ground nor move.
+    /// The ground would neither carry the weight of this part nor move it.
     #[error(
-        "part of the structure is not joined to its base by any stiffness: {place} (dashpots alone \
-         hold nothing up)"
+        "no stiffness connects a part of the structure to its base: {place} (dashpots carry no weight)"
     )]
     Detached {
         /// The degrees of freedom of all such parts, ascending.
         dofs: Vec<usize>,
-        /// The structure's names of them: see `Structure::describe`.
+        /// Names of these degrees of freedom in the structure: see `Structure::describe`.
         place: String,
     },
-    /// A structure that buckles, held at its contact nodes, under the axial forces of its static state.
+    /// With fixed contact nodes the structure buckles under its static axial forces.
     #[error(
-        "the structure buckles under the axial forces of its static state: held at its contact \
-         nodes it carries {factor:.3e} of them"
+        "the structure buckles under the axial forces of its static state: with fixed contact nodes it carries \
+         {factor:.3e} of these forces"
     )]
     Buckling {
         /// Fraction of the axial forces at which it buckles.

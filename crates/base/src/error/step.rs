@@ -1,52 +1,53 @@
 //! Errors of steps and of interface laws.
 
-use crate::error::{Error, not_finite};
+use crate::error::{Error, first_not_finite};
 
-/// Why a step failed.
+/// Reason why a time step failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
         "contact modes not found in {iterations} trials{}, residual {residual:.2e}, modes {} \
-         (`analyses::largest_convergent_step` finds a time step that gets through)",
-        no_solution(*sets), modes.join(" ")
+         (`analyses::largest_convergent_step` finds a time step that converges)",
+        no_solution_text(*sets), modes.join(" ")
     )]
     Contact {
         /// Number of trials, fallbacks included.
         iterations: usize,
-        /// Difference between the tractions of these modes and the tractions of the modes that the laws require
-        /// next, relative to the largest; 1 if either set of modes is singular.
+        /// Relative difference between the tractions of the last two sets of modes.
+        ///
+        /// The laws require the second set after the first. The value is 1 if either set is singular.
         residual: f64,
         /// Words (`Mode`'s `Display`) of the modes of the last trial, left to right.
         modes: Vec<&'static str>,
-        /// Number of all sets of modes, if all were tried: the step has no solution. `None` if there are more than
-        /// 65 536 sets.
+        /// Number of all sets of modes, if all were tried: the step then has no solution.
+        ///
+        /// `None` for more than 65 536 sets.
         sets: Option<usize>,
     },
-    /// In plan: no contact forces were found that satisfy the interface laws.
+    /// In plan: the iteration found no contact forces that satisfy the interface laws.
     #[error(
         "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
-         (`analyses::largest_convergent_step` finds a time step that gets through)",
+         (`analyses::largest_convergent_step` finds a time step that converges)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Number of sweeps and Newton iterations, including the proximal method's.
+        /// Number of sweeps and Newton iterations, including those of the proximal method.
         iterations: usize,
-        /// Largest difference of an element's force from the force that its law allows at its displacement,
-        /// relative to the largest force.
+        /// Largest difference between an element's force and the force by its law, relative to the largest force.
         residual: f64,
-        /// Elements with too large a difference.
+        /// Elements with too large a difference of forces.
         elements: Vec<usize>,
     },
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
-        "Newton's iteration not converged in {iterations} iterations, residual {residual:.2e}, \
-         modes {} (`analyses::largest_convergent_step` finds a time step that gets through)",
+        "Newton's iteration did not converge in {iterations} iterations, residual {residual:.2e}, \
+         modes {} (`analyses::largest_convergent_step` finds a time step that converges)",
         modes.join(" ")
     )]
     Newton {
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
@@ -56,7 +57,7 @@ pub enum StepError {
     },
     /// A part of the scene returned an error.
     ///
-    /// The structure for its load, nonlinear force or tangent, or the ground for its history.
+    /// The part is the structure (load, nonlinear force, tangent) or the ground (history).
     #[error("{quantity}: {source}")]
     Part {
         /// Name of the quantity.
@@ -72,37 +73,37 @@ pub enum StepError {
     NotFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Index from 0: of a structure's quantity the degree of freedom (or mode, in modal coordinates); of a
-        /// base's quantity the component (normal ones first, then tangential ones); of loads the number of the
-        /// load.
+        /// Index from 0.
+        ///
+        /// For a structure it is the degree of freedom, or the mode in modal coordinates. For a base it is the contact
+        /// component, normal components first, then tangential ones. For loads it is the number of the load.
         index: usize,
         /// The value.
         value: f64,
     },
-    /// The structure has lost its stability: its motion grows without limit.
+    /// The structure is unstable: its motion grows without limit.
     ///
-    /// By weight on yielding columns (P–Δ), negative damping or a growing ground. The energy balance still closes.
-    #[error("the structure runs away: it moves by {increment:e} in one step")]
+    /// Causes are the weight on yielding columns (P–Δ), negative damping or an unstable ground. The energy balance
+    /// still closes.
+    #[error("the structure is unstable: its displacement grows by {increment:e} in one step")]
     Runaway {
-        /// Largest change of a degree of freedom in the step, m or rad (in modes, times the root of a mass).
+        /// Largest change of a degree of freedom in the step, m or rad (m √kg in modal coordinates).
         increment: f64,
     },
 }
 
-/// Text for a step that has no solution, since all sets of modes were tried.
-fn no_solution(sets: Option<usize>) -> String {
-    sets.map_or_else(String::new, |sets| {
-        format!(
-            ": the step has no solution, as none of all {sets} sets of modes satisfies the laws"
-        )
+/// Text for a step that has no solution, because all sets of modes were tried; empty otherwise.
+fn no_solution_text(set_count: Option<usize>) -> String {
+    set_count.map_or_else(String::new, |count| {
+        format!(": the step has no solution: none of all {count} sets of modes satisfies the laws")
     })
 }
 
 impl StepError {
-    /// Error if one of `values` is not finite.
+    /// Returns an error if one of `values` is not finite.
     #[doc(hidden)]
     pub fn check_finite(quantity: &'static str, values: &[f64]) -> std::result::Result<(), Self> {
-        match not_finite(values) {
+        match first_not_finite(values) {
             None => Ok(()),
             Some((index, value)) => Err(Self::NotFinite { quantity, index, value }),
         }
@@ -121,16 +122,19 @@ impl StepError {
 pub struct LawError {
     /// Element, from the left, from 0.
     pub element: usize,
-    /// Word (`Mode`'s `Display`) of the mode for which the law was evaluated; for its state
-    /// variables, the mode at the end of the step.
+    /// Word (`Mode`'s `Display`) of the mode for which the law was evaluated.
+    ///
+    /// For the state variables of the law, it is the mode at the end of the step.
     pub mode: &'static str,
+    /// The error of the law.
+    ///
     /// [`Error::Input`] for a number that is not finite, [`Error::Name`] for a next mode that the law does not list, or
     /// the error of `InterfaceLaw::check_start` or of the law's limits.
     pub reason: Box<Error>,
 }
 
 impl LawError {
-    /// A number of a law that is not finite.
+    /// The error for a number of a law that is not finite.
     #[cold]
     #[doc(hidden)]
     pub fn not_finite(

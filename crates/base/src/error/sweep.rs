@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 
 use crate::error::Error;
 
-/// Why a case of a `Sweep` has no result.
+/// Reason why a case of a `Sweep` has no result.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseError<E> {
@@ -21,7 +21,7 @@ pub enum CaseError<E> {
 }
 
 impl<E> CaseError<E> {
-    /// A panic with its payload.
+    /// The error for a panic with this payload.
     #[doc(hidden)]
     pub fn panicked(payload: &(dyn Any + Send)) -> Self {
         let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
@@ -39,14 +39,14 @@ impl From<CaseError<Error>> for Error {
     }
 }
 
-/// Fault of the table of a `Sweep`.
+/// Fault in the table of a `Sweep`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// A file of rows that cannot be written, for example because the disk is full.
+    /// A file of rows cannot be written, for example because the disk is full.
     ///
-    /// No case was started after that.
-    #[error("{file} cannot be written: {reason}; {computed} cases have rows, {left} are left")]
+    /// No case was started after this fault.
+    #[error("{file} cannot be written: {reason}; {computed} cases have rows, {left} cases remain")]
     Unwritten {
         /// The file.
         file: String,
@@ -62,27 +62,27 @@ pub enum SweepError {
         /// `Sweep::table_in` then continues from them.
         rows: String,
     },
-    /// Cases that are in no file.
-    #[error("{} of the sweep's cases missing: {}", .cases.len(), missing(.cases, .shards))]
+    /// No file contains these cases.
+    #[error("{} of the sweep's cases missing: {}", .cases.len(), missing_cases_text(.cases, .shards))]
     Missing {
         /// Numbers of the cases, ascending.
         cases: Vec<usize>,
-        /// The missing shards, `[index, of]`, if the files and these form equal shards; empty otherwise.
+        /// The missing shards, `[index, count]`, if the files and the missing cases form equal shards; else empty.
         shards: Vec<[usize; 2]>,
     },
 }
 
-/// Largest number of cases and of shards that a message lists.
+/// Largest number of cases and of shards in a message: more would hide the fault.
 const MAX_LISTED_CASES: usize = 10;
 
 /// Text of the first missing cases and of the first missing shards.
-fn missing(cases: &[usize], shards: &[[usize; 2]]) -> String {
+fn missing_cases_text(cases: &[usize], shards: &[[usize; 2]]) -> String {
     let cases_text = first_items(cases.iter().map(usize::to_string), cases.len());
     if shards.is_empty() {
         return cases_text;
     }
-    let names = shards.iter().map(|[index, of]| format!("{index}/{of}"));
-    format!("{cases_text}; shard {}", first_items(names, shards.len()))
+    let shard_names = shards.iter().map(|[index, count]| format!("{index}/{count}"));
+    format!("{cases_text}; shard {}", first_items(shard_names, shards.len()))
 }
 
 /// The first of `count` items, with dots for the others.

@@ -36,14 +36,13 @@ words! { #[doc(hidden)] pub Direction, "direction", {
 } }
 
 impl Direction {
-    /// Displacement or rotation in this direction in a rigid `motion` by one unit.
+    /// Component in this direction of a rigid `motion` by one unit.
     ///
-    /// `[x, y, z]`: position relative to the point about which a rotation turns, m. The right-hand rule holds in the
-    /// plane too.
+    /// `[x, y, z]`: position relative to the centre of rotation, m. The right-hand rule holds in the plane too.
     #[doc(hidden)]
     pub fn in_rigid_motion(self, motion: Self, [x, y, z]: [f64; 3]) -> f64 {
         match (self, motion) {
-            // The difference is never −0, unlike the negative of zero.
+            // 0 − y is +0 for y = 0, but −y would be −0.
             (Self::X, Self::Rotation | Self::RotationZ) => 0.0 - y,
             (Self::Y, Self::Rotation | Self::RotationZ) => x,
             (Self::Z, Self::RotationX) => y,
@@ -61,10 +60,10 @@ impl Direction {
     }
 }
 
-/// Directions of elements of the plane without rotations.
+/// Directions of elements in the plane without rotations.
 pub const PLANE_TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
-/// All directions of the plane, as of beams and of masses with rotary inertia.
+/// All directions in the plane: for beams, and for masses with rotary inertia.
 pub const PLANE_DIRECTIONS: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
 
 /// All directions in space.

@@ -1,4 +1,4 @@
-//! Contact element: its place, its directions and its area.
+//! Contact element: its position, its directions and its area.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use crate::error::{Result, finite, positive, require};
 
 /// Directions of an element on the flat surface: down, to the right, away from the reader.
 const SURFACE_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-/// Ends along y of an element in the plane, m: a metre of depth.
+/// Ends along y of an element in the plane, m: one metre of depth.
 const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
 
 /// Contact element between base and soil: a flat rectangle.
@@ -27,23 +27,25 @@ const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactElement {
-    /// Corner from which all tangents lead inwards, and the opposite corner, m.
+    /// Corner from which both tangents point into the element, and the opposite corner, m.
     corners: [[f64; 3]; 2],
-    /// Unit vectors: the normal into the soil, and both sides of the rectangle.
+    /// Unit vectors: the normal into the soil, and the tangents along both sides of the rectangle.
     directions: [[f64; 3]; 3],
-    /// Whether the element moves along both sides; in the plane along the first.
+    /// Whether the element has both tangents; in the plane it has only the first.
     in_plan: bool,
     /// Fraction of the area inside the outline of the base.
     inside: f64,
 }
 
-/// Elements of the faces of a foundation, in a list along its outline.
+/// Indices of the elements of a foundation's faces, in order along its outline.
 #[doc(hidden)]
 #[derive(Debug, Clone)]
 pub struct OutlineFaces {
+    /// Elements of the left wall.
     pub left_wall: Range<usize>,
     /// Elements that face down.
     pub floor: Range<usize>,
+    /// Elements of the right wall.
     pub right_wall: Range<usize>,
 }
 
@@ -71,8 +73,8 @@ impl ContactElement {
     /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
     /// means over the whole element.
     #[must_use]
-    pub const fn with_fraction_inside(self, inside: f64) -> Self {
-        Self { inside, ..self }
+    pub const fn with_fraction_inside(self, fraction_inside: f64) -> Self {
+        Self { inside: fraction_inside, ..self }
     }
 
     /// Left end, m.
@@ -92,10 +94,10 @@ impl ContactElement {
 
     /// Lower and upper end along z, m; equal unless the element is of a wall.
     pub const fn heights(&self) -> [f64; 2] {
-        let first = self.corners[0][2];
-        let last = self.corners[1][2];
-        // A zero without sign.
-        [first.min(last) + 0.0, first.max(last) + 0.0]
+        let first_height = self.corners[0][2];
+        let second_height = self.corners[1][2];
+        // Adding zero removes the sign of a negative zero.
+        [first_height.min(second_height) + 0.0, first_height.max(second_height) + 0.0]
     }
 
     /// Ends along x and along y, m.
@@ -105,17 +107,20 @@ impl ContactElement {
     }
 
     /// Length along the first tangent, m.
+    #[inline]
     pub fn length(&self) -> f64 {
         self.sides()[0]
     }
 
-    /// Places of both ends along the first tangent, m.
+    /// Coordinates of both ends along the first tangent, m.
     #[doc(hidden)]
+    #[inline]
     pub fn span(&self) -> [f64; 2] {
         self.corners.map(|corner| self.components(corner)[1])
     }
 
     /// Sides along the tangents, m; the second is one metre in the plane.
+    #[inline]
     pub fn sides(&self) -> [f64; 2] {
         let diagonal = [0, 1, 2].map(|k| self.corners[1][k] - self.corners[0][k]);
         let components = self.components(diagonal);
@@ -123,24 +128,27 @@ impl ContactElement {
     }
 
     /// Centre `[x, y, z]`, m.
+    #[inline]
     pub fn center(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| middle([self.corners[0][k], self.corners[1][k]]))
     }
 
-    /// Unit vectors along which the element moves: the normal into the soil, and the tangents.
+    /// Unit vectors of the element's components: the normal into the soil, and the tangents.
     ///
     /// One tangent in the plane, two in plan.
+    #[inline]
     pub fn directions(&self) -> &[[f64; 3]] {
         &self.directions[..2 + usize::from(self.in_plan)]
     }
 
     /// Whether the soil is below the element, not beside it.
     #[doc(hidden)]
+    #[inline]
     pub fn faces_down(&self) -> bool {
         self.directions[0][2] < -0.5
     }
 
-    /// Whether some of the elements are of walls.
+    /// Whether any of the elements belongs to a wall.
     #[doc(hidden)]
     pub fn any_wall<'a>(elements: impl IntoIterator<Item = &'a Self>) -> bool {
         elements.into_iter().any(|element| !element.faces_down())
@@ -150,32 +158,39 @@ impl ContactElement {
     #[doc(hidden)]
     pub fn faces(elements: &[Self]) -> OutlineFaces {
         let count = elements.len();
-        let first = elements.iter().position(Self::faces_down).unwrap_or(count);
-        let end = elements.iter().rposition(Self::faces_down).map_or(count, |last| last + 1);
-        OutlineFaces { left_wall: 0..first, floor: first..end, right_wall: end..count }
+        let floor_start = elements.iter().position(Self::faces_down).unwrap_or(count);
+        let floor_end =
+            elements.iter().rposition(Self::faces_down).map_or(count, |index| index + 1);
+        OutlineFaces {
+            left_wall: 0..floor_start,
+            floor: floor_start..floor_end,
+            right_wall: floor_end..count,
+        }
     }
 
-    /// Components of a vector `[x, y, z]` along the normal and both sides.
+    /// Components of a vector `[x, y, z]` along the normal and both tangents.
     #[doc(hidden)]
+    #[inline]
     pub fn components(&self, vector: [f64; 3]) -> [f64; 3] {
         if self.faces_down() {
-            let [x, y, up] = vector;
-            return [0.0 - up, 0.0 + x, 0.0 + y];
+            let [x, y, z] = vector;
+            return [0.0 - z, 0.0 + x, 0.0 + y];
         }
         self.directions
             .map(|unit| unit[0] * vector[0] + unit[1] * vector[1] + unit[2] * vector[2])
     }
 
-    /// The vector `[x, y, z]` with these components along the normal and both sides.
+    /// The vector `[x, y, z]` with these components along the normal and both tangents.
     #[doc(hidden)]
+    #[inline]
     pub fn vector(&self, components: [f64; 3]) -> [f64; 3] {
         if self.faces_down() {
-            let [normal, along, across] = components;
-            return [0.0 + along, 0.0 + across, 0.0 - normal];
+            let [down, right, away] = components;
+            return [0.0 + right, 0.0 + away, 0.0 - down];
         }
-        let unit = self.directions;
+        let units = self.directions;
         [0, 1, 2].map(|k| {
-            unit[0][k] * components[0] + unit[1][k] * components[1] + unit[2][k] * components[2]
+            units[0][k] * components[0] + units[1][k] * components[1] + units[2][k] * components[2]
         })
     }
 
@@ -185,22 +200,24 @@ impl ContactElement {
     }
 
     /// Area inside the outline of the base, m²; in the plane the length, m.
+    #[inline]
     pub fn area(&self) -> f64 {
         let sides = self.sides();
         sides[0] * sides[1] * self.inside
     }
 
-    /// Corners in order, m; in the plane both ends.
+    /// Corners in order around the element, m; in the plane both ends.
     #[doc(hidden)]
     pub fn outline(&self) -> impl Iterator<Item = [f64; 3]> {
-        // A coordinate changes along the first side, or else along the second.
-        let side = [0, 1, 2].map(|k| usize::from(self.directions[1][k] == 0.0));
-        let ends = [[0, 0], [1, 0], [1, 1], [0, 1]];
-        let corners = ends.map(|ends| [0, 1, 2].map(|k| self.corners[ends[side[k]]][k]));
+        // Side along which each coordinate varies: the first side, or else the second.
+        let varying_side = [0, 1, 2].map(|k| usize::from(self.directions[1][k] == 0.0));
+        let ends_of_corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
+        let corners =
+            ends_of_corners.map(|ends| [0, 1, 2].map(|k| self.corners[ends[varying_side[k]]][k]));
         corners.into_iter().take(2 * (self.directions().len() - 1))
     }
 
-    /// Halves of the element; in plan its quarters: left front, right front, left back, right back.
+    /// Halves of the element; in plan quarters: left front, right front, left back, right back.
     #[doc(hidden)]
     pub fn parts(&self) -> impl Iterator<Item = Self> {
         let side_count = self.directions().len() - 1;
@@ -209,16 +226,16 @@ impl ContactElement {
         })
     }
 
-    /// First (0) or second (1) half along a direction.
-    fn half(mut self, direction: usize, half: usize) -> Self {
+    /// First (0) or second (1) half of the element along a direction.
+    fn half(mut self, direction: usize, half_index: usize) -> Self {
         let center = self.center();
         for k in (0..3).filter(|k| self.directions[direction][*k] != 0.0) {
-            self.corners[1 - half][k] = center[k];
+            self.corners[1 - half_index][k] = center[k];
         }
         self
     }
 
-    /// Error unless ends are finite, the sides positive, and the fraction inside above 0 and at most 1.
+    /// Returns an error unless ends are finite, sides are positive, and the fraction inside is above 0 and at most 1.
     pub(super) fn check(&self) -> Result<()> {
         let ends = self.ends();
         finite("left end of a contact element", ends[0][0])?;
@@ -228,11 +245,11 @@ impl ContactElement {
         positive("length of a contact element", self.length())?;
         positive("depth of a contact element", self.sides()[1])?;
         let quantity = "fraction of an element inside the outline";
-        let fits = self.inside > 0.0 && self.inside <= 1.0;
-        require(quantity, self.inside, fits, "above 0 and at most 1").map(drop)
+        let is_fraction = self.inside > 0.0 && self.inside <= 1.0;
+        require(quantity, self.inside, is_fraction, "above 0 and at most 1").map(drop)
     }
 
-    /// Fraction of an element's side by which neighbours may overlap, for the rounding of a common node.
+    /// Largest overlap of neighbours relative to their sides: the rounding error of a common node.
     pub(super) const MAX_OVERLAP_FRACTION: f64 = 1e-9;
 
     /// Whether the ends of two elements along `axis` (x 0, y 1) overlap by more than rounding.
@@ -247,16 +264,17 @@ impl ContactElement {
 impl ContactElement {
     /// Element of a wall in the plane between two points `[x, z]`, m.
     ///
-    /// The soil is on the right of the way from `start` to `end`.
+    /// The soil is on the right-hand side of the vector from `start` to `end`.
     #[doc(hidden)]
     pub fn wall(start: [f64; 2], end: [f64; 2]) -> Self {
-        let step = [end[0] - start[0], end[1] - start[1]];
-        let length = step[0].hypot(step[1]);
-        let x = step[0] / length;
-        let z = step[1] / length;
+        let difference = [end[0] - start[0], end[1] - start[1]];
+        let length = difference[0].hypot(difference[1]);
+        let tangent_x = difference[0] / length;
+        let tangent_z = difference[1] / length;
         let corners =
             [[start[0], UNIT_DEPTH_ENDS[0], start[1]], [end[0], UNIT_DEPTH_ENDS[1], end[1]]];
-        let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
+        let directions =
+            [[tangent_z, 0.0, -tangent_x], [tangent_x, 0.0, tangent_z], [0.0, 1.0, 0.0]];
         Self { corners, directions, in_plan: false, inside: 1.0 }
     }
 }

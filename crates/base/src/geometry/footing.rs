@@ -1,10 +1,26 @@
-//! Shape of a foundation: outward edges of its outline, and lever arms about its centre.
+//! Shape of a foundation: outline of a circle, outward edges of an outline, and lever arms about the centre.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{Patch, far_ends, middle, span};
 
-/// Ratio of the two components of an edge's normal from which they count as equal.
+/// Number of corners of the polygon that replaces a circle: more would only lengthen lists of edges.
+const CIRCLE_CORNER_COUNT: usize = 32;
+
+/// Corners of a regular polygon about the origin with the area of a circle of this `radius`.
+pub fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
+    let sector_angle = TAU / CIRCLE_CORNER_COUNT as f64;
+    let corner_radius = radius * (sector_angle / sector_angle.sin()).sqrt();
+    (0..CIRCLE_CORNER_COUNT).map(move |k| {
+        let corner_angle = (k as f64 + 0.5) * sector_angle;
+        let sin = corner_angle.sin();
+        let cos = corner_angle.cos();
+        [corner_radius * cos, corner_radius * sin]
+    })
+}
+
+/// Smallest ratio of an edge's normal components that counts as one: equal components differ by rounding.
 const EQUAL_COMPONENT_RATIO: f64 = 1.0 - 1e-9;
 
 /// Edge of a polygon whose corners go counter-clockwise.
@@ -12,18 +28,18 @@ const EQUAL_COMPONENT_RATIO: f64 = 1.0 - 1e-9;
 pub struct Edge {
     /// Corner at which the edge begins.
     start: [f64; 2],
-    /// Outward normal, as long as the edge.
+    /// Outward normal, with the length of the edge.
     pub normal: [f64; 2],
 }
 
 impl Edge {
     /// Edges of the polygon with these corners; the last edge ends at the first corner.
     pub fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
-        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-        pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
+        let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+        edges.map(|(&start, end)| Self { start, normal: [end[1] - start[1], start[0] - end[0]] })
     }
 
-    /// Edges of a base: of its outline, or without one its two ends along x.
+    /// Edges of a base: of its outline, or its two ends along x without an outline.
     pub fn of_base(outline: &[[f64; 2]], [left, right]: [f64; 2]) -> Vec<Self> {
         if outline.is_empty() {
             return vec![
@@ -34,7 +50,7 @@ impl Edge {
         Self::all(outline).collect()
     }
 
-    /// Component of a vector along the normal, times the length of the edge.
+    /// Component of a vector along the outward normal, times the length of the edge.
     pub fn outward(&self, vector: [f64; 2]) -> f64 {
         self.normal[0] * vector[0] + self.normal[1] * vector[1]
     }
@@ -57,21 +73,21 @@ pub struct Footing {
     pub ends: [[f64; 2]; 2],
     /// Centre of the foundation relative to the point of the base moment, m.
     pub center: [f64; 2],
-    /// Middle of each element relative to the foundation's centre, m.
+    /// Middle of each element relative to the foundation's centre and to the height of its floor, m.
     pub arms: Vec<[f64; 3]>,
     /// Sign of base moment and rotation relative to the right-hand rule about y.
     ///
-    /// −1 in the plane, where they count counter-clockwise; 1 in plan.
-    pub turn: f64,
-    /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the centre.
+    /// −1 in the plane, where both are positive counter-clockwise; 1 in plan.
+    pub rotation_sign: f64,
+    /// Edges that face along x, and edges that face along y, each with its [reach](Edge::reach) from the centre.
     pub edges: [Vec<(Edge, f64)>; 2],
 }
 
 impl Footing {
-    /// Footing of these elements.
+    /// Footing of these elements of a patch.
     ///
-    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: point of
-    /// the base moment.
+    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: reference point of the
+    /// base moment.
     pub fn new(
         patch: &Patch,
         elements: Range<usize>,
@@ -86,23 +102,31 @@ impl Footing {
         };
         let center = ends.map(middle);
         let mut edges = [vec![], vec![]];
-        for (axis, list) in edges.iter_mut().enumerate() {
+        for (axis, axis_edges) in edges.iter_mut().enumerate() {
             for edge in Edge::of_base(outline, ends[0]) {
                 if edge.faces_along(axis) {
                     let reach = edge.reach(center);
-                    list.push((edge, reach));
+                    axis_edges.push((edge, reach));
                 }
             }
         }
-        let bottom = patch[patch.floor().start].center()[2];
+        let floor_height = patch[patch.floor().start].center()[2];
         let mut arms = Vec::with_capacity(elements.len());
         for element in &patch[elements] {
             let position = element.center();
-            arms.push([position[0] - center[0], position[1] - center[1], position[2] - bottom]);
+            arms.push([
+                position[0] - center[0],
+                position[1] - center[1],
+                position[2] - floor_height,
+            ]);
         }
-        let turn = patch.layout().turn();
-        let center = [0, 1].map(|axis| center[axis] - origin[axis]);
-        Self { ends, center, arms, turn, edges }
+        Self {
+            ends,
+            center: [0, 1].map(|axis| center[axis] - origin[axis]),
+            arms,
+            rotation_sign: patch.layout().rotation_sign(),
+            edges,
+        }
     }
 }
 

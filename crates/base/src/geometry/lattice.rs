@@ -1,40 +1,40 @@
-//! Cells of equal size in rows and columns, and the offsets between them.
+//! Lattice of equal cells in rows and columns, and the offsets between cells.
 
 use std::ops::Mul;
 
 use super::{COMPONENTS_IN_SPACE, ContactElement};
 
-/// Largest distance of an element from its cell, relative to the sides of a cell.
+/// Largest distance of an element from its cell, relative to a cell's sides: rounding errors of coordinates.
 const CELL_POSITION_TOLERANCE: f64 = 1e-9;
-/// Largest number of cells of a lattice for each element.
+/// Largest number of cells per element: transforms over emptier lattices are slower than direct products.
 const MAX_CELLS_PER_ELEMENT: f64 = 4.0;
 
-/// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
+/// Number of compliances of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
 pub const SERIES_PER_OFFSET: usize = 6;
 
-/// Lattice of equal cells. Compliances depend only on the offset between two cells.
+/// Lattice of equal cells: compliances depend only on the offset between two cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice {
     /// Sides of a cell along x and y, m.
     pub pitch: [f64; 2],
-    /// Cells along x and y.
+    /// Numbers of cells along x and y.
     pub counts: [usize; 2],
 }
 
 impl Lattice {
-    /// Diagonal of all cells, m.
+    /// Diagonal of the whole lattice, m.
     pub fn diagonal(&self) -> f64 {
         let sides = self.sides();
         sides[0].hypot(sides[1])
     }
 
-    /// Sides of all cells together, m.
+    /// Sides of the whole lattice along x and y, m.
     pub fn sides(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.pitch[axis] * self.counts[axis] as f64)
     }
 
     /// Shorter side of a cell, m.
-    pub fn finest(&self) -> f64 {
+    pub fn shorter_side(&self) -> f64 {
         self.pitch[0].min(self.pitch[1])
     }
 
@@ -43,7 +43,7 @@ impl Lattice {
         self.pitch[0] == self.pitch[1]
     }
 
-    /// Number of offsets along x and y that are integrated; the smaller number first if cells are square.
+    /// Numbers of offsets along x and y that are integrated; the smaller number first if cells are square.
     pub fn extent(&self) -> [usize; 2] {
         let counts = self.counts;
         if self.is_square() {
@@ -53,7 +53,7 @@ impl Lattice {
         }
     }
 
-    /// Offsets whose compliances give all others by symmetry: none negative, and i ≤ j if cells are square.
+    /// Offsets [i, j] ≥ 0 whose compliances give all others by symmetry; i ≤ j if cells are square.
     pub fn classes(&self) -> Vec<[usize; 2]> {
         let extent = self.extent();
         let mut classes = vec![];
@@ -67,77 +67,79 @@ impl Lattice {
         classes
     }
 
-    /// Number of the class of an offset (absolute), and whether x and y are exchanged there.
+    /// Index of the class of an absolute offset, and whether x and y are exchanged in this class.
     fn class(&self, [i, j]: [usize; 2]) -> (usize, bool) {
-        let rows = self.extent()[1];
+        let row_count = self.extent()[1];
         if !self.is_square() {
-            return (i * rows + j, false);
+            return (i * row_count + j, false);
         }
         let smaller = i.min(j);
         let larger = i.max(j);
-        // For each smaller number i, the larger ones are i, i + 1, …
-        (smaller * rows - smaller * (smaller + 1) / 2 + larger, i > j)
+        // A row of classes has one smaller number; its larger numbers begin at the smaller one.
+        (smaller * row_count - smaller * (smaller + 1) / 2 + larger, i > j)
     }
 
-    /// Class of an offset, and the series and factor of each pair of components.
+    /// Class of an offset, and the index and factor of the compliance of each pair of components.
     ///
     /// Rows: components of the receiver's displacement (down, along x, along y). Columns: components of the
     /// source's traction. The receiver is `offset` cells from the source.
+    #[inline]
     pub fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
-        let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
+        let (class, is_exchanged) = self.class(offset.map(isize::unsigned_abs));
         let signs = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
-        // Numbers of the series xx, yy, zx and zy.
-        let series = if exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
-        let xx = (series[0], 1.0);
-        let yy = (series[1], 1.0);
+        // Indices of the compliances xx, yy, zx and zy.
+        let indices = if is_exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
+        let xx = (indices[0], 1.0);
+        let yy = (indices[1], 1.0);
         let xy = (3, signs[0] * signs[1]);
-        let zx = (series[2], signs[0]);
-        let zy = (series[3], signs[1]);
+        let zx = (indices[2], signs[0]);
+        let zy = (indices[3], signs[1]);
         // The coupling of shear and pressure changes its sign when receiver and source are exchanged.
-        let xz = (series[2], -signs[0]);
-        let yz = (series[3], -signs[1]);
+        let xz = (indices[2], -signs[0]);
+        let yz = (indices[3], -signs[1]);
         (class, [[(0, 1.0), zx, zy], [xz, xx, xy], [yz, xy, yy]])
     }
 
-    /// 3 × 3 values for a receiver `offset` cells from the source, taken from the values of all classes.
+    /// 3 × 3 compliances for a receiver `offset` cells from the source, from the `values` of all classes.
     pub fn block<T>(&self, values: &[[T; SERIES_PER_OFFSET]], offset: [isize; 2]) -> [[T; 3]; 3]
     where
         T: Copy + Mul<f64, Output = T>,
     {
         let (class, terms) = self.terms(offset);
-        terms.map(|row| row.map(|(series, factor)| values[class][series] * factor))
+        terms.map(|row| row.map(|(index, factor)| values[class][index] * factor))
     }
 }
 
-/// Columns and rows from a source to a receiver.
+/// Numbers of columns and rows from a source to a receiver.
+#[inline]
 pub fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
     [0, 1].map(|axis| receiver[axis].cast_signed() - source[axis].cast_signed())
 }
 
 /// Column and row of each element, if all are equal cells of a lattice that is mostly filled.
 pub fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
-    let first = elements.first()?;
-    if first.directions().len() != COMPONENTS_IN_SPACE {
+    let first_element = elements.first()?;
+    if first_element.directions().len() != COMPONENTS_IN_SPACE {
         return None;
     }
-    let pitch = first.sides();
+    let pitch = first_element.sides();
     let mut corner = [f64::INFINITY; 2];
     for element in elements {
         for (axis, [low, _]) in element.ends().into_iter().enumerate() {
             corner[axis] = corner[axis].min(low);
         }
     }
-    let max_count = MAX_CELLS_PER_ELEMENT * elements.len() as f64;
+    let max_cell_count = MAX_CELLS_PER_ELEMENT * elements.len() as f64;
     let mut cells = Vec::with_capacity(elements.len());
-    let mut counts = [0; 2];
+    let mut cell_counts = [0; 2];
     for element in elements {
         let sides = element.sides();
         let mut cell = [0; 2];
         for axis in 0..2 {
             let position = (element.ends()[axis][0] - corner[axis]) / pitch[axis];
-            let has_size = (sides[axis] / pitch[axis] - 1.0).abs() <= CELL_POSITION_TOLERANCE;
+            let has_cell_size = (sides[axis] / pitch[axis] - 1.0).abs() <= CELL_POSITION_TOLERANCE;
             let is_on_grid = (position - position.round()).abs() <= CELL_POSITION_TOLERANCE;
-            if !has_size || !is_on_grid || position.is_nan() || position >= max_count {
+            if !has_cell_size || !is_on_grid || position.is_nan() || position >= max_cell_count {
                 return None;
             }
             #[allow(
@@ -145,13 +147,13 @@ pub fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
                 clippy::cast_sign_loss,
                 reason = "from zero to a few times the number of elements"
             )]
-            let number = position.round() as usize;
-            cell[axis] = number;
-            counts[axis] = counts[axis].max(number + 1);
+            let cell_index = position.round() as usize;
+            cell[axis] = cell_index;
+            cell_counts[axis] = cell_counts[axis].max(cell_index + 1);
         }
         cells.push(cell);
     }
-    ((counts[0] * counts[1]) as f64 <= max_count).then_some(cells)
+    ((cell_counts[0] * cell_counts[1]) as f64 <= max_cell_count).then_some(cells)
 }
 
 #[cfg(test)]
@@ -165,15 +167,15 @@ mod tests {
         {
             let lattice = Lattice { pitch, counts };
             let classes = lattice.classes();
-            let mut occurs = vec![false; classes.len()];
+            let mut is_class_used = vec![false; classes.len()];
             for i in 0..counts[0] {
                 for j in 0..counts[1] {
-                    let (class, exchanged) = lattice.class([i, j]);
-                    assert_eq!(classes[class], if exchanged { [j, i] } else { [i, j] });
-                    occurs[class] = true;
+                    let (class, is_exchanged) = lattice.class([i, j]);
+                    assert_eq!(classes[class], if is_exchanged { [j, i] } else { [i, j] });
+                    is_class_used[class] = true;
                 }
             }
-            assert!(occurs.into_iter().all(|occurs| occurs), "{counts:?}");
+            assert!(is_class_used.into_iter().all(|is_used| is_used), "{counts:?}");
         }
     }
 
@@ -183,18 +185,18 @@ mod tests {
         let lattice = Lattice { pitch: [1.0; 2], counts: [4, 5] };
         let values: Vec<[f64; SERIES_PER_OFFSET]> = (0..lattice.classes().len())
             .map(|class| {
-                std::array::from_fn(|series| (SERIES_PER_OFFSET * class + series + 1) as f64)
+                std::array::from_fn(|index| (SERIES_PER_OFFSET * class + index + 1) as f64)
             })
             .collect();
         for offset in [[0_isize, 3], [3, 1], [-2, 4], [-3, -1]] {
-            let there = lattice.block(&values, offset);
-            let back = lattice.block(&values, offset.map(|n| -n));
+            let block = lattice.block(&values, offset);
+            let reverse_block = lattice.block(&values, offset.map(|n| -n));
             for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
                 if offset.contains(&0) && row != column {
                     continue;
                 }
-                assert_eq!(there[row][column], back[column][row], "{offset:?}");
-                assert_eq!(there[column][row], back[row][column], "{offset:?}");
+                assert_eq!(block[row][column], reverse_block[column][row], "{offset:?}");
+                assert_eq!(block[column][row], reverse_block[row][column], "{offset:?}");
             }
         }
     }
@@ -204,11 +206,12 @@ mod tests {
         let cells = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [1, 3]];
         let elements: Vec<_> = cells.iter().map(|cell| element(*cell)).collect();
         assert_eq!(lattice_cells(&elements), Some(cells.to_vec()));
-        let wider = ContactElement::in_plan([1.9, 1.9 + 0.3 * 2.0], [-2.0, -1.3]);
-        let displaced = ContactElement::in_plan([1.95, 1.9 + 0.3 * 1.0 + 0.05], [-2.0, -1.3]);
-        let far_away = element([9, 9]);
-        for other in [wider, displaced, far_away] {
-            assert_eq!(lattice_cells(&[&elements[..], &[other]].concat()), None);
+        let wider_element = ContactElement::in_plan([1.9, 1.9 + 0.3 * 2.0], [-2.0, -1.3]);
+        let displaced_element =
+            ContactElement::in_plan([1.95, 1.9 + 0.3 * 1.0 + 0.05], [-2.0, -1.3]);
+        let distant_element = element([9, 9]);
+        for extra_element in [wider_element, displaced_element, distant_element] {
+            assert_eq!(lattice_cells(&[&elements[..], &[extra_element]].concat()), None);
         }
         assert_eq!(lattice_cells(&[ContactElement::new(0.0, 1.0)]), None);
     }

@@ -11,27 +11,28 @@ pub struct Patch {
     elements: Vec<ContactElement>,
     /// Area of each element inside the outline, m² (in the plane: length, m).
     areas: Vec<f64>,
-    /// Elements that face down, side by side; all of them unless the ground has walls.
+    /// Indices of the adjacent elements that face down; all of them unless the ground has walls.
     floor: Range<usize>,
 }
 
 impl Patch {
-    /// Elements of a ground.
+    /// Checked elements of a ground.
     ///
-    /// Returns an error unless all elements have a size and equally many directions, and none overlap; in the plane
-    /// they must also run from left to right. Returns an error for more elements than matrices between all of them allow.
+    /// Returns an error unless all elements have positive sides and equal numbers of directions, and none overlap; in the
+    /// plane they must also be in order from left to right. Returns an error for so many elements that the matrices
+    /// between all pairs exceed the memory limit.
     pub fn new(elements: Vec<ContactElement>) -> Result<Self> {
         check_count(elements.len(), ContactLayout::for_elements(&elements).components())?;
         Self::of_any_count(elements)
     }
 
-    /// The same, but in plan for any number of elements.
+    /// Checked elements of a ground, in plan for any number of elements.
     pub fn of_any_count(elements: Vec<ContactElement>) -> Result<Self> {
         let layout = ContactLayout::for_elements(&elements);
         if elements.iter().any(|element| element.directions().len() != layout.components()) {
             return Err(Error::Scene {
                 quantity: "contact elements of the ground",
-                needed: "all of them, or none, in plan",
+                needed: "all elements in plan, or all in the plane",
             });
         }
         if layout.is_plan() {
@@ -44,27 +45,27 @@ impl Patch {
         Ok(Self { elements, areas, floor })
     }
 
-    /// Elements that face down; all of them unless the ground has walls.
+    /// Indices of the elements that face down; all of them unless the ground has walls.
     pub fn floor(&self) -> Range<usize> {
         self.floor.clone()
     }
 
-    /// Whether elements face to the side.
+    /// Whether any element belongs to a wall.
     pub fn has_walls(&self) -> bool {
         self.floor.len() < self.elements.len()
     }
 
-    /// Parts of each element in its place: halves, in plan quarters.
-    pub fn finer(&self) -> Result<Self> {
+    /// The patch with each element halved, or quartered in plan.
+    pub fn refined(&self) -> Result<Self> {
         Self::new(self.elements.iter().flat_map(ContactElement::parts).collect())
     }
 
-    /// Order of the numbers of a contact vector.
+    /// Order of the entries of a contact vector.
     pub fn layout(&self) -> ContactLayout {
         ContactLayout::for_elements(&self.elements)
     }
 
-    /// Whether the ground is one in plan, of three directions.
+    /// Whether the elements are in plan, with three components each.
     pub fn is_plan(&self) -> bool {
         self.layout().is_plan()
     }
@@ -75,8 +76,7 @@ impl Patch {
         &self.areas
     }
 
-    /// Converts a matrix that takes tractions of whole elements to one that takes tractions inside the
-    /// outline.
+    /// Converts a matrix for tractions on whole elements to a matrix for tractions inside the outline.
     pub fn refer_inside(&self, matrix: &mut [f64]) {
         let layout = self.layout();
         for row in matrix.chunks_exact_mut(layout.len()) {
@@ -87,8 +87,9 @@ impl Patch {
     /// Converts tractions inside the outline to tractions spread over whole elements.
     pub fn spread_inside(&self, traction: &mut [f64]) {
         for component in traction.chunks_exact_mut(self.elements.len()) {
-            let parts = component.iter_mut().zip(&self.elements);
-            parts.for_each(|(value, element)| *value *= element.fraction_inside());
+            for (value, element) in component.iter_mut().zip(&self.elements) {
+                *value *= element.fraction_inside();
+            }
         }
     }
 
@@ -99,15 +100,15 @@ impl Patch {
     }
 }
 
-/// Elements that face down.
+/// Indices of the elements that face down.
 ///
-/// Returns an error unless they are neighbours in the list.
+/// Returns an error unless these elements are adjacent in the list.
 fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
     let floor = ContactElement::faces(elements).floor;
     if floor.is_empty() {
         return Err(Error::Scene {
             quantity: "contact elements of the ground",
-            needed: "some that face down",
+            needed: "at least one element that faces down",
         });
     }
     if elements[floor.clone()].iter().all(ContactElement::faces_down) {
@@ -115,7 +116,7 @@ fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
     }
     Err(Error::Scene {
         quantity: "contact elements of the ground",
-        needed: "those that face down next to each other, between the walls",
+        needed: "all elements that face down adjacent in the list, between those of the walls",
     })
 }
 
@@ -127,58 +128,63 @@ impl std::ops::Deref for Patch {
     }
 }
 
-/// Memory for each pair of elements, bytes: a dozen matrices of 2 × 2 numbers.
+/// Memory for each pair of elements, bytes: about twelve matrices of 2 × 2 numbers.
 ///
-/// With 300 to 800 elements, a pair takes 202 to 271 bytes when a simulation is built, and 385 to 436 after the first
-/// step on a graded strip.
+/// With 300 to 800 elements, a pair needs 202 to 271 bytes when a simulation is built, and 385 to 436 bytes after the
+/// first step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
-/// Error if the matrices between this many elements, with this number of components each, exceed the memory.
-pub fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
-    let count = count as f64;
-    // As many elements in the plane have matrices of the same size.
-    let plane_count = count * (components as f64 / COMPONENTS_IN_PLANE as f64);
+/// Returns an error if the matrices between all pairs of elements exceed the memory limit.
+///
+/// `component_count`: number of components of each element.
+pub fn check_count(
+    element_count: usize,
+    component_count: usize,
+) -> std::result::Result<(), MemoryError> {
+    let count = element_count as f64;
+    // This number of elements in the plane has matrices of the same size.
+    let plane_count = count * (component_count as f64 / COMPONENTS_IN_PLANE as f64);
     memory::check("contact elements", count, BYTES_PER_PAIR * plane_count * plane_count)
 }
 
-/// Error unless there are elements, and each has a size.
+/// Returns an error unless there are elements, all with positive sides.
 fn check_sizes(elements: &[ContactElement]) -> Result<()> {
     at_least("list of contact elements", elements.len(), 1)?;
     elements.iter().try_for_each(ContactElement::check)
 }
 
-/// Error unless the elements are in the plane and have positive length, in order, without overlap.
+/// Returns an error unless elements are in the plane, with positive lengths, in order and without overlap.
 pub fn check_order(elements: &[ContactElement]) -> Result<()> {
     check_count(elements.len(), COMPONENTS_IN_PLANE)?;
     check_sizes(elements)?;
     if elements.iter().any(|element| element.directions().len() != COMPONENTS_IN_PLANE) {
         return Err(Error::Scene {
             quantity: "contact elements",
-            needed: "elements in the plane: those in plan need a `Plan`",
+            needed: "elements in the plane: elements in plan need a `Plan`",
         });
     }
     for pair in elements.windows(2) {
         let overlap = pair[0].right() - pair[1].left();
         let is_apart = overlap
             <= ContactElement::MAX_OVERLAP_FRACTION * pair[0].length().min(pair[1].length());
-        let needed = "at or right of the end of the element before it";
+        let needed = "at or right of the right end of the previous element";
         require("left end of a contact element", pair[1].left(), is_apart, needed)?;
     }
     Ok(())
 }
 
-/// Error unless the rectangles have a size and do not overlap.
+/// Returns an error unless the rectangles have positive sides and do not overlap.
 fn check_cells(elements: &[ContactElement]) -> Result<()> {
     check_sizes(elements)?;
-    // Sorted by left ends: an element that begins beyond another's right end cannot overlap it.
-    let mut order: Vec<_> = elements.iter().collect();
-    order.sort_by(|one, other| one.left().total_cmp(&other.left()));
-    for (place, element) in order.iter().enumerate() {
-        for other in &order[place + 1..] {
+    // In the order of left ends, all elements after the first one beyond a right end are beyond it too.
+    let mut sorted_elements: Vec<_> = elements.iter().collect();
+    sorted_elements.sort_by(|one, other| one.left().total_cmp(&other.left()));
+    for (k, element) in sorted_elements.iter().enumerate() {
+        for other in &sorted_elements[k + 1..] {
             if !element.overlaps(other, 0) {
                 break;
             }
-            let needed = "beside or behind all others: elements do not overlap";
+            let needed = "outside all other elements: elements must not overlap";
             let is_apart = !element.overlaps(other, 1);
             require("left end of a contact element", other.left(), is_apart, needed)?;
         }

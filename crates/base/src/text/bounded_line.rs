@@ -10,10 +10,10 @@ use crate::error::FileFault;
 const MAX_LINE_BYTES: u64 = 65_536;
 /// UTF-8's byte-order mark.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-/// The byte with which DOS ends a file.
+/// End-of-file byte that DOS programs write.
 const DOS_END_OF_FILE: u8 = 0x1a;
 
-/// Result of reading lines, or the number of a line and its fault.
+/// Result of reading lines; its error is the number of a line and the fault of this line.
 pub type LineResult<T> = Result<T, (usize, FileFault)>;
 
 /// The lines of a text, read one by one.
@@ -22,11 +22,12 @@ pub type LineResult<T> = Result<T, (usize, FileFault)>;
 pub struct Lines<R> {
     source: BufReader<R>,
     bytes: Vec<u8>,
-    /// Number of the present line, from 1.
+    /// Number of the current line, from 1.
     pub number: usize,
 }
 
 impl<R: Read> Lines<R> {
+    /// Lines of a source, before its first line.
     pub fn new(source: R) -> Self {
         Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
     }
@@ -46,23 +47,25 @@ impl<R: Read> Lines<R> {
         self.bytes.clear();
         match self.source.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut self.bytes) {
             Err(error) => Err(FileFault::Unreadable(error.kind())),
-            Ok(count) if count as u64 == MAX_LINE_BYTES && self.bytes.last() != Some(&b'\n') => {
+            Ok(byte_count)
+                if byte_count as u64 == MAX_LINE_BYTES && self.bytes.last() != Some(&b'\n') =>
+            {
                 Err(FileFault::value(
                     "length of the line",
-                    format!("{count} bytes or more"),
+                    format!("{byte_count} bytes or more"),
                     "less",
                 ))
             }
-            Ok(count) => {
+            Ok(byte_count) => {
                 if self.bytes.last() == Some(&DOS_END_OF_FILE) {
                     self.bytes.pop();
                 }
-                Ok(count > 0)
+                Ok(byte_count > 0)
             }
         }
     }
 
-    /// Fills `bytes` from behind the present line; `false` if the source ends before.
+    /// Fills `bytes` with the bytes after the current line; `false` if the source has fewer bytes.
     pub fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
         match self.source.read_exact(bytes) {
             Ok(()) => Ok(true),
@@ -71,18 +74,21 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Skips all bytes up to and with `end`; `false` if the source does not contain it.
+    /// Skips all bytes up to the end of `marker`; `false` if the source does not contain the marker.
     ///
-    /// `end` begins with its only `$`.
-    pub fn skip_behind(&mut self, end: &[u8]) -> Result<bool, FileFault> {
-        let mut matched = 0;
+    /// `marker`: begins with `$`, which occurs in it only once.
+    pub fn skip_past(&mut self, marker: &[u8]) -> Result<bool, FileFault> {
+        let mut matched_count = 0;
         let mut byte = [0];
-        while matched < end.len() {
+        while matched_count < marker.len() {
             if !self.fill(&mut byte)? {
                 return Ok(false);
             }
-            matched =
-                if byte[0] == end[matched] { matched + 1 } else { usize::from(byte[0] == end[0]) };
+            matched_count = if byte[0] == marker[matched_count] {
+                matched_count + 1
+            } else {
+                usize::from(byte[0] == marker[0])
+            };
         }
         Ok(true)
     }
@@ -97,19 +103,20 @@ impl<R: Read> Lines<R> {
         Ok(self.advance()?.then(|| self.text().trim_end().to_owned()))
     }
 
-    /// Fault of the present line, with its number.
+    /// A fault with the number of the current line.
     pub fn fault(&self, fault: FileFault) -> (usize, FileFault) {
         (self.number, fault)
     }
 
-    /// Adds the number of the present line to the fault of a result.
+    /// Adds the number of the current line to the fault of a result.
     pub fn with_line_number<T>(&self, result: Result<T, FileFault>) -> LineResult<T> {
         result.map_err(|fault| self.fault(fault))
     }
 
-    /// The present line with its line end.
+    /// The current line with its line end.
     ///
-    /// Bytes that are not UTF-8 become characters that no number contains; in comments they do not matter.
+    /// Bytes that are not UTF-8 become a replacement character. Numbers with this character are rejected; comments may
+    /// contain it.
     pub fn text(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(&self.bytes)
     }

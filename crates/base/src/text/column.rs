@@ -1,4 +1,4 @@
-//! Names of columns and numbers in cells, by the same rule for all files.
+//! Column names and cells of numbers, by the same rules for all files.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -20,29 +20,29 @@ pub fn column(name: &str, unit: &str) -> String {
     text
 }
 
-/// Makes `columns` different from each other and from `taken`.
+/// Makes the names of `columns` different from each other and from the `taken` names.
 ///
-/// Of equal names the second ends in `_2`, the third in `_3`.
+/// The second of equal names ends in `_2`, the third in `_3`.
 pub fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
-    let mut used: BTreeSet<String> = taken.iter().cloned().collect();
-    let mut distinct = Vec::new();
+    let mut used_names: BTreeSet<String> = taken.iter().cloned().collect();
+    let mut distinct_names = Vec::new();
     for column in columns {
         let mut name = column.clone();
         let mut number = 1_usize;
-        while used.contains(&name) {
+        while used_names.contains(&name) {
             number += 1;
             name = format!("{column}_{number}");
         }
-        used.insert(name.clone());
-        distinct.push(name);
+        used_names.insert(name.clone());
+        distinct_names.push(name);
     }
-    distinct
+    distinct_names
 }
 
 /// Letters and digits in lower case, with an underscore for all characters between them.
 fn snake_case(text: &str) -> String {
-    let words = text.split(|character: char| !character.is_alphanumeric());
-    let words = words.filter(|word| !word.is_empty()).map(str::to_lowercase);
+    let parts = text.split(|character: char| !character.is_alphanumeric());
+    let words = parts.filter(|part| !part.is_empty()).map(str::to_lowercase);
     words.collect::<Vec<_>>().join("_")
 }
 
@@ -66,7 +66,7 @@ fn in_words(unit: &str) -> String {
     text
 }
 
-/// A number in a cell: the shortest decimal that reads back as the same number.
+/// Number in a cell: prints the shortest decimal that reads back as the same number.
 ///
 /// NaN is an empty cell, infinities are `inf` and `-inf`.
 #[derive(Clone, Copy)]
@@ -79,7 +79,7 @@ impl fmt::Display for NumberCell {
     }
 }
 
-/// The cells of a line, separated by commas, with its line end.
+/// Line of cells, separated by commas, with its line end.
 pub fn cell_line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> String {
     let mut text = String::new();
     for (k, cell) in cells.into_iter().enumerate() {
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_units_by_one_rule() {
+    fn columns_have_names_and_units() {
         for (name, unit, expected) in [
             ("base shear", "N/m", "base_shear_n_per_m"),
             ("base moment", "N·m/m", "base_moment_n_m_per_m"),
@@ -119,8 +119,8 @@ mod tests {
     #[test]
     fn equal_columns_are_numbered() {
         let names = ["time_s", "a", "a", "a_2", "b", "a"].map(str::to_owned);
-        let found = distinct(&["time_s".to_owned()], names.into_iter());
-        assert_eq!(found, ["time_s_2", "a", "a_2", "a_2_2", "b", "a_3"]);
+        let distinct_names = distinct(&["time_s".to_owned()], names.into_iter());
+        assert_eq!(distinct_names, ["time_s_2", "a", "a_2", "a_2_2", "b", "a_3"]);
     }
 
     #[test]

@@ -25,9 +25,9 @@ use crate::text::file::write_file;
 pub struct Csv(#[doc(hidden)] pub String);
 
 impl Csv {
-    /// Saves the text as a file; its folder is made if it does not exist.
+    /// Saves the text as a file, and creates its folder if necessary.
     ///
-    /// The file is written under another name and renamed, so it is either complete or unchanged.
+    /// The file is written under another name and renamed, so an existing file is either replaced or unchanged.
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File) if the file cannot be written.
@@ -56,7 +56,7 @@ impl fmt::Display for Csv {
     }
 }
 
-/// A cell of CSV (RFC 4180), in quotation marks if it needs them.
+/// Text of a CSV cell (RFC 4180), in quotation marks if necessary.
 pub fn csv_cell(cell: &str) -> Cow<'_, str> {
     if cell.contains([',', '"', '\n', '\r']) {
         Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
@@ -65,7 +65,7 @@ pub fn csv_cell(cell: &str) -> Cow<'_, str> {
     }
 }
 
-/// Cells as a line of CSV, with its line end.
+/// Line of CSV with these cells, with its line end.
 pub fn csv_line(cells: &[String]) -> String {
     cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
 }

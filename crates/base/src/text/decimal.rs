@@ -2,7 +2,7 @@
 //!
 //! [`finite`] defines which text counts as a number.
 
-/// The finite number that a whole text is; `None` for any other text.
+/// Converts a text that is a finite decimal number as a whole; `None` for any other text.
 ///
 /// The exponent may have the form of C or Fortran: `1.5`, `-2E+3`, `.5D-2`. A unit after the number, a
 /// decimal comma and `inf` are not accepted.
@@ -17,37 +17,37 @@ pub fn finite(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// An [`excerpt`] of a file in the quotation marks of messages.
+/// An [`excerpt`] of a text in quotation marks, for messages.
 pub fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 
-/// The number in a field of Fortran's format `kPFw.d`.
+/// Converts a field of Fortran's format `kPFw.d`, where k is `scale` and d is `decimals`; `None` if it is no number.
 ///
-/// Without a decimal point, the last `decimals` digits are after the point. Without an exponent, 10ᵏ times
-/// the value is printed.
+/// Without a decimal point in the field, the last d digits are decimals. Without an exponent, the field contains 10ᵏ
+/// times the value.
 pub fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
     let (digits, exponent) = match text.find(['e', 'E', 'd', 'D']) {
         Some(position) => (&text[..position], Some(text[position + 1..].parse::<i32>().ok()?)),
         None => (text, None),
     };
     let implied_decimals = if has_implied_point(text) { i32::from(decimals) } else { 0 };
-    let scale = if exponent.is_some() { 0 } else { i32::from(scale) };
-    match exponent.unwrap_or(0).checked_sub(implied_decimals + scale)? {
+    let implied_scale = if exponent.is_some() { 0 } else { i32::from(scale) };
+    match exponent.unwrap_or(0).checked_sub(implied_decimals + implied_scale)? {
         0 => finite(digits),
-        exponent => finite(&format!("{digits}e{exponent}")),
+        total_exponent => finite(&format!("{digits}e{total_exponent}")),
     }
 }
 
-/// Whether a field has no decimal point, so that the format defines it.
+/// Whether a field has no decimal point, so that the format defines the number of decimals.
 pub fn has_implied_point(text: &str) -> bool {
     !text.contains('.')
 }
 
-/// Largest number of characters of an [`excerpt`].
+/// Largest number of characters of an [`excerpt`]: enough to find the place in the file.
 const MAX_EXCERPT_CHARACTERS: usize = 40;
 
-/// The first characters of a text, for errors; invisible ones are escaped, as in `\u{feff}`.
+/// The first characters of a text, for errors; invisible characters are escaped, as in `\u{feff}`.
 pub fn excerpt(text: &str) -> String {
     let mut excerpt = String::new();
     for character in text.chars().take(MAX_EXCERPT_CHARACTERS) {
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_have_their_formats_point() {
+    fn fields_have_the_decimals_of_their_format() {
         for (text, decimals, scale, value) in [
             ("12345", 3, 0, 12.345),
             ("-2345", 3, 0, -2.345),
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn hidden_signs_show_in_errors() {
+    fn excerpts_escape_invisible_characters() {
         assert_eq!(excerpt("\u{feff}1\r2 \u{2212}é"), "\\u{feff}1\\u{d}2 \u{2212}é");
         assert_eq!(excerpt(&"1".repeat(50)).len(), 40);
     }

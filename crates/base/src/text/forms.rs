@@ -1,19 +1,18 @@
-//! Forms in which values are stored in serde's formats.
+//! Stored forms of values in serde's formats.
 
 /// Implements `Deserialize` through a constructor, which checks the values.
 ///
-/// It defines a struct of the fields as they are stored, and the conversion to the type, which has
-/// `serde(try_from)`.
+/// The macro defines a struct of the stored fields, and the conversion to the type, which has `serde(try_from)`.
 #[macro_export]
 macro_rules! validated {
     ($type:ident as $form:ident {
-        $($(#[$attribute:meta])* $field:ident: $kind:ty),+ $(,)?
-    } => $make:expr) => {
+        $($(#[$attribute:meta])* $field:ident: $field_type:ty),+ $(,)?
+    } => $constructor:expr) => {
         #[cfg(feature = "serde")]
         #[derive(serde::Deserialize)]
         #[serde(deny_unknown_fields)]
         struct $form {
-            $($(#[$attribute])* $field: $kind,)+
+            $($(#[$attribute])* $field: $field_type,)+
         }
 
         #[cfg(feature = "serde")]
@@ -22,13 +21,13 @@ macro_rules! validated {
 
             fn try_from(form: $form) -> $crate::error::Result<Self> {
                 let $form { $($field),+ } = form;
-                $make
+                $constructor
             }
         }
     };
 }
 
-/// A number that need not be finite.
+/// Stored form of a number that may be infinite or NaN.
 ///
 /// In human-readable formats NaN is null, and infinities are the texts "inf" and "-inf".
 #[cfg(feature = "serde")]
@@ -36,21 +35,21 @@ pub mod number {
     use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
     use serde::ser::Serializer;
 
-    pub fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
-        if value.is_finite() || !to.is_human_readable() {
-            to.serialize_f64(*value)
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        if value.is_finite() || !serializer.is_human_readable() {
+            serializer.serialize_f64(*value)
         } else if value.is_nan() {
-            to.serialize_none()
+            serializer.serialize_none()
         } else {
-            to.serialize_str(if *value > 0.0 { "inf" } else { "-inf" })
+            serializer.serialize_str(if *value > 0.0 { "inf" } else { "-inf" })
         }
     }
 
-    pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<f64, D::Error> {
-        if from.is_human_readable() {
-            from.deserialize_any(NumberVisitor)
+    pub fn deserialize<'a, D: Deserializer<'a>>(deserializer: D) -> Result<f64, D::Error> {
+        if deserializer.is_human_readable() {
+            deserializer.deserialize_any(NumberVisitor)
         } else {
-            f64::deserialize(from)
+            f64::deserialize(deserializer)
         }
     }
 
@@ -93,7 +92,7 @@ pub mod number {
     }
 }
 
-/// Lists of numbers, each as [`number`] writes it.
+/// Stored form of lists of numbers, each in the form of [`number`].
 #[cfg(feature = "serde")]
 pub mod lists {
     use serde::de::{Deserialize, Deserializer};
@@ -103,19 +102,21 @@ pub mod lists {
     #[serde(transparent)]
     struct StoredNumber(#[serde(with = "super::number")] f64);
 
-    pub fn serialize<S: Serializer>(lists: &[Vec<f64>], to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(
+    pub fn serialize<S: Serializer>(lists: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(
             lists.iter().map(|list| list.iter().copied().map(StoredNumber).collect::<Vec<_>>()),
         )
     }
 
-    pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
-        let lists = Vec::<Vec<StoredNumber>>::deserialize(from)?.into_iter();
+    pub fn deserialize<'a, D: Deserializer<'a>>(
+        deserializer: D,
+    ) -> Result<Vec<Vec<f64>>, D::Error> {
+        let lists = Vec::<Vec<StoredNumber>>::deserialize(deserializer)?.into_iter();
         Ok(lists.map(|list| list.into_iter().map(|number| number.0).collect()).collect())
     }
 }
 
-/// A duration in seconds.
+/// Stored form of a duration: its seconds.
 #[cfg(feature = "serde")]
 pub mod seconds {
     use std::time::Duration;
@@ -123,11 +124,11 @@ pub mod seconds {
     use serde::de::{Deserialize, Deserializer, Error};
     use serde::ser::Serializer;
 
-    pub fn serialize<S: Serializer>(value: &Duration, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_f64(value.as_secs_f64())
+    pub fn serialize<S: Serializer>(value: &Duration, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(value.as_secs_f64())
     }
 
-    pub fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Duration, D::Error> {
-        Duration::try_from_secs_f64(f64::deserialize(from)?).map_err(D::Error::custom)
+    pub fn deserialize<'a, D: Deserializer<'a>>(deserializer: D) -> Result<Duration, D::Error> {
+        Duration::try_from_secs_f64(f64::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }

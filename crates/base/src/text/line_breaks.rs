@@ -1,11 +1,11 @@
-//! Text broken into lines.
+//! Breaks texts into lines.
 
-/// Character that replaces the rest of a text that was cut.
-const CUT_MARK: char = '…';
+/// Character at the end of a truncated text.
+const TRUNCATION_MARK: char = '…';
 
-/// The text in lines no wider than `max_width`, broken between words where possible.
+/// Lines of a text, no wider than `max_width`, broken between words where possible.
 ///
-/// `width`: function that measures a text. A text that needs more than `max_lines` is cut, and ends in "…".
+/// `width`: function that measures a text. A text that needs more than `max_lines` is truncated, and ends in "…".
 pub fn wrapped(
     text: &str,
     max_width: f64,
@@ -13,46 +13,46 @@ pub fn wrapped(
     width: impl Fn(&str) -> f64,
 ) -> Vec<String> {
     let mut lines = vec![String::new()];
-    let mut is_cut = false;
+    let mut is_truncated = false;
     'words: for word in text.split_whitespace() {
-        let mut line = lines.len() - 1;
-        if !lines[line].is_empty() {
-            // The last line takes as much of the word as fits.
-            let fits = width(&format!("{} {word}", lines[line])) <= max_width;
-            if fits || lines.len() == max_lines {
-                lines[line].push(' ');
+        let mut line_index = lines.len() - 1;
+        if !lines[line_index].is_empty() {
+            // The last line contains the beginning of a word that does not fit.
+            let is_narrow = width(&format!("{} {word}", lines[line_index])) <= max_width;
+            if is_narrow || lines.len() == max_lines {
+                lines[line_index].push(' ');
             } else {
                 lines.push(String::new());
-                line += 1;
+                line_index += 1;
             }
         }
         for character in word.chars() {
-            let is_too_wide = width(&format!("{}{character}", lines[line])) > max_width;
+            let is_too_wide = width(&format!("{}{character}", lines[line_index])) > max_width;
             if is_too_wide && lines.len() == max_lines {
-                is_cut = true;
+                is_truncated = true;
                 break 'words;
             }
             if is_too_wide {
                 lines.push(String::new());
-                line += 1;
+                line_index += 1;
             }
-            lines[line].push(character);
+            lines[line_index].push(character);
         }
     }
-    if is_cut && let Some(last) = lines.last_mut() {
-        while !last.is_empty() && width(&format!("{last}{CUT_MARK}")) > max_width {
-            last.pop();
+    if is_truncated && let Some(last_line) = lines.last_mut() {
+        while !last_line.is_empty() && width(&format!("{last_line}{TRUNCATION_MARK}")) > max_width {
+            last_line.pop();
         }
-        *last = format!("{}{CUT_MARK}", last.trim_end());
+        *last_line = format!("{}{TRUNCATION_MARK}", last_line.trim_end());
     }
     lines
 }
 
-/// The text in lines of limited length, without control characters.
+/// Lines of a text with a limited number of characters, without control characters.
 pub fn broken_lines(text: &str, max_characters: usize) -> Vec<String> {
-    let plain =
+    let printable_text =
         text.replace(|character: char| character.is_control() && !character.is_whitespace(), "");
-    wrapped(&plain, max_characters as f64, usize::MAX, |line| line.chars().count() as f64)
+    wrapped(&printable_text, max_characters as f64, usize::MAX, |line| line.chars().count() as f64)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Text: words of choices, numbers, tables and columns, lines of files, forms in serde's formats.
+//! Text: words of choices, numbers, tables and columns, lines of files, stored forms in serde's formats.
 
 #[macro_use]
 pub mod words;

@@ -1,6 +1,6 @@
-//! Numbers as engineers read them.
+//! Numbers in reports, with customary units and few figures.
 
-/// Unit in which values are printed, and the factor from the SI unit to it.
+/// Unit of printed values, and the factor from the SI unit to this unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrintedUnit<'a> {
     /// Printed values are SI values times this factor.
@@ -9,7 +9,7 @@ pub struct PrintedUnit<'a> {
     pub symbol: &'a str,
 }
 
-/// Printed unit of an SI unit; units without a customary one are unchanged.
+/// Customary printed unit of an SI unit; other units are unchanged.
 pub fn printed(unit: &str) -> PrintedUnit<'_> {
     match unit {
         "m" => PrintedUnit { factor: 1e3, symbol: "mm" },
@@ -20,20 +20,22 @@ pub fn printed(unit: &str) -> PrintedUnit<'_> {
     }
 }
 
-/// Converts a unit per metre of thickness to the unit of the whole body in plan.
+/// Unit of a quantity of the whole body: in plan without the "per metre" of the plane.
 pub fn of_body(unit: &str, in_plan: bool) -> &str {
     unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
 }
 
-/// Limit, in printed units, below which a number counts as rounding.
+/// Magnitude, in printed units, below which a number counts as a rounding error of zero.
 const ROUNDING_LIMIT: f64 = 1e-9;
+/// Magnitudes that are printed without an exponent.
+const PLAIN_MAGNITUDES: std::ops::Range<f64> = 1e-3..1e6;
 
-/// Prints five figures, with an exponent only for very small or large numbers, and no negative zero.
+/// Number with at least four figures, an exponent only if very small or large, and no negative zero.
 pub fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude < ROUNDING_LIMIT {
         "0".to_owned()
-    } else if !(1e-3..1e6).contains(&magnitude) {
+    } else if !PLAIN_MAGNITUDES.contains(&magnitude) {
         format!("{value:.3e}")
     } else if magnitude >= 1e3 {
         format!("{value:.1}")

@@ -1,69 +1,74 @@
-//! Tables of text, as plain text, Markdown or CSV.
+//! Tables of text cells, written as plain text, Markdown or CSV.
 
 use crate::text::csv::csv_line;
 
-/// A cell on one line: line ends and other control characters become spaces.
+/// Text of a cell in one line: line ends and other control characters become spaces.
 fn one_line(cell: &str) -> String {
-    cell.replace(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'), " ")
+    cell.replace(
+        |character: char| character.is_control() || matches!(character, '\u{2028}' | '\u{2029}'),
+        " ",
+    )
 }
 
-/// The cell, cut to the width of its column, in which case it ends in `…`.
-fn cut_to(cell: String, width: usize) -> String {
+/// Text of a cell, truncated to the width of its column; a truncated text ends in `…`.
+fn truncated(cell: String, width: usize) -> String {
     if cell.chars().nth(width).is_none() {
         return cell;
     }
     cell.chars().take(width.saturating_sub(1)).chain(['…']).collect()
 }
 
-/// Largest number of characters of a line: below 100.
+/// Largest number of characters of a line, for terminals of 100 columns.
 pub const MAX_LINE_CHARACTERS: usize = 99;
-/// Largest width of the first column in a table that breaks into blocks, characters.
+/// Largest width of the first column in a table of several blocks, characters: half a line.
 const MAX_NAME_WIDTH: usize = 47;
-/// Largest width of other columns that every block repeats, characters.
+/// Largest width of the other repeated columns, characters: they leave room for columns of numbers.
 const MAX_REPEATED_WIDTH: usize = 20;
-/// Number of blanks between columns.
+/// Number of spaces between columns.
 const COLUMN_GAP: usize = 2;
 
-/// A heading and rows of cells; the first column holds names.
+/// Heading and rows of cells; the first column contains names.
 pub struct Table {
+    /// Titles of the columns.
     pub heading: Vec<String>,
-    /// Number of columns, from the first on, that every block of a wide table repeats.
+    /// Number of first columns that every block of a wide table repeats.
     pub repeated: usize,
+    /// Cells of each row.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// The table with columns aligned by spaces, names to the left and other columns to the right.
+    /// Writes the table in columns aligned by spaces, names to the left and other cells to the right.
     ///
-    /// A table that is wider than a line breaks into blocks; cells that are too long are cut, and end in `…`.
+    /// A table that is wider than a line is split into blocks; cells that are too long are truncated, and end in `…`.
     pub fn text(&self) -> String {
         let mut widths: Vec<usize> =
             (0..self.heading.len()).map(|column| self.column_width(column)).collect();
         let columns: Vec<usize> = (0..self.heading.len()).collect();
         if line_width(&columns, &widths) <= MAX_LINE_CHARACTERS {
-            return self.block(&columns, &widths);
+            return self.block_text(&columns, &widths);
         }
-        let (repeated, others) = columns.split_at(self.repeated.min(columns.len()));
-        for &column in repeated {
+        let (repeated_columns, other_columns) = columns.split_at(self.repeated.min(columns.len()));
+        for &column in repeated_columns {
             let max_width = if column == 0 { MAX_NAME_WIDTH } else { MAX_REPEATED_WIDTH };
             widths[column] = widths[column].min(max_width);
         }
         let remaining_width =
-            MAX_LINE_CHARACTERS.saturating_sub(line_width(repeated, &widths) + COLUMN_GAP);
+            MAX_LINE_CHARACTERS.saturating_sub(line_width(repeated_columns, &widths) + COLUMN_GAP);
         let mut blocks = Vec::new();
-        let mut block = repeated.to_vec();
-        for &column in others {
+        let mut block = repeated_columns.to_vec();
+        for &column in other_columns {
             widths[column] = widths[column].min(remaining_width);
-            let width = line_width(&block, &widths) + COLUMN_GAP + widths[column];
-            if block.len() > repeated.len() && width > MAX_LINE_CHARACTERS {
-                blocks.push(std::mem::replace(&mut block, repeated.to_vec()));
+            let block_width = line_width(&block, &widths) + COLUMN_GAP + widths[column];
+            if block.len() > repeated_columns.len() && block_width > MAX_LINE_CHARACTERS {
+                blocks.push(std::mem::replace(&mut block, repeated_columns.to_vec()));
             }
             block.push(column);
         }
         blocks.push(block);
         blocks
             .iter()
-            .map(|block| self.block(block, &widths))
+            .map(|block| self.block_text(block, &widths))
             .collect::<Vec<_>>()
             .join("\n\n")
     }
@@ -75,19 +80,20 @@ impl Table {
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
     }
 
-    /// Block of a table with some of its columns.
-    fn block(&self, columns: &[usize], widths: &[usize]) -> String {
+    /// Text of a block with some of the table's columns.
+    fn block_text(&self, columns: &[usize], widths: &[usize]) -> String {
         let total_gap = COLUMN_GAP * columns.len().saturating_sub(1);
-        let rule = "-".repeat(columns.iter().map(|&k| widths[k]).sum::<usize>() + total_gap);
-        let mut lines = vec![text_line(&self.heading, columns, widths), rule];
+        let separator = "-".repeat(columns.iter().map(|&k| widths[k]).sum::<usize>() + total_gap);
+        let mut lines = vec![text_line(&self.heading, columns, widths), separator];
         lines.extend(self.rows.iter().map(|row| text_line(row, columns, widths)));
         lines.join("\n")
     }
 
     /// Writes the table as Markdown; bars and backslashes in cells are escaped.
     pub fn markdown(&self) -> String {
-        let rule = vec!["---:"; self.heading.len().saturating_sub(1)];
-        let mut lines = vec![markdown_line(&self.heading), format!("|---|{}|", rule.join("|"))];
+        let alignments = vec!["---:"; self.heading.len().saturating_sub(1)];
+        let mut lines =
+            vec![markdown_line(&self.heading), format!("|---|{}|", alignments.join("|"))];
         lines.extend(self.rows.iter().map(|row| markdown_line(row)));
         lines.join("\n")
     }
@@ -111,21 +117,21 @@ fn line_width(columns: &[usize], widths: &[usize]) -> usize {
         .saturating_sub(COLUMN_GAP)
 }
 
-/// The cells of a row in some columns, aligned by spaces.
+/// Line of the cells of a row in some columns, aligned by spaces.
 fn text_line(row: &[String], columns: &[usize], widths: &[usize]) -> String {
     let mut cells = Vec::new();
     for &column in columns {
         if let Some(cell) = row.get(column) {
             let width = widths[column];
-            let cell = cut_to(one_line(cell), width);
+            let text = truncated(one_line(cell), width);
             let is_name = column == 0;
-            cells.push(if is_name { format!("{cell:<width$}") } else { format!("{cell:>width$}") });
+            cells.push(if is_name { format!("{text:<width$}") } else { format!("{text:>width$}") });
         }
     }
     cells.join("  ").trim_end().to_owned()
 }
 
-/// A row of a Markdown table.
+/// Line of a Markdown table.
 fn markdown_line(row: &[String]) -> String {
     let mut cells = Vec::new();
     for cell in row {
@@ -183,13 +189,13 @@ mod tests {
     }
 
     #[test]
-    fn wide_tables_break_into_blocks() {
+    fn wide_tables_are_split_into_blocks() {
         let widths = [3, 4, 40, 30, 15, 98, 200, 1];
         let heading = widths.map(|width| "é".repeat(width)).to_vec();
         let rows = ["1", "2"].map(|sign| widths.map(|width| sign.repeat(width)).to_vec()).to_vec();
         let text = Table { heading, repeated: 2, rows }.text();
         let max_characters = text.lines().map(|line| line.chars().count()).max();
-        // Cells of 98 and 200 characters are cut to the room left by the names.
+        // Cells of 98 and 200 characters are truncated to the width beside the names.
         assert_eq!(max_characters, Some(MAX_LINE_CHARACTERS));
         let blocks: Vec<_> = text.split("\n\n").collect();
         let column_counts: Vec<_> = blocks.iter().map(|block| column_count(block)).collect();
@@ -198,7 +204,7 @@ mod tests {
             blocks.iter().all(|block| block.lines().nth(3).unwrap().starts_with("222  2222  2"))
         );
         assert_eq!(text.matches('…').count(), 6);
-        // A table one character wider than a line breaks into blocks.
+        // A table one character wider than a line is split into blocks.
         assert!(!two_columns(48).contains('…') && two_columns(48).lines().count() == 3);
         let is_short = |line: &str| line.chars().count() <= MAX_LINE_CHARACTERS;
         assert!(two_columns(49).lines().all(is_short));

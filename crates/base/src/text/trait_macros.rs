@@ -1,31 +1,31 @@
-//! Macros that implement traits of parts: methods that call another part, and a short `Debug`.
+//! Macros that implement methods by calling another part, and a short `Debug`.
 
 /// Implements methods of a part by calling the same methods of another part.
 ///
-/// `forward! { part; signatures }` takes the other part and the signatures as they would stand in the `impl`
-/// block. `tests/plugin/forwarding` finds any method that a list of signatures omits.
+/// `forward! { part; signatures }`: the other part, and the signatures of the methods as in the `impl` block.
+/// `tests/plugin/forwarding` fails if a list of signatures omits a method.
 #[macro_export]
 macro_rules! forward {
-    ($to:expr;) => {};
+    ($part:expr;) => {};
     (
-        $to:expr;
-        fn $name:ident(&mut $self_word:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
-        $($rest:tt)*
+        $part:expr;
+        fn $name:ident(&mut $self_word:ident $(, $argument:ident: $type:ty)*) $(-> $return_type:ty)?;
+        $($other_signatures:tt)*
     ) => {
-        fn $name(&mut $self_word $(, $arg: $type)*) $(-> $out)? {
-            $to.$name($($arg),*)
+        fn $name(&mut $self_word $(, $argument: $type)*) $(-> $return_type)? {
+            $part.$name($($argument),*)
         }
-        $crate::forward! { $to; $($rest)* }
+        $crate::forward! { $part; $($other_signatures)* }
     };
     (
-        $to:expr;
-        fn $name:ident(&$self_word:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
-        $($rest:tt)*
+        $part:expr;
+        fn $name:ident(&$self_word:ident $(, $argument:ident: $type:ty)*) $(-> $return_type:ty)?;
+        $($other_signatures:tt)*
     ) => {
-        fn $name(&$self_word $(, $arg: $type)*) $(-> $out)? {
-            $to.$name($($arg),*)
+        fn $name(&$self_word $(, $argument: $type)*) $(-> $return_type)? {
+            $part.$name($($argument),*)
         }
-        $crate::forward! { $to; $($rest)* }
+        $crate::forward! { $part; $($other_signatures)* }
     };
 }
 

@@ -5,8 +5,8 @@ use crate::text::decimal::{excerpt, finite};
 
 /// Implements `Display`, `FromStr` and the list `ALL` for an enum without fields.
 ///
-/// The macro lists each variant and its word; the visibility before the type applies to `ALL`. The error for another
-/// spelling states the right one.
+/// The macro lists each variant with its word; the visibility before the type applies to `ALL`. The error for another
+/// spelling of a word states the right spelling.
 #[macro_export]
 macro_rules! words {
     ($(#[$attribute:meta])* $all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
@@ -35,14 +35,14 @@ macro_rules! words {
             type Err = $crate::error::Error;
 
             fn from_str(text: &str) -> $crate::error::Result<Self> {
-                let found = Self::ALL.into_iter().find(|choice| choice.word() == text);
-                found.ok_or_else(|| $crate::text::words::unknown($quantity, text, &[$($word),+]))
+                let variant = Self::ALL.into_iter().find(|variant| variant.word() == text);
+                variant.ok_or_else(|| $crate::text::words::unknown($quantity, text, &[$($word),+]))
             }
         }
     };
 }
 
-/// Implements words for an enum of which some variants have one number, in brackets: `reduced(1e-6)`.
+/// Implements words for an enum whose variants may have one number, in brackets: `reduced(1e-6)`.
 #[macro_export]
 macro_rules! words_with_numbers {
     (
@@ -71,35 +71,35 @@ macro_rules! words_with_numbers {
 
             fn from_str(text: &str) -> $crate::error::Result<Self> {
                 use $crate::text::words::{Bracketed, unknown, with_number};
-                let known =
+                let valid_words =
                     &[$($word,)+ $(concat!($numbered, "(", stringify!($field), ")")),+];
-                let read = with_number(text).and_then(|(word, number)| match (word, number) {
+                let variant = with_number(text).and_then(|(word, number)| match (word, number) {
                     $(($word, None) => Some(Self::$plain),)+
                     $(($numbered, Some(number)) => {
                         Bracketed::read(number).map(|$field| Self::$variant { $field })
                     })+
                     _ => None,
                 });
-                read.ok_or_else(|| unknown($quantity, text, known))
+                variant.ok_or_else(|| unknown($quantity, text, valid_words))
             }
         }
     };
 }
 
-/// Error for an unknown word; for another spelling of a known word, it names only that word.
-pub fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
-    let spelled = text.trim().to_lowercase().replace([' ', '-'], "_");
-    let index = known.iter().position(|word| *word == spelled);
-    let known = index.map_or(known, |index| &known[index..=index]);
-    Error::no_name(quantity, &excerpt(text), known.iter().copied())
+/// Error for an unknown word; for another spelling of a valid word, the error lists only this word.
+pub fn unknown(quantity: &'static str, text: &str, valid_words: &'static [&'static str]) -> Error {
+    let normalized_text = text.trim().to_lowercase().replace([' ', '-'], "_");
+    let index = valid_words.iter().position(|word| *word == normalized_text);
+    let listed_words = index.map_or(valid_words, |index| &valid_words[index..=index]);
+    Error::no_name(quantity, &excerpt(text), listed_words.iter().copied())
 }
 
-/// Splits a word from the number that may follow it in brackets: `reduced(1e-6)`.
+/// Splits a word and the number that may follow in brackets: `reduced(1e-6)`.
 pub fn with_number(text: &str) -> Option<(&str, Option<f64>)> {
     match text.strip_suffix(')') {
         None => Some((text, None)),
-        Some(rest) => {
-            let (word, number) = rest.split_once('(')?;
+        Some(text) => {
+            let (word, number) = text.split_once('(')?;
             Some((word, Some(finite(number)?)))
         }
     }
@@ -107,9 +107,9 @@ pub fn with_number(text: &str) -> Option<(&str, Option<f64>)> {
 
 /// A number that may follow a word in brackets.
 pub trait Bracketed: Sized {
-    /// Converts the number that was read; `None` if it is not allowed.
+    /// Converts a number from a file; `None` if it is not allowed.
     fn read(number: f64) -> Option<Self>;
-    /// The number as it is written.
+    /// Text of the number.
     fn text(&self) -> String;
 }
 
@@ -123,9 +123,12 @@ impl Bracketed for f64 {
     }
 }
 
+/// Largest count: all whole numbers up to it are exact in double precision.
+const MAX_EXACT_COUNT: f64 = 9.0e15;
+
 impl Bracketed for usize {
     fn read(number: f64) -> Option<Self> {
-        let max_count = 9.0e15_f64.min(usize::MAX as f64);
+        let max_count = MAX_EXACT_COUNT.min(usize::MAX as f64);
         let is_count = (0.0..=max_count).contains(&number) && number.fract() == 0.0;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         is_count.then_some(number as usize)

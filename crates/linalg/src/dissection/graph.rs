@@ -1,29 +1,34 @@
-//! Weighted graphs, made coarser by joining neighbours.
+//! Weighted graphs, and their coarsening by joining neighbours.
 
 use std::collections::HashMap;
 
-/// Graphs up to this number of vertices are not made coarser.
+/// Largest number of vertices of a graph that is not coarsened: halves of such a graph are found directly.
 pub(super) const MAX_COARSEST_VERTICES: usize = 80;
-/// Joined vertices weigh at most this fraction of the graph (one over the constant).
+/// Smallest number of coarse vertices: a joined vertex has at most the graph's weight over this number.
 const MIN_COARSE_VERTICES: i64 = 40;
-/// Number of a vertex that is not in the subgraph, or has no partner.
+/// Index that stands for no vertex: outside the subgraph, or without a partner.
 pub(super) const NO_VERTEX: usize = usize::MAX;
 
-/// Neighbour and weight of an edge.
+/// Neighbouring vertex and weight of an edge.
 type Edge = (usize, i64);
 
-/// Undirected graph: vertices and edges have weights.
+/// Multiplier of Knuth's multiplicative hash for 32 bits: 2³² over the golden ratio.
+const HASH_MULTIPLIER: usize = 2_654_435_761;
+/// Lowest 32 bits.
+const HASH_MASK: usize = 0xffff_ffff;
+
+/// Undirected graph with weights of vertices and edges.
 pub(super) struct Graph {
-    /// First edge of each vertex, and the number of edges.
-    start: Vec<usize>,
+    /// Index of the first edge of each vertex, then the number of edges.
+    first_edges: Vec<usize>,
     edges: Vec<Edge>,
     pub(super) weight: Vec<i64>,
 }
 
 /// Neighbours of all vertices, without weights.
 pub(crate) struct Adjacency {
-    /// Place of the first neighbour of each vertex, and the number of neighbours.
-    pub start: Vec<usize>,
+    /// Index of the first neighbour of each vertex, then the number of neighbours.
+    pub first_neighbours: Vec<usize>,
     /// The neighbours of each vertex, ascending.
     pub neighbours: Vec<usize>,
 }
@@ -38,36 +43,37 @@ pub(super) struct CoarseGraph {
 /// Graph of the symmetric pattern of a matrix.
 pub(super) struct PatternGraph {
     pub(super) graph: Graph,
-    /// Rows of each vertex, which have the same columns.
+    /// Rows of the matrix that each vertex represents: they have the same columns.
     pub(super) rows: Vec<Vec<usize>>,
 }
 
 impl PatternGraph {
-    /// Graph of a pattern given by the ascending columns of each row.
+    /// Graph of the pattern with these ascending columns in each row.
     pub(super) fn new<'a>(order: usize, columns_of_row: impl Fn(usize) -> &'a [usize]) -> Self {
         let mut vertex_of_columns: HashMap<&[usize], usize> = HashMap::new();
         let mut rows: Vec<Vec<usize>> = Vec::new();
-        let mut vertex = vec![0; order];
-        for i in 0..order {
-            let vertex_index = *vertex_of_columns.entry(columns_of_row(i)).or_insert(rows.len());
-            if vertex_index == rows.len() {
+        let mut vertex_of_row = vec![0; order];
+        for row in 0..order {
+            let vertex = *vertex_of_columns.entry(columns_of_row(row)).or_insert(rows.len());
+            if vertex == rows.len() {
                 rows.push(Vec::new());
             }
-            rows[vertex_index].push(i);
-            vertex[i] = vertex_index;
+            rows[vertex].push(row);
+            vertex_of_row[row] = vertex;
         }
         let mut graph = Graph::new();
-        let mut last = vec![NO_VERTEX; rows.len()];
-        for (v, members) in rows.iter().enumerate() {
-            last[v] = v;
-            for &column in columns_of_row(members[0]) {
-                let neighbour = vertex[column];
-                if std::mem::replace(&mut last[neighbour], v) != v {
+        // The vertex from which each vertex was reached last: it has only one edge to each neighbour.
+        let mut last_visitor = vec![NO_VERTEX; rows.len()];
+        for (v, vertex_rows) in rows.iter().enumerate() {
+            last_visitor[v] = v;
+            for &column in columns_of_row(vertex_rows[0]) {
+                let neighbour = vertex_of_row[column];
+                if std::mem::replace(&mut last_visitor[neighbour], v) != v {
                     graph.edges.push((neighbour, 1));
                 }
             }
-            graph.start.push(graph.edges.len());
-            graph.weight.push(i64::try_from(members.len()).unwrap_or(i64::MAX));
+            graph.first_edges.push(graph.edges.len());
+            graph.weight.push(i64::try_from(vertex_rows.len()).unwrap_or(i64::MAX));
         }
         Self { graph, rows }
     }
@@ -75,38 +81,42 @@ impl PatternGraph {
 
 impl Graph {
     fn new() -> Self {
-        Self { start: vec![0], edges: Vec::new(), weight: Vec::new() }
+        Self { first_edges: vec![0], edges: Vec::new(), weight: Vec::new() }
     }
 
+    /// Number of vertices.
     pub(super) fn len(&self) -> usize {
         self.weight.len()
     }
 
+    /// Edges of a vertex.
     pub(super) fn neighbours(&self, vertex: usize) -> &[Edge] {
-        &self.edges[self.start[vertex]..self.start[vertex + 1]]
+        &self.edges[self.first_edges[vertex]..self.first_edges[vertex + 1]]
     }
 
     /// The neighbours of all vertices, without weights.
     pub(super) fn adjacency(&self) -> Adjacency {
         let mut neighbours: Vec<usize> = self.edges.iter().map(|(v, _)| *v).collect();
-        for ends in self.start.windows(2) {
+        for ends in self.first_edges.windows(2) {
             neighbours[ends[0]..ends[1]].sort_unstable();
         }
-        Adjacency { start: self.start.clone(), neighbours }
+        Adjacency { first_neighbours: self.first_edges.clone(), neighbours }
     }
 
-    /// Subgraph of these vertices; `place` is scratch without numbers.
-    pub(super) fn subgraph(&self, vertices: &[usize], place: &mut [usize]) -> Self {
+    /// Subgraph of these vertices.
+    ///
+    /// `new_index`: scratch, [`NO_VERTEX`] for all vertices before and after.
+    pub(super) fn subgraph(&self, vertices: &[usize], new_index: &mut [usize]) -> Self {
         let mut subgraph = Self::new();
-        vertices.iter().enumerate().for_each(|(k, &v)| place[v] = k);
+        vertices.iter().enumerate().for_each(|(k, &v)| new_index[v] = k);
         for &v in vertices {
-            let inner = self.neighbours(v).iter().filter(|(other, _)| place[*other] != NO_VERTEX);
-            subgraph.edges.extend(inner.map(|&(other, weight)| (place[other], weight)));
-            subgraph.start.push(subgraph.edges.len());
+            let edges = self.neighbours(v).iter().filter(|(u, _)| new_index[*u] != NO_VERTEX);
+            subgraph.edges.extend(edges.map(|&(u, weight)| (new_index[u], weight)));
+            subgraph.first_edges.push(subgraph.edges.len());
             subgraph.weight.push(self.weight[v]);
         }
         for &v in vertices {
-            place[v] = NO_VERTEX;
+            new_index[v] = NO_VERTEX;
         }
         subgraph
     }
@@ -114,29 +124,29 @@ impl Graph {
     /// Partner of each vertex: a neighbour, or the vertex itself.
     fn matching(&self) -> Vec<usize> {
         let n = self.len();
-        let total: i64 = self.weight.iter().sum();
-        let max_weight = (total / MIN_COARSE_VERTICES).max(2);
-        // An order without relation to the numbering, the same in every run.
+        let total_weight: i64 = self.weight.iter().sum();
+        let max_weight = (total_weight / MIN_COARSE_VERTICES).max(2);
+        // A pseudorandom order, the same in every run: the numbering of a mesh would pair vertices in one direction.
         let mut visits: Vec<usize> = (0..n).collect();
-        visits.sort_by_key(|v| v.wrapping_mul(2_654_435_761) & 0xffff_ffff);
+        visits.sort_by_key(|v| v.wrapping_mul(HASH_MULTIPLIER) & HASH_MASK);
         let mut partner_of = vec![NO_VERTEX; n];
         for v in visits {
             if partner_of[v] != NO_VERTEX {
                 continue;
             }
-            let free = self.neighbours(v).iter().filter(|(neighbour, _)| {
-                partner_of[*neighbour] == NO_VERTEX
-                    && self.weight[*neighbour] + self.weight[v] <= max_weight
+            let candidates = self.neighbours(v).iter().filter(|(u, _)| {
+                partner_of[*u] == NO_VERTEX && self.weight[*u] + self.weight[v] <= max_weight
             });
-            let best = free.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
-            let partner = best.map_or(v, |(neighbour, _)| *neighbour);
+            let best_edge =
+                candidates.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
+            let partner = best_edge.map_or(v, |(u, _)| *u);
             partner_of[v] = partner;
             partner_of[partner] = v;
         }
         partner_of
     }
 
-    /// The graph with neighbours joined in pairs.
+    /// Coarser graph, whose vertices are pairs of joined neighbours.
     pub(super) fn coarser(&self) -> CoarseGraph {
         let n = self.len();
         let partner_of = self.matching();
@@ -150,7 +160,7 @@ impl Graph {
             }
         }
         let mut coarse = Self::new();
-        // Edge to each neighbour, if it is at or beyond the first edge of the vertex.
+        // Index of the newest edge to each vertex. An index from the first edge of the current vertex on is its edge.
         let mut edge_to = vec![0; representatives.len()];
         for (new_vertex, &v) in representatives.iter().enumerate() {
             let first_edge = coarse.edges.len();
@@ -161,8 +171,8 @@ impl Graph {
                 if neighbour == new_vertex {
                     continue;
                 }
-                let place = edge_to[neighbour];
-                let edge = coarse.edges.get_mut(place).filter(|_| place >= first_edge);
+                let edge_index = edge_to[neighbour];
+                let edge = coarse.edges.get_mut(edge_index).filter(|_| edge_index >= first_edge);
                 if let Some(edge) = edge.filter(|edge| edge.0 == neighbour) {
                     edge.1 += weight;
                 } else {
@@ -170,7 +180,7 @@ impl Graph {
                     coarse.edges.push((neighbour, weight));
                 }
             }
-            coarse.start.push(coarse.edges.len());
+            coarse.first_edges.push(coarse.edges.len());
             coarse.weight.push(members.iter().map(|member| self.weight[*member]).sum());
         }
         CoarseGraph { graph: coarse, coarse_vertex }

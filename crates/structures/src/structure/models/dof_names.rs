@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::error::in_brackets;
+use crate::error::point_text;
 use crate::fem::{Direction, Mesh};
 use crate::structure::detached::{MAX_LISTED_ITEMS, listed};
 
@@ -38,7 +38,7 @@ pub(super) fn describe(
         }
         nodes.push(node);
         if texts.len() < MAX_LISTED_ITEMS {
-            let mut text = format!("node {node} at {}", in_brackets(place, mesh.nodes()));
+            let mut text = format!("node {node} at {}", point_text(place, mesh.nodes()));
             if wanted_directions.len() < node_dofs {
                 for direction in wanted_directions {
                     let _ = write!(text, " in {direction:?}");
