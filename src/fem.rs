@@ -1,6 +1,6 @@
-//! Finite elements: solids, shells, beams, trusses, masses, springs, and your own.
+//! Finite elements: solids, shells, beams, trusses, masses, springs, and elements of your own.
 //!
-//! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a structure of it.
+//! A [`Mesh`] has nodes and [`Element`]s; a [`FemModel`](crate::structure::FemModel) is the structure of a mesh.
 //! In the plane all quantities are per metre of thickness, x points to the right, y up, and rotations are
 //! counter-clockwise. In space ([`Mesh::in_space`]) x points to the right, y away and z up, and rotations follow the
 //! right-hand rule.
@@ -18,4 +18,4 @@
 pub use basemat_structures::fem::*;
 
 #[cfg(feature = "io")]
-pub(crate) use basemat_structures::internal::first_at_place;
+pub(crate) use basemat_structures::internal::first_coincident_points;

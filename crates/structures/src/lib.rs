@@ -1,6 +1,6 @@
 //! Finite elements, and models of structures: their matrices, damping, reduction and hysteretic springs.
 //!
-//! `basemat` re-exports both modules under the same paths, which the examples have.
+//! `basemat` re-exports both modules under the same paths. Examples in the documentation use these paths.
 #![forbid(unsafe_code)]
 
 #[macro_use]
@@ -15,10 +15,10 @@ pub use basemat_base::{Error, Result};
 use basemat_base::{error, geometry, text};
 use basemat_linalg as linalg;
 
-/// Steps of `basemat` with structures, which may change with any version.
+/// Functions for `basemat` itself, which may change with any version.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::fem::coincident::first_at_place;
+    pub use crate::fem::coincident::first_coincident_points;
     pub use crate::structure::base_node::{check_line, from_the_left};
     pub use crate::structure::detached::{check_attached, numbers as unknown_numbers};
     pub use crate::structure::held_base::{HeldBase, stiffest};

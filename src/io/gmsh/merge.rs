@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::cell::{MeshCell, sorted};
 use super::raw::given_twice;
 use crate::error::{Error, Result};
-use crate::fem::first_at_place;
+use crate::fem::first_coincident_points;
 
 /// New index of each node.
 pub(super) struct MergedNumbers {
@@ -18,7 +18,7 @@ impl MergedNumbers {
     pub(super) fn new(points: &[[f64; 3]], tolerance: f64) -> Result<Self> {
         let mut numbers =
             Self { indices: Vec::with_capacity(points.len()), kept_nodes: Vec::new() };
-        for (node, first) in first_at_place(points, tolerance)?.into_iter().enumerate() {
+        for (node, first) in first_coincident_points(points, tolerance)?.into_iter().enumerate() {
             let index =
                 if first == node { numbers.kept_nodes.len() } else { numbers.indices[first] };
             if first == node {

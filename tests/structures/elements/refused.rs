@@ -24,7 +24,7 @@ fn a_beam_needs_a_length_and_an_orientation_across_it() {
     assert_eq!(
         along,
         "beam between nodes 0 and 1: sine of the angle between the beam and its orientation is 0, but must be above \
-         1e-6: an orientation across the beam"
+         1e-6: an orientation that is not along the beam"
     );
     let arms = [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0]];
     let short = beam([1.0, 0.0, 0.0]).and_then(|beam| beam.with_offsets(arms));

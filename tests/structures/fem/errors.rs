@@ -94,7 +94,7 @@ fn meshes_refuse_bad_nodes_and_shapes() {
 
 #[track_caller]
 fn assert_twice(outcome: &basemat::Result<usize>, first: usize, nodes: &[usize]) {
-    let reason = format!("it lies where element {first} is, and would count twice");
+    let reason = format!("it duplicates element {first}, and would count twice");
     let expected = Err(Error::part(format!("element on nodes {nodes:?}"), reason));
     assert_eq!(*outcome, expected);
 }

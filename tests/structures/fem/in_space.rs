@@ -283,7 +283,7 @@ fn model_on_faces(mesh: &Mesh, faces: &[&[usize]]) -> basemat::Result<FemModel> 
 fn bricks_stand_on_their_lower_sides() {
     let mut mesh = brick_mesh();
     let again = mesh.add(brick_on(1)).unwrap_err().to_string();
-    assert!(again.contains("it lies where element 1 is, and would count twice"), "{again}");
+    assert!(again.contains("it duplicates element 1, and would count twice"), "{again}");
     let model = FemModel::on_base(mesh).unwrap();
     let Base::Faces(faces) = model.base() else {
         panic!("a base in space has faces")

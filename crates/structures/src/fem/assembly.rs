@@ -7,7 +7,7 @@ use super::numbering::Numbering;
 use crate::error::Result;
 use crate::linalg::Triplets;
 
-/// Kind of element matrix to assemble.
+/// Element matrix to assemble.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MatrixKind {
     /// Stiffness without the geometric stiffness.
@@ -18,63 +18,66 @@ pub(crate) enum MatrixKind {
     Damping,
 }
 
-/// Adds `factor` times the matrices of the selected elements.
+/// Adds `factor` times the matrices of selected elements to `matrix`.
 ///
-/// `is_included` selects elements by the coordinates of their nodes.
-///
-/// `numbering` must belong to `mesh`; otherwise `matrix` gets indices out of range.
+/// `is_included` selects elements by the coordinates of their nodes. `numbering` must belong to `mesh`; otherwise
+/// `matrix` gets indices out of range.
 pub(crate) fn assemble(
     mesh: &Mesh,
     numbering: &Numbering,
-    quantity: MatrixKind,
+    matrix_kind: MatrixKind,
     factor: f64,
     is_included: impl Fn(&[[f64; 3]]) -> bool,
     matrix: &mut Triplets,
 ) {
-    let mut indices = Vec::new();
-    let mut block = Vec::new();
-    for (index, element) in mesh.elements().enumerate() {
+    let mut dofs = Vec::new();
+    let mut element_matrix = Vec::new();
+    for (element_index, element) in mesh.elements().enumerate() {
         let coordinates = mesh.coordinates(element.nodes());
         if !is_included(&coordinates) {
             continue;
         }
-        block.clear();
-        block.resize(element.order().pow(2), 0.0);
-        match quantity {
-            MatrixKind::Stiffness => element.stiffness(&coordinates, &mut block),
+        element_matrix.clear();
+        element_matrix.resize(element.order().pow(2), 0.0);
+        match matrix_kind {
+            MatrixKind::Stiffness => element.stiffness(&coordinates, &mut element_matrix),
             MatrixKind::GeometricStiffness => {
-                element.geometric_stiffness(&coordinates, &mut block);
-                if let Some(rotation) = mesh.force_rotation(index) {
-                    rotation.add_to(&mut block);
+                element.geometric_stiffness(&coordinates, &mut element_matrix);
+                if let Some(force_rotation) = mesh.force_rotation(element_index) {
+                    force_rotation.add_to(&mut element_matrix);
                 }
             }
-            MatrixKind::Mass(kind) => element.mass(&coordinates, kind, &mut block),
-            MatrixKind::Damping => element.damping(&coordinates, &mut block),
+            MatrixKind::Mass(mass_kind) => {
+                element.mass(&coordinates, mass_kind, &mut element_matrix)
+            }
+            MatrixKind::Damping => element.damping(&coordinates, &mut element_matrix),
         }
-        // An element whose matrix is zero, say without damping, adds no entries to the pattern.
-        if block.iter().all(|&value| value == 0.0) {
+        // A zero matrix, such as the damping of most elements, adds no entries to the sparsity pattern.
+        if element_matrix.iter().all(|&value| value == 0.0) {
             continue;
         }
-        for value in &mut block {
+        for value in &mut element_matrix {
             *value *= factor;
         }
-        numbering.of_element(element, &mut indices);
-        // Most directions have no common mass: without their zeros products with the mass take a third of the time.
-        let keeps_zeros = !matches!(quantity, MatrixKind::Mass(_));
-        let places =
-            indices.iter().flat_map(|row| indices.iter().map(move |column| (*row, *column)));
-        let entries = places.zip(&block).map(|((row, column), value)| (row, column, *value));
+        numbering.element_dofs(element, &mut dofs);
+        // Two directions of a node have no common mass. Products with a mass matrix without these zeros take a third of
+        // the time.
+        let keeps_zeros = !matches!(matrix_kind, MatrixKind::Mass(_));
+        let index_pairs =
+            dofs.iter().flat_map(|row| dofs.iter().map(move |column| (*row, *column)));
+        let entries =
+            index_pairs.zip(&element_matrix).map(|((row, column), value)| (row, column, *value));
         matrix.extend(entries.filter(|(.., value)| keeps_zeros || *value != 0.0));
     }
 }
 
-/// Replaces elements of `mesh` by their versions in the static state, whose forces rotate with them.
+/// Adds the geometric stiffness of the static state to the elements of `mesh`.
 ///
-/// `displacements` (m, rad): degrees of freedom of each element; `gravity` is in m/s². Returns whether the
-/// user gave the axial force of an element, which does not change.
+/// `displacements` (m, rad): degrees of freedom of each element in that state; `gravity` is in m/s². Returns whether
+/// the user prescribed the axial force of an element, which then does not change.
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) for an element whose new version has other nodes or directions.
+/// [`Error::Scene`](crate::Error::Scene) for an element that changes its nodes or directions.
 pub(crate) fn set_static_state(
     mesh: &mut Mesh,
     displacements: &[Vec<f64>],
@@ -82,21 +85,22 @@ pub(crate) fn set_static_state(
     mass_kind: MassKind,
 ) -> Result<bool> {
     let mut is_prescribed = Vec::with_capacity(displacements.len());
-    mesh.replace_elements(|element, points| {
+    mesh.replace_elements(|element, coordinates| {
         let displacement = displacements.get(is_prescribed.len())?;
-        let replaced = element.in_static_state(points, displacement, gravity);
-        is_prescribed.push(replaced.is_none() && element.compression().is_some());
-        replaced
+        let new_element = element.in_static_state(coordinates, displacement, gravity);
+        is_prescribed.push(new_element.is_none() && element.compression().is_some());
+        new_element
     })?;
-    let has_depth = mesh.has_depth();
+    let is_in_space = mesh.has_depth();
     let mut rotations = Vec::with_capacity(displacements.len());
     for ((element, displacement), is_prescribed) in
         mesh.elements().zip(displacements).zip(&is_prescribed)
     {
-        let state = ElementStaticState { displacement, gravity, mass_kind, has_depth };
-        let points = mesh.coordinates(element.nodes());
-        let rotation = force_rotation(element, &points, &state).filter(|_| !is_prescribed);
-        rotations.push(rotation);
+        let state = ElementStaticState { displacement, gravity, mass_kind, is_in_space };
+        let coordinates = mesh.coordinates(element.nodes());
+        let force_rotation =
+            force_rotation(element, &coordinates, &state).filter(|_| !is_prescribed);
+        rotations.push(force_rotation);
     }
     mesh.set_force_rotations(rotations);
     Ok(is_prescribed.contains(&true))

@@ -1,12 +1,13 @@
-//! Elements entered twice.
+//! Detection of elements that were entered twice.
 
-use super::element::{Element, MassKind};
-use super::element_face::ElementFace;
+use super::element::{Element, ElementFace, MassKind};
 
-/// Relative difference up to which matrix entries count as equal: rounding.
+/// Relative difference up to which matrix entries count as equal; rounding is far smaller.
 const MATRIX_ENTRY_TOLERANCE: f64 = 1e-12;
 
-/// Key of an element's place: the nodes of its faces, or all nodes without faces, sorted.
+/// Key by which duplicates of an element are found: its sorted nodes.
+///
+/// They are the nodes of its faces, or all nodes of an element without faces.
 pub(super) fn element_key(element: &dyn Element) -> Vec<usize> {
     let mut key: Vec<usize> =
         element.faces().iter().flat_map(ElementFace::corners).copied().collect();
@@ -18,9 +19,9 @@ pub(super) fn element_key(element: &dyn Element) -> Vec<usize> {
     key
 }
 
-/// Whether `element` duplicates the element `other` of the same [`element_key`].
+/// Whether `element` duplicates the element `other` with the same [`element_key`].
 ///
-/// `points`: coordinates of the nodes of the mesh.
+/// `points`: coordinates of all nodes of the mesh.
 pub(super) fn is_duplicate(
     element: &dyn Element,
     other: &dyn Element,
@@ -32,8 +33,8 @@ pub(super) fn is_duplicate(
     let nodes = element.nodes();
     let directions = element.directions();
     let order = nodes.len() * directions.len();
-    let same_directions = other.directions() == directions;
-    if nodes.len() < 2 || !same_directions || [element.order(), other.order()] != [order; 2] {
+    let has_same_directions = other.directions() == directions;
+    if nodes.len() < 2 || !has_same_directions || [element.order(), other.order()] != [order; 2] {
         return false;
     }
     let matrices = matrices_by_node(element, points);
@@ -50,16 +51,18 @@ fn is_solid(element: &dyn Element) -> bool {
     element.faces().iter().any(ElementFace::is_side)
 }
 
-/// Stiffness, mass and damping of an element, with its nodes in ascending order.
+/// Stiffness, mass and damping of an element in a row, with its nodes in ascending order.
 fn matrices_by_node(element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
     let nodes = element.nodes();
     let coordinates: Vec<[f64; 3]> = nodes.iter().map(|&node| points[node]).collect();
     let order = element.order();
-    let directions = element.directions().len();
-    let mut ascending: Vec<usize> = (0..nodes.len()).collect();
-    ascending.sort_by_key(|&k| nodes[k]);
-    let dofs: Vec<usize> =
-        ascending.into_iter().flat_map(|k| k * directions..(k + 1) * directions).collect();
+    let direction_count = element.directions().len();
+    let mut node_order: Vec<usize> = (0..nodes.len()).collect();
+    node_order.sort_by_key(|&local_node| nodes[local_node]);
+    let sorted_dofs: Vec<usize> = node_order
+        .into_iter()
+        .flat_map(|local_node| local_node * direction_count..(local_node + 1) * direction_count)
+        .collect();
     let mut stiffness = vec![0.0; order * order];
     let mut mass = vec![0.0; order * order];
     let mut damping = vec![0.0; order * order];
@@ -68,12 +71,12 @@ fn matrices_by_node(element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
     element.damping(&coordinates, &mut damping);
     let mut matrices = Vec::with_capacity(3 * order * order);
     for matrix in [stiffness, mass, damping] {
-        let largest = matrix.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-        for row in &dofs {
-            for column in &dofs {
-                // An entry that cancels keeps a rounding error, which depends on the order of the nodes.
+        let max_entry = matrix.iter().fold(0.0_f64, |max_entry, entry| max_entry.max(entry.abs()));
+        for row in &sorted_dofs {
+            for column in &sorted_dofs {
+                // A sum that cancels has a rounding error that depends on the order of the nodes.
                 let entry = matrix[row * order + column];
-                let exceeds_rounding = entry.abs() > MATRIX_ENTRY_TOLERANCE * largest;
+                let exceeds_rounding = entry.abs() > MATRIX_ENTRY_TOLERANCE * max_entry;
                 matrices.push(if exceeds_rounding { entry } else { 0.0 });
             }
         }

@@ -1,8 +1,7 @@
-//! Finite elements: the trait, and the kinds of mass matrices.
+//! Finite elements: the trait, kinds of mass matrices, and faces.
 
 use std::any::Any;
 
-use super::element_face::ElementFace;
 use crate::error::Result;
 use crate::geometry::Direction;
 
@@ -26,7 +25,7 @@ words! { pub(crate) MassKind, "kind of mass", {
     Lumped = "lumped",
 } }
 
-/// A finite element: implement this for your elements.
+/// A finite element: implement this for elements of your own.
 ///
 /// Its matrices are dense, row-major and square, of order [`order`](Element::order). The degrees of freedom
 /// run through the nodes in the element's order and, within a node, through
@@ -39,7 +38,7 @@ words! { pub(crate) MassKind, "kind of mass", {
 /// ```
 /// use basemat::fem::{Direction, Element, MassKind, Mesh};
 ///
-/// /// A weightless spring that holds two points of the same height together.
+/// /// A massless horizontal spring between two nodes at one height.
 /// struct Tie(Vec<usize>);
 ///
 /// impl Element for Tie {
@@ -64,10 +63,10 @@ pub trait Element: Any + Send + Sync {
     /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
-    /// This element between other nodes, as many as before and in the same order.
+    /// Copy of this element between other nodes, as many as before and in the same order.
     ///
-    /// Called by [`Mesh::merge_nodes`](super::Mesh::merge_nodes). Default: `None`, the element cannot be renumbered,
-    /// and a mesh with it cannot be merged.
+    /// [`Mesh::merge_nodes`](super::Mesh::merge_nodes) calls this method. Default: `None`; the nodes of a mesh with
+    /// this element cannot be merged.
     fn with_nodes(&self, _nodes: &[usize]) -> Option<Box<dyn Element>> {
         None
     }
@@ -84,18 +83,17 @@ pub trait Element: Any + Send + Sync {
     ///
     /// In the plane it is per metre.
     ///
-    /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
-    /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) adds what the other forces of the element give in
-    /// a rotation, if the element moves in all directions. Default: none.
+    /// The matrix is symmetric. A translation of all nodes must give no force; a rotation gives the moment of the
+    /// axial force at its lever arm. The matrix is part of the structure's stiffness, but not of its
+    /// stiffness-proportional damping. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) adds the
+    /// geometric stiffness of the element's other forces, if the element has all displacements. Default: none.
     fn geometric_stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
-    /// This element with the geometric stiffness of the static state under the structure's weight.
+    /// Copy of this element with the axial force that it has under the structure's weight.
     ///
-    /// `displacement` holds the element's degrees of freedom in that state; `gravity` (m/s²) acts downwards, along −y
-    /// in the plane and along −z in space.
-    /// Called by [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
-    /// element does not change.
+    /// `displacement` holds the element's degrees of freedom in that static state; `gravity` (m/s²) acts along −y in
+    /// the plane and along −z in space. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) calls
+    /// this method. Default: `None`, the element does not change.
     fn in_static_state(
         &self,
         _coordinates: &[[f64; 3]],
@@ -119,7 +117,7 @@ pub trait Element: Any + Send + Sync {
 
     /// Density of the material, kg/m³. Default: `None`, for springs and masses.
     ///
-    /// A run warns of a density that no material has.
+    /// A run warns of an implausible density.
     fn density(&self) -> Option<f64> {
         None
     }
@@ -129,7 +127,7 @@ pub trait Element: Any + Send + Sync {
 
     /// Faces of the element: the sides of a solid, or the shell itself.
     ///
-    /// A solid in the plane has one face, its outline. Default: none, for bars, springs and masses.
+    /// A solid in the plane has one face, its outline. Default: no faces, for bars, springs and masses.
     ///
     /// [`Mesh::add`](super::Mesh::add) returns an error for a second solid on the same corners. Bars and shells may
     /// share all their nodes.
@@ -137,10 +135,10 @@ pub trait Element: Any + Send + Sync {
         Vec::new()
     }
 
-    /// Whether the element fits meshes in the plane only.
+    /// Whether the element may be in meshes in the plane only.
     ///
-    /// Default: yes, if it has the directions X and Y, but not Z. An element in space that moves horizontally only,
-    /// such as a rubber bearing, returns `false`.
+    /// Default: `true` for an element with the directions X and Y, but not Z. An element in space with horizontal
+    /// displacements only, such as a rubber bearing, returns `false`.
     fn is_plane(&self) -> bool {
         let directions = self.directions();
         directions.contains(&Direction::X)
@@ -151,7 +149,7 @@ pub trait Element: Any + Send + Sync {
     /// Checks the shape when the element is added to a mesh. Default: any shape is accepted.
     ///
     /// # Errors
-    /// Any error that makes the element unusable at these coordinates.
+    /// Any error, for coordinates at which the element is unusable.
     fn check(&self, _coordinates: &[[f64; 3]]) -> Result<()> {
         Ok(())
     }
@@ -162,32 +160,51 @@ pub trait Element: Any + Send + Sync {
     }
 }
 
-/// Adds a square block to a row-major `matrix` of the same order.
-pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; N]) {
-    for (entry, value) in matrix.iter_mut().zip(block.iter().flatten()) {
-        *entry += value;
-    }
+/// A face of an element: a side of a solid, or a shell.
+///
+/// Faces define the base of a mesh in space, the areas of pressures, pictures and ParaView's cells.
+///
+/// ```
+/// use basemat::fem::{Element, ElementFace, Material, Quad4, QuadFormulation};
+///
+/// let material = Material::new(1.0e9, 0.3, 2000.0)?;
+/// let quad = Quad4::new([4, 5, 9, 8], material, QuadFormulation::default());
+/// assert_eq!(quad.faces(), [ElementFace::side(&[4, 5, 9, 8])]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElementFace {
+    corners: Vec<usize>,
+    thickness: f64,
 }
 
-/// Adds Tᵀ k T of a `local` matrix k.
-///
-/// T = `to_local` transforms global to local displacements.
-pub(crate) fn add_transformed<const N: usize>(
-    local: &[[f64; N]; N],
-    to_local: &[[f64; N]; N],
-    matrix: &mut [f64],
-) {
-    let mut local_times_transformation = [[0.0; N]; N];
-    let mut global = [[0.0; N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            local_times_transformation[i][j] = (0..N).map(|k| local[i][k] * to_local[k][j]).sum();
-        }
+impl ElementFace {
+    /// Side of a solid between `corners`, counter-clockwise seen from outside.
+    ///
+    /// In the plane the side is the outline of the solid.
+    pub fn side(corners: &[usize]) -> Self {
+        Self { corners: corners.to_vec(), thickness: 0.0 }
     }
-    for i in 0..N {
-        for j in 0..N {
-            global[i][j] = (0..N).map(|k| to_local[k][i] * local_times_transformation[k][j]).sum();
-        }
+
+    /// Shell between `corners`, listed around it; `thickness` in m.
+    pub fn shell(corners: &[usize], thickness: f64) -> Self {
+        Self { corners: corners.to_vec(), thickness }
     }
-    add_square(matrix, &global);
+
+    /// Corner nodes, listed around the face.
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
+    }
+
+    /// Thickness of a shell, m; zero for a side of a solid.
+    ///
+    /// The surfaces of a shell lie half of its thickness above and below the nodes.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Whether the face bounds a solid.
+    pub(crate) fn is_side(&self) -> bool {
+        self.thickness == 0.0
+    }
 }

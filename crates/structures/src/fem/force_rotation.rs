@@ -1,29 +1,34 @@
 //! Geometric stiffness of static forces that rotate with their element.
 //!
-//! If an element's geometric stiffness has the axial force alone, shears and moments keep their directions when it
+//! With the geometric stiffness of the axial force alone, shear forces and moments keep their directions when the element
 //! rotates. The nodal forces are then not in equilibrium with the weights, and a rigid rotation of the structure causes
 //! forces. Here all forces rotate with the mean rotation of the element, as in corotational elements
-//! (Felippa & Haugen 2005, CMAME 194, 2285–2335; the rotational and the equilibrium geometric stiffness).
+//! (Felippa & Haugen 2005, CMAME 194, 2285–2335: rotational and equilibrium geometric stiffness).
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | f | forces K u at the nodes in the static state |
-//! | R | displacements of the nodes in rigid rotations by 1 rad, one column an axis |
-//! | G | mean rotations of the element by its displacements, one row an axis; G R = 1 |
-//! | T | change of the forces in these rotations: f turns, the element's weight does not |
+//! | R | displacements of the nodes in rigid rotations by 1 rad, one column for each axis |
+//! | G | mean rotations of the element by its displacements, one row for each axis; G R = 1 |
+//! | T | change of the forces in these rotations: f rotates, the element's weight does not |
 //! | A | T − K_G R, with the element's geometric stiffness K_G |
 //!
-//! K_G + A G + (A G)ᵀ − Gᵀ(RᵀA)G is symmetric, gives the forces T in a rigid rotation, and none in a translation.
+//! The matrix K_G + A G + (A G)ᵀ − Gᵀ(RᵀA)G is symmetric. It gives the forces T in a rigid rotation, and no forces in a
+//! translation.
 
 use super::element::{Element, MassKind};
-use super::vector::{add, cross, dot, length, unit};
+use super::vector::{add_scaled, cross, dot, norm, unit_vector};
 use crate::geometry::Direction;
 
 /// Forces below this fraction of the element's largest force are rounding.
-const ROUNDING_OF_FORCES: f64 = 1e-12;
-/// Imbalance of an element's forces, relative to the largest, above which they cannot turn with it.
+const FORCE_ROUNDING_RATIO: f64 = 1e-12;
+/// Largest imbalance of forces that can rotate with their element, relative to the largest force.
+///
+/// Rounding of the stiffness gives far less. Unbalanced forces would do work in a rigid rotation.
 const MAX_FORCE_IMBALANCE: f64 = 1e-8;
-/// Largest distance of nodes that lie on a line, relative to the size of the element.
+/// Largest distance of nodes from a line on which they count as lying, relative to the radius of the element.
+///
+/// It is far above the rounding of coordinates.
 const MAX_DISTANCE_FROM_LINE: f64 = 1e-6;
 
 /// Static state in which the forces of an element are computed.
@@ -33,45 +38,50 @@ pub(super) struct ElementStaticState<'a> {
     /// Acceleration of gravity, m/s².
     pub(super) gravity: f64,
     pub(super) mass_kind: MassKind,
-    /// Whether the mesh lies in space.
-    pub(super) has_depth: bool,
+    /// Whether the mesh is in space.
+    pub(super) is_in_space: bool,
 }
 
-/// Axes of rotation of a mesh, and their directions.
-type Axis = (Direction, [f64; 3]);
-const AXES_OF_THE_PLANE: &[Axis] = &[(Direction::Rotation, [0.0, 0.0, 1.0])];
-const AXES_OF_SPACE: &[Axis] = &[
-    (Direction::RotationX, [1.0, 0.0, 0.0]),
-    (Direction::RotationY, [0.0, 1.0, 0.0]),
-    (Direction::RotationZ, [0.0, 0.0, 1.0]),
+/// A rotation of a mesh, and the unit vector of its axis.
+struct RotationAxis {
+    direction: Direction,
+    vector: [f64; 3],
+}
+const PLANE_ROTATION_AXES: &[RotationAxis] =
+    &[RotationAxis { direction: Direction::Rotation, vector: [0.0, 0.0, 1.0] }];
+const SPACE_ROTATION_AXES: &[RotationAxis] = &[
+    RotationAxis { direction: Direction::RotationX, vector: [1.0, 0.0, 0.0] },
+    RotationAxis { direction: Direction::RotationY, vector: [0.0, 1.0, 0.0] },
+    RotationAxis { direction: Direction::RotationZ, vector: [0.0, 0.0, 1.0] },
 ];
 
-/// Geometric stiffness A G + (A G)ᵀ − Gᵀ(RᵀA)G, stored as its factors.
+/// Geometric stiffness A G + (A G)ᵀ − Gᵀ(RᵀA)G of forces that rotate with their element.
 ///
-/// For a brick they take a fourth of the matrix' memory.
+/// It is stored as its factors, which take a quarter of the matrix's memory for a brick.
 #[derive(Clone)]
 pub(crate) struct ForceRotation {
-    /// Columns of A, one an axis.
+    /// Columns of A, one for each axis.
     added_forces: Vec<Vec<f64>>,
-    /// Rows of G.
-    rotations: Vec<Vec<f64>>,
+    /// Rows of G, one for each axis.
+    mean_rotations: Vec<Vec<f64>>,
     /// RᵀA.
-    products: Vec<Vec<f64>>,
+    rigid_moments: Vec<Vec<f64>>,
 }
 
 impl ForceRotation {
-    /// Adds the matrix, row-major, to `block`.
-    pub(super) fn add_to(&self, block: &mut [f64]) {
-        let Self { added_forces, rotations, products } = self;
-        for ((a, rotation), added_forces) in rotations.iter().enumerate().zip(added_forces) {
+    /// Adds the matrix to a row-major `element_matrix`.
+    pub(super) fn add_to(&self, element_matrix: &mut [f64]) {
+        let Self { added_forces, mean_rotations, rigid_moments } = self;
+        for (axis, rotation) in mean_rotations.iter().enumerate() {
             let order = rotation.len();
-            // Half of −(RᵀA)G belongs to each of the two products.
-            let mut column = added_forces.clone();
-            for (product, other) in products[a].iter().zip(rotations) {
-                let pairs = column.iter_mut().zip(other);
-                pairs.for_each(|(value, weight)| *value -= 0.5 * product * weight);
+            // Half of −(RᵀA)G belongs to A G, the other half to its transpose.
+            let mut column = added_forces[axis].clone();
+            for (moment, other_rotation) in rigid_moments[axis].iter().zip(mean_rotations) {
+                for (force, weight) in column.iter_mut().zip(other_rotation) {
+                    *force -= 0.5 * moment * weight;
+                }
             }
-            for (i, row) in block.chunks_exact_mut(order).enumerate() {
+            for (i, row) in element_matrix.chunks_exact_mut(order).enumerate() {
                 for (j, entry) in row.iter_mut().enumerate() {
                     *entry += column[i] * rotation[j] + rotation[i] * column[j];
                 }
@@ -80,106 +90,124 @@ impl ForceRotation {
     }
 }
 
-/// Geometric stiffness to add to the element's.
+/// Geometric stiffness of the static forces of `element` that rotate with it.
 ///
-/// `None` if the element's geometric stiffness has all its forces already, or if its forces cannot rotate with it:
-/// for an element that does not move in all directions, with all nodes at one place, or with forces that are not in
-/// equilibrium.
+/// `None` if the element's own geometric stiffness contains all its forces, or if the forces cannot rotate with the
+/// element: it does not have all displacements, all its nodes coincide, or the forces are not in equilibrium.
 pub(super) fn force_rotation(
     element: &dyn Element,
-    points: &[[f64; 3]],
+    coordinates: &[[f64; 3]],
     state: &ElementStaticState,
 ) -> Option<ForceRotation> {
-    let nodes = ElementNodes::new(element, points, state.has_depth)?;
+    let nodes = ElementNodes::new(element, coordinates, state.is_in_space)?;
     let order = nodes.dofs.len();
     let mut matrix = vec![0.0; order * order];
-    element.stiffness(points, &mut matrix);
-    let force = times(&matrix, state.displacement);
-    let largest = nodes.largest(&force);
-    if largest == 0.0 || !largest.is_finite() {
+    element.stiffness(coordinates, &mut matrix);
+    let forces = matrix_vector_product(&matrix, state.displacement);
+    let max_force = nodes.max_force(&forces);
+    if max_force == 0.0 || !max_force.is_finite() {
         return None;
     }
-    matrix.fill(0.0);
-    element.mass(points, state.mass_kind, &mut matrix);
-    let up = if state.has_depth { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-    // Dead load of the element when gravity acts against the direction `upwards`.
-    let dead_load = |upwards: [f64; 3]| {
-        let mut load = times(&matrix, &nodes.translation(upwards));
-        for value in &mut load {
-            *value *= -state.gravity;
-        }
-        load
-    };
-    let weight = dead_load(up);
-    let mut geometric_stiffness = vec![0.0; order * order];
-    element.geometric_stiffness(points, &mut geometric_stiffness);
-    let axes = if state.has_depth { AXES_OF_SPACE } else { AXES_OF_THE_PLANE };
-    let motions: Vec<Vec<f64>> = axes.iter().map(|axis| nodes.rotation(axis.0)).collect();
-    let mut added_forces = Vec::with_capacity(axes.len());
-    for ((_, axis), motion) in axes.iter().zip(&motions) {
-        // Forces of the weight keep their direction; moments of distributed weight follow the element.
-        let turned = nodes.turned(*axis, &force);
-        let turned_weight = nodes.turned(*axis, &weight);
-        let dead_weight = dead_load(cross(*axis, up));
-        let element_forces = times(&geometric_stiffness, motion);
-        let mut added = Vec::with_capacity(order);
-        for k in 0..order {
-            added.push(turned[k] - turned_weight[k] + dead_weight[k] - element_forces[k]);
-        }
-        added_forces.push(added);
-    }
-    let largest_added = added_forces.iter().map(|part| nodes.largest(part)).fold(0.0, f64::max);
-    if largest_added <= ROUNDING_OF_FORCES * largest
-        || !nodes.is_balanced(&force, largest)
-        || !added_forces.iter().all(|part| nodes.is_balanced_in_translation(part, largest))
+    let axes = if state.is_in_space { SPACE_ROTATION_AXES } else { PLANE_ROTATION_AXES };
+    let rigid_rotations: Vec<Vec<f64>> =
+        axes.iter().map(|axis| nodes.rotation(axis.direction)).collect();
+    let added_forces = added_forces(element, coordinates, state, &nodes, &forces, &rigid_rotations);
+    let max_added_force =
+        added_forces.iter().map(|column| nodes.max_force(column)).fold(0.0, f64::max);
+    if max_added_force <= FORCE_ROUNDING_RATIO * max_force
+        || !nodes.are_balanced(&forces, max_force)
+        || !added_forces
+            .iter()
+            .all(|column| nodes.are_balanced_in_translation(column, max_force))
     {
         return None;
     }
-    let rotations = nodes.mean_rotations(axes);
-    let products = symmetric_products(&motions, &added_forces);
-    Some(ForceRotation { added_forces, rotations, products })
+    let mean_rotations = nodes.mean_rotations(axes);
+    let rigid_moments = symmetric_products(&rigid_rotations, &added_forces);
+    Some(ForceRotation { added_forces, mean_rotations, rigid_moments })
 }
 
-/// Symmetric part of the products of `motions` with `forces`.
+/// Columns of A = T − K_G R, one for each axis of rotation.
+///
+/// `forces`: nodal forces f in the static state.
+fn added_forces(
+    element: &dyn Element,
+    coordinates: &[[f64; 3]],
+    state: &ElementStaticState,
+    nodes: &ElementNodes,
+    forces: &[f64],
+    rigid_rotations: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let order = forces.len();
+    let mut mass = vec![0.0; order * order];
+    element.mass(coordinates, state.mass_kind, &mut mass);
+    let up = if state.is_in_space { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+    let weight = nodes.dead_load(&mass, state.gravity, up);
+    let mut geometric_stiffness = vec![0.0; order * order];
+    element.geometric_stiffness(coordinates, &mut geometric_stiffness);
+    let axes = if state.is_in_space { SPACE_ROTATION_AXES } else { PLANE_ROTATION_AXES };
+    let mut columns = Vec::with_capacity(axes.len());
+    for (axis, rigid_rotation) in axes.iter().zip(rigid_rotations) {
+        // Forces of the weight keep their direction; moments of distributed weight follow the element.
+        let rotated_forces = nodes.force_changes(axis.vector, forces);
+        let rotated_weight = nodes.force_changes(axis.vector, &weight);
+        let dead_weight = nodes.dead_load(&mass, state.gravity, cross(axis.vector, up));
+        let element_forces = matrix_vector_product(&geometric_stiffness, rigid_rotation);
+        let mut column = Vec::with_capacity(order);
+        for k in 0..order {
+            column.push(rotated_forces[k] - rotated_weight[k] + dead_weight[k] - element_forces[k]);
+        }
+        columns.push(column);
+    }
+    columns
+}
+
+/// Symmetric part of the inner products of `motions` with `forces`.
 fn symmetric_products(motions: &[Vec<f64>], forces: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let count = motions.len();
-    let mut products = vec![vec![0.0; count]; count];
-    for a in 0..count {
-        for b in 0..count {
+    let motion_count = motions.len();
+    let mut products = vec![vec![0.0; motion_count]; motion_count];
+    for a in 0..motion_count {
+        for b in 0..motion_count {
             products[a][b] = 0.5
-                * (sum_of_products(&motions[a], &forces[b])
-                    + sum_of_products(&motions[b], &forces[a]));
+                * (inner_product(&motions[a], &forces[b]) + inner_product(&motions[b], &forces[a]));
         }
     }
     products
 }
 
-fn sum_of_products(a: &[f64], b: &[f64]) -> f64 {
+fn inner_product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A square row-major `matrix` times a vector.
-fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+/// Product of a square row-major `matrix` and a vector.
+fn matrix_vector_product(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
     let rows = matrix.chunks_exact(vector.len().max(1));
-    rows.map(|row| sum_of_products(row, vector)).collect()
+    rows.map(|row| inner_product(row, vector)).collect()
 }
 
-/// Places of an element's nodes relative to their mean, and its degrees of freedom.
+/// Nodes of an element relative to their mean, and its degrees of freedom.
 struct ElementNodes {
+    /// Vectors from the mean of the nodes to each node, m.
     arms: Vec<[f64; 3]>,
-
     dofs: Vec<ElementDof>,
     /// Largest distance of a node from the mean, m.
-    size: f64,
+    radius: f64,
+}
+
+/// Force (N) and moment (N m) at a node.
+#[derive(Clone, Copy, Default)]
+struct NodalForce {
+    force: [f64; 3],
+    moment: [f64; 3],
 }
 
 /// Degree of freedom of an element.
 #[derive(Clone, Copy)]
 struct ElementDof {
-    /// Place of the node in the element's list.
+    /// Index of the node among the nodes of the element.
     node: usize,
     direction: Direction,
-    /// Axis of the displacement or rotation, 0 to 2.
+    /// Axis of the displacement or rotation: x, y or z.
     axis: usize,
     is_rotation: bool,
 }
@@ -196,134 +224,136 @@ impl ElementDof {
 }
 
 impl ElementNodes {
-    /// Nodes of an element that moves in all directions; `None` for another one.
-    fn new(element: &dyn Element, points: &[[f64; 3]], has_depth: bool) -> Option<Self> {
+    /// Nodes of an element that has all displacements; `None` for another one.
+    fn new(element: &dyn Element, coordinates: &[[f64; 3]], is_in_space: bool) -> Option<Self> {
         let directions = element.directions();
-        let needed: &[Direction] = if has_depth {
+        let needed_directions: &[Direction] = if is_in_space {
             &[Direction::X, Direction::Y, Direction::Z]
         } else {
             &[Direction::X, Direction::Y]
         };
-        if !needed.iter().all(|direction| directions.contains(direction)) {
+        if !needed_directions.iter().all(|direction| directions.contains(direction)) {
             return None;
         }
-        let mean_weight = 1.0 / points.len() as f64;
-        let mean = points.iter().fold([0.0; 3], |sum, point| add(sum, mean_weight, *point));
-        let arms: Vec<[f64; 3]> = points.iter().map(|point| add(*point, -1.0, mean)).collect();
-        let size = arms.iter().map(|arm| length(*arm)).fold(0.0, f64::max);
+        let mean_weight = 1.0 / coordinates.len() as f64;
+        let mean =
+            coordinates.iter().fold([0.0; 3], |sum, point| add_scaled(sum, mean_weight, *point));
+        let arms: Vec<[f64; 3]> =
+            coordinates.iter().map(|point| add_scaled(*point, -1.0, mean)).collect();
+        let radius = arms.iter().map(|arm| norm(*arm)).fold(0.0, f64::max);
         let mut dofs = Vec::with_capacity(element.order());
-        for node in 0..points.len() {
+        for node in 0..coordinates.len() {
             dofs.extend(directions.iter().map(|&direction| ElementDof::new(node, direction)));
         }
-        (size > 0.0).then_some(Self { arms, dofs, size })
+        (radius > 0.0).then_some(Self { arms, dofs, radius })
     }
 
-    /// Forces and moments at each node.
-    fn vectors(&self, values: &[f64]) -> Vec<[[f64; 3]; 2]> {
-        let mut vectors = vec![[[0.0; 3]; 2]; self.arms.len()];
+    /// Forces and moments at each node, by the forces of all degrees of freedom.
+    fn nodal_forces(&self, values: &[f64]) -> Vec<NodalForce> {
+        let mut nodal_forces = vec![NodalForce::default(); self.arms.len()];
         for (dof, value) in self.dofs.iter().zip(values) {
-            vectors[dof.node][usize::from(dof.is_rotation)][dof.axis] = *value;
+            let nodal_force = &mut nodal_forces[dof.node];
+            if dof.is_rotation {
+                nodal_force.moment[dof.axis] = *value;
+            } else {
+                nodal_force.force[dof.axis] = *value;
+            }
         }
-        vectors
+        nodal_forces
     }
 
-    /// Change of nodal forces that turn by 1 rad about an axis.
+    /// Change of nodal forces that rotate by 1 rad about an axis.
     ///
     /// Moments change by half of their rotation: they belong to rotation vectors, whose moments are semitangential
     /// (Argyris 1979).
-    fn turned(&self, axis: [f64; 3], values: &[f64]) -> Vec<f64> {
-        let vectors = self.vectors(values);
-        let mut turned = Vec::with_capacity(values.len());
+    fn force_changes(&self, axis: [f64; 3], values: &[f64]) -> Vec<f64> {
+        let nodal_forces = self.nodal_forces(values);
+        let mut changes = Vec::with_capacity(values.len());
         for dof in &self.dofs {
-            let factor = if dof.is_rotation { 0.5 } else { 1.0 };
-            let vector = vectors[dof.node][usize::from(dof.is_rotation)];
-            turned.push(factor * cross(axis, vector)[dof.axis]);
+            let NodalForce { force, moment } = nodal_forces[dof.node];
+            changes.push(if dof.is_rotation {
+                0.5 * cross(axis, moment)[dof.axis]
+            } else {
+                cross(axis, force)[dof.axis]
+            });
         }
-        turned
+        changes
     }
 
-    /// Displacements in a translation by the vector `direction`.
+    /// Dead load of the element by its `mass` matrix, if gravity acts against the unit vector `up`.
+    fn dead_load(&self, mass: &[f64], gravity: f64, up: [f64; 3]) -> Vec<f64> {
+        let mut load = matrix_vector_product(mass, &self.translation(up));
+        for force in &mut load {
+            *force *= -gravity;
+        }
+        load
+    }
+
+    /// Displacements of all degrees of freedom in a translation by the vector `direction`.
     fn translation(&self, direction: [f64; 3]) -> Vec<f64> {
         let dofs = self.dofs.iter();
         dofs.map(|dof| if dof.is_rotation { 0.0 } else { direction[dof.axis] }).collect()
     }
 
-    /// Displacements in a rotation by 1 rad about the mean of the nodes.
-    fn rotation(&self, motion: Direction) -> Vec<f64> {
+    /// Displacements of all degrees of freedom in a rotation by 1 rad about the mean of the nodes.
+    fn rotation(&self, rotation: Direction) -> Vec<f64> {
         let dofs = self.dofs.iter();
-        dofs.map(|dof| dof.direction.in_rigid_motion(motion, self.arms[dof.node])).collect()
+        dofs.map(|dof| dof.direction.in_rigid_motion(rotation, self.arms[dof.node]))
+            .collect()
     }
 
-    /// Largest force; moments are divided by the size of the element.
-    fn largest(&self, values: &[f64]) -> f64 {
-        let mut largest = 0.0_f64;
+    /// Largest force, N; moments are divided by the radius of the element.
+    fn max_force(&self, values: &[f64]) -> f64 {
+        let mut max_force = 0.0_f64;
         for (dof, value) in self.dofs.iter().zip(values) {
-            let force = if dof.is_rotation { value.abs() / self.size } else { value.abs() };
-            largest = largest.max(force);
+            let force = if dof.is_rotation { value.abs() / self.radius } else { value.abs() };
+            max_force = max_force.max(force);
         }
-        largest
+        max_force
     }
 
-    fn is_balanced_in_translation(&self, values: &[f64], largest: f64) -> bool {
-        let vectors = self.vectors(values);
-        let sum = vectors.iter().fold([0.0; 3], |sum, [force, _]| add(sum, 1.0, *force));
-        length(sum) <= MAX_FORCE_IMBALANCE * largest
+    /// Whether nodal forces have no resultant force, up to rounding of `max_force`.
+    fn are_balanced_in_translation(&self, values: &[f64], max_force: f64) -> bool {
+        let nodal_forces = self.nodal_forces(values);
+        let resultant =
+            nodal_forces.iter().fold([0.0; 3], |sum, nodal| add_scaled(sum, 1.0, nodal.force));
+        norm(resultant) <= MAX_FORCE_IMBALANCE * max_force
     }
 
-    /// Whether nodal forces have no resultant.
-    fn is_balanced(&self, values: &[f64], largest: f64) -> bool {
-        let vectors = self.vectors(values);
-        let mut moment = [0.0; 3];
-        for ([force, nodal_moment], arm) in vectors.iter().zip(&self.arms) {
-            moment = add(add(moment, 1.0, *nodal_moment), 1.0, cross(*arm, *force));
+    /// Whether nodal forces have no resultant force and no resultant moment.
+    fn are_balanced(&self, values: &[f64], max_force: f64) -> bool {
+        let nodal_forces = self.nodal_forces(values);
+        let mut resultant_moment = [0.0; 3];
+        for (nodal, arm) in nodal_forces.iter().zip(&self.arms) {
+            let with_nodal_moment = add_scaled(resultant_moment, 1.0, nodal.moment);
+            resultant_moment = add_scaled(with_nodal_moment, 1.0, cross(*arm, nodal.force));
         }
-        self.is_balanced_in_translation(values, largest)
-            && length(moment) <= MAX_FORCE_IMBALANCE * largest * self.size
+        self.are_balanced_in_translation(values, max_force)
+            && norm(resultant_moment) <= MAX_FORCE_IMBALANCE * max_force * self.radius
     }
 
     /// Mean rotations of the element about `axes`, as rows over its displacements.
     ///
-    /// It is the rotation that fits the displacements of the nodes best. If the nodes lie on one line, the rotation
-    /// about that line is the mean of the nodes' rotations, or zero without them.
-    fn mean_rotations(&self, axes: &[Axis]) -> Vec<Vec<f64>> {
-        let mut inertia = [[0.0; 3]; 3];
-        for arm in &self.arms {
-            let square = dot(*arm, *arm);
-            for i in 0..3 {
-                for j in 0..3 {
-                    let diagonal = if i == j { square } else { 0.0 };
-                    inertia[i][j] += diagonal - arm[i] * arm[j];
-                }
-            }
-        }
-        let line = self.line();
-        let inverse = match line {
-            Some(along) => {
-                let moment: f64 = self.arms.iter().map(|arm| dot(*arm, *arm)).sum();
-                std::array::from_fn(|i| {
-                    std::array::from_fn(|j| {
-                        let diagonal = if i == j { 1.0 } else { 0.0 };
-                        (diagonal - along[i] * along[j]) / moment
-                    })
-                })
-            }
-            None => inverse(&inertia),
-        };
-        let has_all_rotations = AXES_OF_SPACE
+    /// The mean rotation fits the displacements of the nodes best. If the nodes lie on one line, the rotation about that
+    /// line is the mean of the nodes' rotations, or zero for nodes without rotations.
+    fn mean_rotations(&self, axes: &[RotationAxis]) -> Vec<Vec<f64>> {
+        let line_direction = self.line_direction();
+        let inverse_inertia = self.inverse_inertia(line_direction);
+        let has_all_rotations = SPACE_ROTATION_AXES
             .iter()
-            .all(|(rotation, _)| self.dofs.iter().any(|dof| dof.direction == *rotation));
-        let count = self.arms.len() as f64;
+            .all(|axis| self.dofs.iter().any(|dof| dof.direction == axis.direction));
+        let node_count = self.arms.len() as f64;
         let mut rows = Vec::with_capacity(axes.len());
-        for (_, axis) in axes {
+        for RotationAxis { vector: axis, .. } in axes {
             let weights: [f64; 3] =
-                std::array::from_fn(|k| (0..3).map(|i| axis[i] * inverse[i][k]).sum());
+                std::array::from_fn(|k| (0..3).map(|i| axis[i] * inverse_inertia[i][k]).sum());
             let mut row = Vec::with_capacity(self.dofs.len());
             for dof in &self.dofs {
-                row.push(match (dof.is_rotation, line) {
+                row.push(match (dof.is_rotation, line_direction) {
                     // weights · (arm × u)
                     (false, _) => cross(weights, self.arms[dof.node])[dof.axis],
-                    (true, Some(along)) if has_all_rotations => {
-                        dot(*axis, along) * along[dof.axis] / count
+                    (true, Some(tangent)) if has_all_rotations => {
+                        dot(*axis, tangent) * tangent[dof.axis] / node_count
                     }
                     (true, _) => 0.0,
                 });
@@ -333,25 +363,55 @@ impl ElementNodes {
         rows
     }
 
-    /// Direction of the line on which all nodes lie; `None` if they do not.
-    fn line(&self) -> Option<[f64; 3]> {
-        let farthest = self
+    /// Inverse of the inertia tensor of unit masses at the nodes, 1/m².
+    ///
+    /// Nodes on a line have no inertia about it: the inverse is then that of rotations about axes at right angles to the
+    /// line.
+    fn inverse_inertia(&self, line_direction: Option<[f64; 3]>) -> [[f64; 3]; 3] {
+        if let Some(tangent) = line_direction {
+            let polar_inertia: f64 = self.arms.iter().map(|arm| dot(*arm, *arm)).sum();
+            return std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    let diagonal = if i == j { 1.0 } else { 0.0 };
+                    (diagonal - tangent[i] * tangent[j]) / polar_inertia
+                })
+            });
+        }
+        let mut inertia = [[0.0; 3]; 3];
+        for arm in &self.arms {
+            let squared_arm = dot(*arm, *arm);
+            for i in 0..3 {
+                for j in 0..3 {
+                    let diagonal = if i == j { squared_arm } else { 0.0 };
+                    inertia[i][j] += diagonal - arm[i] * arm[j];
+                }
+            }
+        }
+        symmetric_inverse(&inertia)
+    }
+
+    /// Unit vector of the line on which all nodes lie; `None` if they do not.
+    fn line_direction(&self) -> Option<[f64; 3]> {
+        let longest_arm = self
             .arms
             .iter()
-            .max_by(|a, b| length(**a).total_cmp(&length(**b)))
+            .max_by(|a, b| norm(**a).total_cmp(&norm(**b)))
             .copied()
             .unwrap_or_default();
-        let along = unit(farthest);
-        let limit = MAX_DISTANCE_FROM_LINE * self.size;
-        self.arms.iter().all(|arm| length(cross(*arm, along)) <= limit).then_some(along)
+        let tangent = unit_vector(longest_arm);
+        let max_distance = MAX_DISTANCE_FROM_LINE * self.radius;
+        self.arms
+            .iter()
+            .all(|arm| norm(cross(*arm, tangent)) <= max_distance)
+            .then_some(tangent)
     }
 }
 
 /// Inverse of a symmetric matrix of order 3.
-fn inverse(matrix: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let columns =
+fn symmetric_inverse(matrix: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let cofactors =
         [cross(matrix[1], matrix[2]), cross(matrix[2], matrix[0]), cross(matrix[0], matrix[1])];
-    let determinant = dot(matrix[0], columns[0]);
-    // Symmetric: rows of the inverse are its columns.
-    columns.map(|column| column.map(|value| value / determinant))
+    let determinant = dot(matrix[0], cofactors[0]);
+    // The matrix is symmetric, so the rows of its inverse are its columns.
+    cofactors.map(|row| row.map(|value| value / determinant))
 }

@@ -1,4 +1,4 @@
-//! Grids of nodes on surfaces, in rows.
+//! Grids of nodes on surfaces, row by row.
 
 use super::material::Material;
 use super::mesh::Mesh;
@@ -27,6 +27,7 @@ use crate::error::{Error, Result, at_least, finite, in_bounds, not_negative, req
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grid {
     rows: Vec<Vec<usize>>,
+    /// Whether the last column is next to the first one.
     is_closed: bool,
 }
 
@@ -43,26 +44,26 @@ impl Grid {
         self.rows.len()
     }
 
-    /// Cells between neighbouring rows: the number of the lower row, and the corner nodes.
+    /// Cells between neighbouring rows: the index of the lower row, and the corner nodes.
     ///
-    /// A cell has four corners, and three beside a pole. They are listed counter-clockwise seen from the side where
-    /// columns run to the right and rows upwards; of a wall that [`Mesh::revolve`] made, from outside.
+    /// A cell has four corners, or three beside a pole. They are listed counter-clockwise, seen from the side on which
+    /// columns run to the right and rows upwards. For a wall from [`Mesh::revolve`] that side is the outside.
     pub fn cells(&self) -> impl Iterator<Item = (usize, Vec<usize>)> + '_ {
-        let pairs = self.rows.windows(2).enumerate();
-        pairs.flat_map(move |(row, pair)| {
-            let columns = pair[0].len().max(pair[1].len());
-            let count = if self.is_closed { columns } else { columns - 1 };
-            (0..count).map(move |column| (row, Self::cell(&pair[0], &pair[1], column)))
+        let row_pairs = self.rows.windows(2).enumerate();
+        row_pairs.flat_map(move |(row, row_pair)| {
+            let node_count = row_pair[0].len().max(row_pair[1].len());
+            let cell_count = if self.is_closed { node_count } else { node_count - 1 };
+            (0..cell_count).map(move |column| (row, Self::cell(&row_pair[0], &row_pair[1], column)))
         })
     }
 
-    /// Corners of the cell between two rows at a column; a pole counts as one corner.
+    /// Corner nodes of the cell between two rows and after a column; a pole counts as one corner.
     fn cell(lower: &[usize], upper: &[usize], column: usize) -> Vec<usize> {
-        let next = column + 1;
+        let next_column = column + 1;
         let mut corners = vec![
             lower[column % lower.len()],
-            lower[next % lower.len()],
-            upper[next % upper.len()],
+            lower[next_column % lower.len()],
+            upper[next_column % upper.len()],
             upper[column % upper.len()],
         ];
         corners.dedup();
@@ -71,9 +72,8 @@ impl Grid {
 
     /// Shells of all cells, in the order of [`cells`](Grid::cells).
     ///
-    /// `thickness`: of each row of cells, m.
-    ///
-    /// Triangles at a pole are matched to the quadrilaterals beside them ([`Shell::match_sides`]).
+    /// `thickness` returns the thickness (m) of a row of cells. Triangles at a pole are matched to the quadrilaterals
+    /// beside them ([`Shell::match_sides`]).
     ///
     /// # Errors
     /// As for [`Shell::new`].
@@ -90,8 +90,8 @@ impl Grid {
 
     /// Adds nodes above the grid and returns the bricks between them, for [`Hex8`](super::Hex8).
     ///
-    /// `heights`: distances of the layers of nodes above the grid, m, ascending. The bricks of the first layer come
-    /// first. The grid is seen from above: its cells run counter-clockwise.
+    /// `heights`: distances of the layers of nodes above the grid, m, ascending. Bricks are listed layer by layer. The
+    /// corners of the grid's cells must run counter-clockwise seen from above.
     ///
     /// # Errors
     /// [`Error::Scene`] for a mesh in the plane or a grid with a pole, [`Error::Index`] for a mesh without the grid's
@@ -101,39 +101,40 @@ impl Grid {
             self.cells().map(|(_, cell)| cell.try_into().ok()).collect();
         let needed = "must have cells of four corners to be extruded";
         let quads = quads.ok_or(Error::Scene { quantity: "grid", needed })?;
-        let nodes: Vec<usize> = self.rows.concat();
-        for &node in &nodes {
+        let grid_nodes: Vec<usize> = self.rows.concat();
+        for &node in &grid_nodes {
             in_bounds("node of the grid", node, mesh.nodes().len())?;
         }
         let mut bricks = Vec::with_capacity(quads.len() * heights.len());
-        let mut height_below = 0.0;
-        let mut below = nodes.clone();
-        let mut place = vec![0; mesh.nodes().len()];
-        nodes.iter().enumerate().for_each(|(index, &node)| place[node] = index);
+        let mut lower_height = 0.0;
+        let mut lower_nodes = grid_nodes.clone();
+        // Index of each node of the mesh among the nodes of the grid.
+        let mut grid_index = vec![0; mesh.nodes().len()];
+        grid_nodes.iter().enumerate().for_each(|(index, &node)| grid_index[node] = index);
         for &height in heights {
             finite("height of a layer", height)?;
             require(
                 "height of a layer",
                 height,
-                height > height_below,
+                height > lower_height,
                 "more than that of the layer below",
             )?;
-            let mut above = Vec::with_capacity(nodes.len());
-            for &node in &nodes {
+            let mut upper_nodes = Vec::with_capacity(grid_nodes.len());
+            for &node in &grid_nodes {
                 let mut point = mesh.nodes()[node];
                 point[2] += height;
-                above.push(mesh.add_node_at(point)?);
+                upper_nodes.push(mesh.add_node_at(point)?);
             }
             for quad in &quads {
                 let mut brick = [0; 8];
-                for (k, &node) in quad.iter().enumerate() {
-                    brick[k] = below[place[node]];
-                    brick[4 + k] = above[place[node]];
+                for (corner, &node) in quad.iter().enumerate() {
+                    brick[corner] = lower_nodes[grid_index[node]];
+                    brick[4 + corner] = upper_nodes[grid_index[node]];
                 }
                 bricks.push(brick);
             }
-            below = above;
-            height_below = height;
+            lower_nodes = upper_nodes;
+            lower_height = height;
         }
         Ok(bricks)
     }
@@ -142,7 +143,7 @@ impl Grid {
 impl Mesh {
     /// Adds the nodes of a surface, row by row.
     ///
-    /// `point(row, column)` is the place of each node, [x, y, z] in m.
+    /// `point(row, column)` returns the coordinates [x, y, z] of a node, m.
     ///
     /// ```
     /// use basemat::fem::{Hex8, Material, Mesh};
@@ -168,21 +169,20 @@ impl Mesh {
     ) -> Result<Grid> {
         at_least("rows of the grid", rows, 2)?;
         at_least("columns of the grid", columns, 2)?;
-        let mut nodes = Vec::with_capacity(rows);
+        let mut node_rows = Vec::with_capacity(rows);
         for row in 0..rows {
-            let row: Result<Vec<usize>> =
+            let row_nodes: Result<Vec<usize>> =
                 (0..columns).map(|column| self.add_node_at(point(row, column))).collect();
-            nodes.push(row?);
+            node_rows.push(row_nodes?);
         }
-        Ok(Grid { rows: nodes, is_closed: false })
+        Ok(Grid { rows: node_rows, is_closed: false })
     }
 
     /// Adds the nodes of a surface of revolution about a vertical axis.
     ///
-    /// `axis`: [x, y] of the axis, m.
-    ///
-    /// `meridian`: [radius, height] of each row of nodes, m. A row on the axis is one node, a pole. `sectors`: number
-    /// of columns round the axis, from the direction of x towards y. [`Grid`] has an example.
+    /// `axis`: [x, y] of the axis, m. `meridian`: [radius, height] of each row of nodes, m; a row on the axis is one
+    /// node, a pole. `sectors`: number of columns around the axis, from the direction of x towards y. [`Grid`] has an
+    /// example.
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than two rows or three sectors; [`Error::Input`] for a negative radius;
@@ -202,19 +202,19 @@ impl Mesh {
         if meridian.windows(2).any(|pair| pair[0][0] == 0.0 && pair[1][0] == 0.0) {
             return Err(Error::Scene { quantity, needed: "must not run along its axis" });
         }
-        let mut rows = Vec::with_capacity(meridian.len());
+        let mut node_rows = Vec::with_capacity(meridian.len());
         for &[radius, height] in meridian {
             not_negative("radius of the meridian", radius)?;
-            let count = if radius == 0.0 { 1 } else { sectors };
-            let mut row = Vec::with_capacity(count);
-            for column in 0..count {
+            let column_count = if radius == 0.0 { 1 } else { sectors };
+            let mut row_nodes = Vec::with_capacity(column_count);
+            for column in 0..column_count {
                 let angle = std::f64::consts::TAU * column as f64 / sectors as f64;
                 let x = axis[0] + radius * angle.cos();
                 let y = axis[1] + radius * angle.sin();
-                row.push(self.add_node_at([x, y, height])?);
+                row_nodes.push(self.add_node_at([x, y, height])?);
             }
-            rows.push(row);
+            node_rows.push(row_nodes);
         }
-        Ok(Grid { rows, is_closed: true })
+        Ok(Grid { rows: node_rows, is_closed: true })
     }
 }

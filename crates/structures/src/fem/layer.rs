@@ -1,4 +1,4 @@
-//! Meshes of rectangular quadrilaterals: layers on a common grid of columns.
+//! Meshes of rectangular quadrilaterals: horizontal layers on common grid lines.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use super::mesh::Mesh;
 use super::quad4::{Quad4, QuadFormulation};
 use crate::error::{MemoryError, Result, at_least, finite, memory, positive};
 
-/// Horizontal layer of a block: height, rows of elements, material.
+/// Horizontal layer of a block, with rows of elements of one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -18,20 +18,21 @@ pub struct Layer {
     pub rows: usize,
     /// Material of the layer.
     pub material: Material,
-    /// Integration of its quadrilaterals.
+    /// Formulation of its quadrilaterals.
     pub formulation: QuadFormulation,
 }
 
 impl Layer {
-    /// Layer with the default formulation of its quadrilaterals (incompatible modes); set the field for
-    /// another one.
+    /// Layer of quadrilaterals with incompatible modes.
+    ///
+    /// Set [`formulation`](Layer::formulation) for others.
     pub fn new(height: f64, rows: usize, material: Material) -> Self {
         Self { height, rows, material, formulation: QuadFormulation::default() }
     }
 }
 
 impl Mesh {
-    /// Block of equal columns over `x` (m), layer upon layer from y = 0 upwards.
+    /// Block of equal columns over the range `x` (m), with layers listed upwards from y = 0.
     ///
     /// Nodes are numbered row by row from the base, left to right.
     ///
@@ -43,19 +44,19 @@ impl Mesh {
         finite("left end of the block", x.start)?;
         finite("right end of the block", x.end)?;
         positive("width of the block", x.end - x.start)?;
-        check_size(columns, layers)?;
-        let mut grid = Vec::with_capacity(columns + 1);
+        check_memory(columns, layers)?;
+        let mut grid_lines = Vec::with_capacity(columns + 1);
         for k in 0..=columns {
-            // Weighted ends instead of start + step, so that both ends are exact.
+            // The weighted mean of both ends is exact at both; a sum of steps would not be.
             let fraction = k as f64 / columns.max(1) as f64;
-            grid.push(x.start * (1.0 - fraction) + x.end * fraction);
+            grid_lines.push(x.start * (1.0 - fraction) + x.end * fraction);
         }
-        Self::graded_block(&grid, layers)
+        Self::graded_block(&grid_lines, layers)
     }
 
-    /// Block whose columns lie between the given `grid` lines (m, ascending), from y = 0 upwards.
+    /// Block of columns between `grid` lines (m, ascending), from y = 0 upwards.
     ///
-    /// Use the edges of graded contact elements as `grid` to match them.
+    /// The edges of graded contact elements as `grid` match the mesh to these elements.
     ///
     /// ```
     /// use basemat::fem::{Layer, Material, Mesh};
@@ -77,44 +78,48 @@ impl Mesh {
         for pair in grid.windows(2) {
             positive("width of a column", pair[1] - pair[0])?;
         }
-        check_size(grid.len() - 1, layers)?;
+        check_memory(grid.len() - 1, layers)?;
         let mut mesh = Self::new();
         add_row(&mut mesh, grid, 0.0)?;
-        let mut base = 0.0;
+        let mut layer_bottom = 0.0;
         for layer in layers {
             positive("height of a layer", layer.height)?;
             at_least("rows of a layer", layer.rows, 1)?;
             for row in 1..=layer.rows {
-                let y = base + layer.height * (row as f64 / layer.rows as f64);
-                let upper = add_row(&mut mesh, grid, y)?;
-                for left in upper..upper + grid.len() - 1 {
-                    let below = left - grid.len();
-                    let nodes = [below, below + 1, left + 1, left];
+                let y = layer_bottom + layer.height * (row as f64 / layer.rows as f64);
+                let first_node = add_row(&mut mesh, grid, y)?;
+                for upper_left in first_node..first_node + grid.len() - 1 {
+                    let lower_left = upper_left - grid.len();
+                    let nodes = [lower_left, lower_left + 1, upper_left + 1, upper_left];
                     mesh.add(Quad4::new(nodes, layer.material, layer.formulation))?;
                 }
             }
-            base += layer.height;
+            layer_bottom += layer.height;
         }
         Ok(mesh)
     }
 }
 
-/// Bytes of a quadrilateral in a mesh, with the node and the map entry that it adds.
+/// Bytes of a quadrilateral in a mesh, of a node, and of an entry of the map of elements.
 const BYTES_PER_QUADRILATERAL: f64 = 500.0;
 
-/// Returns an error if a block's quadrilaterals would not fit into memory.
-fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
+/// Returns an error unless the quadrilaterals of a block fit into memory.
+fn check_memory(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
     let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
     // There is one more row of nodes than rows of elements.
-    let count = columns as f64 * (rows + 1.0);
-    memory::check("columns times rows of the block", count, BYTES_PER_QUADRILATERAL * count)
+    let node_count = columns as f64 * (rows + 1.0);
+    memory::check(
+        "columns times rows of the block",
+        node_count,
+        BYTES_PER_QUADRILATERAL * node_count,
+    )
 }
 
-/// Adds the nodes of one height and returns the first one's index.
+/// Adds a row of nodes at the height `y` (m) and returns the index of the first one.
 fn add_row(mesh: &mut Mesh, grid: &[f64], y: f64) -> Result<usize> {
-    let first = mesh.nodes().len();
+    let first_node = mesh.nodes().len();
     for &x in grid {
         mesh.add_node(x, y)?;
     }
-    Ok(first)
+    Ok(first_node)
 }

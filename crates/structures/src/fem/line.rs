@@ -1,96 +1,106 @@
-//! Line between the nodes of a two-node element.
+//! Straight line between the nodes of a two-node element.
 
-use super::element::add_transformed;
-use super::vector::{add, cross, length, unit};
+use super::element_matrix::add_transformed;
+use super::vector::{add_scaled, cross, norm, unit_vector};
 use crate::error::{Result, positive, same_length};
 
 /// Length and direction of the straight line from the first to the second node.
 pub(super) struct ElementLine {
     pub(super) length: f64,
-    along: [f64; 3],
-    /// Level direction across the line.
-    across: [f64; 3],
+    /// Unit vector along the line.
+    tangent: [f64; 3],
+    /// Horizontal unit vector at a right angle to the line.
+    horizontal_normal: [f64; 3],
 }
 
 impl ElementLine {
-    /// Line between two points; `None` unless there are exactly two.
+    /// Line between the nodes; `None` unless there are exactly two.
     pub(super) fn between(coordinates: &[[f64; 3]]) -> Option<Self> {
-        let &[first, second] = coordinates else {
+        let &[first_point, second_point] = coordinates else {
             return None;
         };
-        let difference = add(second, -1.0, first);
-        let along = unit(difference);
-        let level_length = difference[0].hypot(difference[1]);
-        let across = if level_length > 0.0 {
-            [-difference[1] / level_length, difference[0] / level_length, 0.0]
+        let difference = add_scaled(second_point, -1.0, first_point);
+        let tangent = unit_vector(difference);
+        let horizontal_length = difference[0].hypot(difference[1]);
+        let horizontal_normal = if horizontal_length > 0.0 {
+            [-difference[1] / horizontal_length, difference[0] / horizontal_length, 0.0]
         } else {
             [0.0, 1.0, 0.0]
         };
-        Some(Self { length: length(difference), along, across })
+        Some(Self { length: norm(difference), tangent, horizontal_normal })
     }
 
-    /// Error unless there are two points at different places.
-    pub(super) fn check(quantity: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
+    /// Returns an error unless there are two distinct points.
+    ///
+    /// `quantity`: name of the length in the error.
+    pub(super) fn check_length(quantity: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length(quantity, coordinates.len(), 2)?;
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds the axial `stiffness` of the line.
+    /// Adds the matrix of an axial `stiffness` (N/m) to `matrix`.
     ///
-    /// Degrees of freedom: along the first `axes` axes at both ends.
-    pub(super) fn add_axial(&self, stiffness: f64, axes: usize, matrix: &mut [f64]) {
-        add_relative(stiffness, self.along, axes, matrix);
+    /// Degrees of freedom: displacements along the first `axis_count` axes at both ends.
+    pub(super) fn add_axial(&self, stiffness: f64, axis_count: usize, matrix: &mut [f64]) {
+        add_spring(stiffness, self.tangent, axis_count, matrix);
     }
 
-    /// Adds the geometric stiffness −P/L of a bar with the compressive force P.
+    /// Adds the geometric stiffness −P/L of a bar with the compressive force P (N) to `matrix`.
     ///
-    /// It acts on relative displacements across the bar; degrees of freedom along the first `axes` axes at both
-    /// ends.
-    pub(super) fn add_sway(&self, compression: f64, axes: usize, matrix: &mut [f64]) {
-        // In the plane the second direction across the line leaves it.
-        let directions = [self.across, cross(self.along, self.across)];
-        for across in directions.into_iter().take(axes - 1) {
-            add_relative(-compression / self.length, across, axes, matrix);
+    /// It acts on relative displacements of the ends at right angles to the bar. Degrees of freedom: displacements
+    /// along the first `axis_count` axes at both ends.
+    pub(super) fn add_geometric_stiffness(
+        &self,
+        compression: f64,
+        axis_count: usize,
+        matrix: &mut [f64],
+    ) {
+        // The second normal points out of the plane of a mesh with two axes.
+        let normals = [self.horizontal_normal, cross(self.tangent, self.horizontal_normal)];
+        for normal in normals.into_iter().take(axis_count - 1) {
+            add_spring(-compression / self.length, normal, axis_count, matrix);
         }
     }
 
-    /// Lengthening of the line, m, when its ends are displaced along the first axes.
-    pub(super) fn lengthening(&self, first: &[f64], second: &[f64]) -> f64 {
-        let ends = first.iter().zip(second);
-        self.along
+    /// Elongation of the line, m, by the displacements of its two ends, m.
+    pub(super) fn elongation(&self, first_end: &[f64], second_end: &[f64]) -> f64 {
+        let displacements = first_end.iter().zip(second_end);
+        self.tangent
             .iter()
-            .zip(ends)
-            .map(|(along, (first, second))| along * (second - first))
+            .zip(displacements)
+            .map(|(cosine, (first, second))| cosine * (second - first))
             .sum()
     }
 
-    /// Transforms a `local` matrix to global degrees of freedom of the plane and adds it.
+    /// Transforms a local matrix to global degrees of freedom in the plane and adds it to `matrix`.
     ///
-    /// Local: along the line, across it to the left, rotation; both ends. Global: x, y, rotation; both ends.
-    pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
-        let cosine = self.along[0];
-        let sine = self.along[1];
+    /// Local, at both ends: displacement along the line, displacement to its left, rotation. Global, at both ends:
+    /// displacements along x and y, rotation.
+    pub(super) fn add_rotated(&self, local_matrix: &[[f64; 6]; 6], matrix: &mut [f64]) {
+        let cosine = self.tangent[0];
+        let sine = self.tangent[1];
         let mut to_local = [[0.0; 6]; 6];
-        for end in [0, 3] {
-            to_local[end][end] = cosine;
-            to_local[end][end + 1] = sine;
-            to_local[end + 1][end] = -sine;
-            to_local[end + 1][end + 1] = cosine;
-            to_local[end + 2][end + 2] = 1.0;
+        for dof in [0, 3] {
+            to_local[dof][dof] = cosine;
+            to_local[dof][dof + 1] = sine;
+            to_local[dof + 1][dof] = -sine;
+            to_local[dof + 1][dof + 1] = cosine;
+            to_local[dof + 2][dof + 2] = 1.0;
         }
-        add_transformed(local, &to_local, matrix);
+        add_transformed(local_matrix, &to_local, matrix);
     }
 }
 
-/// Adds factor · (relative displacement of two nodes along a `vector`)² as a matrix.
-fn add_relative(factor: f64, vector: [f64; 3], axes: usize, matrix: &mut [f64]) {
-    let order = 2 * axes;
-    let mut weights = [0.0; 6];
-    for axis in 0..axes {
-        weights[axis] = -vector[axis];
-        weights[axes + axis] = vector[axis];
+/// Adds the matrix of a spring along a unit vector `direction` between two nodes.
+fn add_spring(stiffness: f64, direction: [f64; 3], axis_count: usize, matrix: &mut [f64]) {
+    let order = 2 * axis_count;
+    // Elongation of the spring by each degree of freedom.
+    let mut elongations = [0.0; 6];
+    for axis in 0..axis_count {
+        elongations[axis] = -direction[axis];
+        elongations[axis_count + axis] = direction[axis];
     }
     for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
-        *entry += factor * weights[index / order] * weights[index % order];
+        *entry += stiffness * elongations[index / order] * elongations[index % order];
     }
 }

@@ -20,7 +20,7 @@ pub struct LumpedMass {
     node: [usize; 1],
     mass: f64,
     directions: &'static [Direction],
-    /// About the last directions, kg m².
+    /// Rotary inertias about the rotations in `directions`, kg m²; zero without a rotation.
     rotary_inertia: [f64; 3],
 }
 
@@ -38,8 +38,8 @@ impl LumpedMass {
     ///
     /// `rotary_inertia`: about x, y and z, kg m².
     ///
-    /// Without rotary inertia it adds no rotation degree of freedom. With one the node gets all three; other elements
-    /// should restrain those without inertia.
+    /// Without rotary inertia the mass adds no rotation degree of freedom. With any, the node gets all three
+    /// rotations; other elements should restrain the rotations without inertia.
     ///
     /// ```
     /// use basemat::fem::{Element, LumpedMass, MassKind};
@@ -67,15 +67,14 @@ impl LumpedMass {
     ///
     /// `rotary_inertia`: about the node, kg m² per metre of thickness.
     ///
-    /// If the rotary inertia is above zero, the node gets a rotation degree of freedom. Other elements should
-    /// restrain it.
+    /// If the rotary inertia is above zero, the node gets a rotation. Other elements should restrain this rotation.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative. [`Error::Scene`](crate::Error::Scene)
     /// for a mass in space, which has three rotary inertias.
     pub fn with_rotary_inertia(self, rotary_inertia: f64) -> Result<Self> {
         not_negative("rotary inertia of the lumped mass", rotary_inertia)?;
-        let needed = "in space given by LumpedMass::in_space, about three axes";
+        let needed = "from LumpedMass::in_space for a mass in space, about three axes";
         let is_plane = !self.directions.contains(&Direction::Z);
         require_part("rotary inertia of the lumped mass", is_plane, needed)?;
         let directions = if rotary_inertia > 0.0 { PLANE_DIRECTIONS } else { PLANE_TRANSLATIONS };
@@ -100,9 +99,9 @@ impl Element for LumpedMass {
     fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
-        let axes = if self.directions.contains(&Direction::Z) { 3 } else { 2 };
+        let translation_count = if self.directions.contains(&Direction::Z) { 3 } else { 2 };
         let diagonal_step = self.order() + 1;
-        let diagonal = std::iter::repeat_n(self.mass, axes).chain(self.rotary_inertia);
+        let diagonal = std::iter::repeat_n(self.mass, translation_count).chain(self.rotary_inertia);
         for (entry, value) in matrix.iter_mut().step_by(diagonal_step).zip(diagonal) {
             *entry += value;
         }

@@ -70,14 +70,18 @@ impl Material {
     pub fn elasticity(&self) -> [[f64; 3]; 3] {
         let shear = self.shear_modulus();
         let lame = self.lame();
-        let direct = lame + 2.0 * shear;
-        [[direct, lame, 0.0], [lame, direct, 0.0], [0.0, 0.0, shear]]
+        let direct_modulus = lame + 2.0 * shear;
+        [[direct_modulus, lame, 0.0], [lame, direct_modulus, 0.0], [0.0, 0.0, shear]]
     }
 
     /// Plane-stress matrix D, Pa: `[σ_xx, σ_yy, τ_xy] = D · [ε_xx, ε_yy, γ_xy]`.
     pub(crate) fn plane_stress(&self) -> [[f64; 3]; 3] {
-        let direct = self.young_modulus / (1.0 - self.poisson * self.poisson);
-        let lateral = self.poisson * direct;
-        [[direct, lateral, 0.0], [lateral, direct, 0.0], [0.0, 0.0, self.shear_modulus()]]
+        let direct_modulus = self.young_modulus / (1.0 - self.poisson * self.poisson);
+        let lateral_modulus = self.poisson * direct_modulus;
+        [
+            [direct_modulus, lateral_modulus, 0.0],
+            [lateral_modulus, direct_modulus, 0.0],
+            [0.0, 0.0, self.shear_modulus()],
+        ]
     }
 }

@@ -1,6 +1,6 @@
-//! Merging of the nodes of a mesh at the same place.
+//! Merging of coincident nodes of a mesh.
 
-use super::coincident::first_at_place;
+use super::coincident::first_coincident_points;
 use super::element::Element;
 use super::mesh::Mesh;
 use crate::error::{Error, Result};
@@ -12,18 +12,18 @@ pub struct MergedNodes {
     pub count: usize,
     /// Index in the merged mesh of each node of the original mesh.
     ///
-    /// For lists of nodes made before merging, such as the nodes of a base.
+    /// It converts lists of nodes from before the merging, such as the nodes of a base.
     pub indices: Vec<usize>,
 }
 
 impl Mesh {
-    /// Merges nodes at the same place, so that their elements act on each other.
+    /// Merges coincident nodes, so that their elements act on each other.
     ///
     /// `tolerance`: largest distance of merged nodes, m.
     ///
-    /// The first node of a place stays where it is; nodes are renumbered in their order, elements keep their indices.
-    /// A tolerance of a thousandth of the smallest distance of nodes is far above rounding. The mesh stays as it was
-    /// if there is an error. Where triangles meet quadrilaterals at nodes that are merged, call
+    /// Merged nodes get the coordinates of the first of them. Nodes are renumbered in their order; elements keep their
+    /// indices. A tolerance of a thousandth of the smallest distance of distinct nodes is far above rounding. The mesh
+    /// does not change if there is an error. Where triangles meet quadrilaterals at merged nodes, call
     /// [`Shell::match_sides`](super::Shell::match_sides) with the merged indices before adding the shells, or merge
     /// the nodes of the file (`GmshSpaceMesh::merge_nodes`, with `io`).
     ///
@@ -43,42 +43,43 @@ impl Mesh {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the tolerance is finite and not negative. [`Error::Part`] for nodes in a row that lie
-    /// within the tolerance of each other, while its ends do not. [`Error::Item`] with the element that two merged
+    /// [`Error::Input`] unless the tolerance is finite and not negative. [`Error::Part`] for a chain of nodes, of which
+    /// neighbours are within the tolerance but the ends are not. [`Error::Item`] with the element that two merged
     /// nodes would make degenerate, that would be a duplicate of another one ([`Mesh::add`]), or that cannot be
     /// renumbered ([`Element::with_nodes`]).
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<MergedNodes> {
-        let firsts = first_at_place(self.nodes(), tolerance)?;
-        let mut merged = self.without_content();
-        let mut indices: Vec<usize> = Vec::with_capacity(firsts.len());
-        for (node, &first) in firsts.iter().enumerate() {
-            let index = if first == node {
+        let first_nodes = first_coincident_points(self.nodes(), tolerance)?;
+        let mut merged = self.empty_mesh();
+        let mut new_indices: Vec<usize> = Vec::with_capacity(first_nodes.len());
+        for (node, &first_node) in first_nodes.iter().enumerate() {
+            let new_index = if first_node == node {
                 merged.add_node_at(self.nodes()[node])?
             } else {
-                indices[first]
+                new_indices[first_node]
             };
-            indices.push(index);
+            new_indices.push(new_index);
         }
-        let count = self.nodes().len() - merged.nodes().len();
+        let removed_count = self.nodes().len() - merged.nodes().len();
         for (index, element) in self.elements().enumerate() {
             let item = || format!("element {index} on nodes {:?}", element.nodes());
-            let nodes: Vec<usize> = element.nodes().iter().map(|&node| indices[node]).collect();
-            let repeated = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k]));
-            if let Some(k) = repeated {
+            let nodes: Vec<usize> = element.nodes().iter().map(|&node| new_indices[node]).collect();
+            let repetition = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k]));
+            if let Some(k) = repetition {
                 let reason = format!(
-                    "merging leaves it without extent: node {} is at the place of another",
+                    "merging makes it degenerate: node {} coincides with another of its nodes",
                     element.nodes()[k]
                 );
                 return Err(Error::part(item(), reason));
             }
-            let changed = element.with_nodes(&nodes);
-            let changed = changed.filter(|changed| changed.nodes() == nodes.as_slice());
-            let changed = changed.ok_or_else(|| {
-                Error::part(item(), "it cannot be renumbered (Element::with_nodes)")
-            })?;
-            merged.add(changed).map_err(|fault| fault.within(item()))?;
+            let renumbered = element
+                .with_nodes(&nodes)
+                .filter(|renumbered| renumbered.nodes() == nodes.as_slice())
+                .ok_or_else(|| {
+                    Error::part(item(), "it cannot be renumbered (Element::with_nodes)")
+                })?;
+            merged.add(renumbered).map_err(|fault| fault.within(item()))?;
         }
         *self = merged;
-        Ok(MergedNodes { count, indices })
+        Ok(MergedNodes { count: removed_count, indices: new_indices })
     }
 }

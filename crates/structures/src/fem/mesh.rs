@@ -6,15 +6,20 @@ use std::sync::Arc;
 use super::duplicate::{element_key, is_duplicate};
 use super::element::Element;
 use super::force_rotation::ForceRotation;
+use super::vector::distance;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
 };
 use crate::geometry::{Direction, PLANE_DIRECTIONS, SPACE_DIRECTIONS};
 
-/// Largest distance at which two points count as the same, relative to the mesh's size.
+/// Largest distance of coincident points, relative to the largest extent of the mesh.
 ///
 /// It is far below the size of any element and far above the rounding of a coordinate.
 const COINCIDENCE_TOLERANCE: f64 = 1e-6;
+/// Largest difference of equal heights, relative to the largest extent of the mesh.
+///
+/// It is above the rounding of a height that is a sum of layers.
+const HEIGHT_TOLERANCE: f64 = 1e-9;
 
 /// Nodes and elements, in the plane or in space.
 ///
@@ -40,10 +45,10 @@ const COINCIDENCE_TOLERANCE: f64 = 1e-6;
 pub struct Mesh {
     nodes: Vec<[f64; 3]>,
     elements: Vec<Arc<dyn Element>>,
-    /// Indices of elements by their [`element_key`].
-    elements_at: HashMap<Vec<usize>, Vec<usize>>,
+    /// Indices of the elements with each [`element_key`].
+    elements_by_key: HashMap<Vec<usize>, Vec<usize>>,
     has_depth: bool,
-    /// Geometric stiffness of static forces that rotate with the elements, if there is a static state.
+    /// Geometric stiffness of static forces that rotate with each element; empty without a static state.
     force_rotations: Vec<Option<ForceRotation>>,
 }
 
@@ -76,8 +81,8 @@ impl Mesh {
         Self { has_depth: true, ..Self::default() }
     }
 
-    /// Mesh of the same space without nodes and elements.
-    pub(super) fn without_content(&self) -> Self {
+    /// Mesh without nodes and elements, in the plane or in space as this one.
+    pub(super) fn empty_mesh(&self) -> Self {
         Self { has_depth: self.has_depth, ..Self::default() }
     }
 
@@ -101,7 +106,7 @@ impl Mesh {
     /// # Errors
     /// [`Error::Input`] unless all are finite, and for z other than zero in the plane.
     pub fn add_node_at(&mut self, point: [f64; 3]) -> Result<usize> {
-        finite_point(point)?;
+        check_finite(point)?;
         require("z of the node", point[2], self.has_depth || point[2] == 0.0, "zero in the plane")?;
         self.nodes.push(point);
         Ok(self.nodes.len() - 1)
@@ -118,43 +123,42 @@ impl Mesh {
     /// [`Mesh::directions`], or for an element of the plane in space ([`Element::is_plane`]). [`Error::Part`] when
     /// the element and another one are solids with the same corners ([`Element::faces`]). [`Error::Part`] also when
     /// the element has mass and at least two nodes, and another element on these nodes has the same stiffness,
-    /// mass and damping: enter two equal bars as one bar of twice the section. Any error of
+    /// mass and damping: enter two equal bars as one bar of twice the section. Also errors of
     /// [`Element::check`].
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
         at_least("degrees of freedom of the element", element.order(), 1)?;
-        let all_differ = !(repeats(nodes) || repeats(element.directions()));
+        let all_differ = !(has_repetition(nodes) || has_repetition(element.directions()));
         require_part("nodes and directions of the element", all_differ, "each only once")?;
         let mesh_directions = self.directions();
-        let directions_fit =
+        let has_mesh_directions =
             element.directions().iter().all(|direction| mesh_directions.contains(direction));
         let needed = if self.has_depth {
             "x, y, z, rotation_x, rotation_y or rotation_z in space"
         } else {
             "x, y or rotation in the plane"
         };
-        require_part("direction of the element", directions_fit, needed)?;
-        let space_fits = !(self.has_depth && element.is_plane());
+        require_part("direction of the element", has_mesh_directions, needed)?;
+        let is_in_its_space = !(self.has_depth && element.is_plane());
         require_part(
             "element of the plane",
-            space_fits,
+            is_in_its_space,
             "must be in a mesh in the plane, but this one is in space",
         )?;
-        for &index in nodes {
-            in_bounds("node of the element", index, self.nodes.len())?;
+        for &node in nodes {
+            in_bounds("node of the element", node, self.nodes.len())?;
         }
         element.check(&self.coordinates(nodes))?;
         let key = element_key(&element);
-        let same_place = self.elements_at.get(&key).map_or(&[][..], Vec::as_slice);
-        if let Some(first) = same_place
-            .iter()
-            .find(|other| is_duplicate(&element, self.elements[**other].as_ref(), &self.nodes))
-        {
+        let candidates = self.elements_by_key.get(&key).map_or(&[][..], Vec::as_slice);
+        if let Some(duplicate) = candidates.iter().find(|candidate| {
+            is_duplicate(&element, self.elements[**candidate].as_ref(), &self.nodes)
+        }) {
             let item = format!("element on nodes {nodes:?}");
-            let reason = format!("it lies where element {first} is, and would count twice");
+            let reason = format!("it duplicates element {duplicate}, and would count twice");
             return Err(Error::part(item, reason));
         }
-        self.elements_at.entry(key).or_default().push(self.elements.len());
+        self.elements_by_key.entry(key).or_default().push(self.elements.len());
         self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
     }
@@ -171,13 +175,15 @@ impl Mesh {
 
     /// Smallest and largest density of the elements with mass, kg/m³; `None` without any.
     pub(crate) fn densities(&self) -> Option<[f64; 2]> {
-        let mut range: Option<[f64; 2]> = None;
-        for density in self.elements().filter_map(Element::density).filter(|value| *value > 0.0) {
-            range = Some(range.map_or([density; 2], |[smallest, largest]| {
-                [density.min(smallest), density.max(largest)]
-            }));
+        let mut density_range: Option<[f64; 2]> = None;
+        for density in self.elements().filter_map(Element::density).filter(|density| *density > 0.0)
+        {
+            density_range =
+                Some(density_range.map_or([density; 2], |[min_density, max_density]| {
+                    [density.min(min_density), density.max(max_density)]
+                }));
         }
-        range
+        density_range
     }
 
     /// Index of the node at (`x`, `y`), m, within a millionth of the mesh's size.
@@ -196,38 +202,38 @@ impl Mesh {
     /// [`Error::Input`] unless all are finite, [`Error::Size`] for an empty mesh, [`Error::NoNode`]
     /// with the nearest node if there is none at this point.
     pub fn node_at_point(&self, point: [f64; 3]) -> Result<usize> {
-        finite_point(point)?;
-        let index = self.nearest_node_to(point).ok_or(Error::Size {
+        check_finite(point)?;
+        let node = self.nearest_node_to(point).ok_or(Error::Size {
             quantity: "nodes",
             found: 0,
             needed: 1,
         })?;
-        let nearest = self.nodes[index];
-        let distance = distance(nearest, point);
-        if distance <= COINCIDENCE_TOLERANCE * self.extent() {
-            Ok(index)
+        let nearest_point = self.nodes[node];
+        let nearest_distance = distance(nearest_point, point);
+        if nearest_distance <= COINCIDENCE_TOLERANCE * self.largest_extent() {
+            Ok(node)
         } else {
-            Err(Error::NoNode { point, nearest, distance })
+            Err(Error::NoNode { point, nearest: nearest_point, distance: nearest_distance })
         }
     }
 
     /// Index of the node nearest to (`x`, `y`), at any distance; `None` for an empty mesh.
     ///
-    /// In space the point lies at z = 0. If several nodes are equally near, the first. [`Mesh::node_at`] returns an
-    /// error for a point without a node.
+    /// In space the point lies at z = 0. Of several equally near nodes the first one is returned. [`Mesh::node_at`]
+    /// returns an error for a point without a node.
     pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
         self.nearest_node_to([x, y, 0.0])
     }
 
     /// Index of the node nearest to `[x, y, z]`, as [`Mesh::nearest_node`].
     pub fn nearest_node_to(&self, point: [f64; 3]) -> Option<usize> {
-        let pairs = self.nodes.iter().map(|node| distance(*node, point)).enumerate();
-        pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+        let distances = self.nodes.iter().map(|node| distance(*node, point)).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(node, _)| node)
     }
 
-    /// Other nodes at the same point as `node`, which must exist.
-    pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
-        let tolerance = COINCIDENCE_TOLERANCE * self.extent();
+    /// Other nodes that coincide with `node`, which must exist.
+    pub(crate) fn coincident_nodes(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
+        let tolerance = COINCIDENCE_TOLERANCE * self.largest_extent();
         (0..self.nodes.len()).filter(move |&other| {
             other != node && distance(self.nodes[other], self.nodes[node]) <= tolerance
         })
@@ -244,18 +250,20 @@ impl Mesh {
     pub fn nodes_at_height(&self, height: f64, tolerance: f64) -> Result<Vec<usize>> {
         finite("height of the nodes", height)?;
         not_negative("tolerance of the height", tolerance)?;
-        let up = self.up();
-        let mut found: Vec<usize> = (0..self.nodes.len())
-            .filter(|&index| (self.nodes[index][up] - height).abs() <= tolerance)
+        let up_axis = self.up_axis();
+        let mut nodes: Vec<usize> = (0..self.nodes.len())
+            .filter(|&node| (self.nodes[node][up_axis] - height).abs() <= tolerance)
             .collect();
         // In the plane this is z, which is zero.
-        let depth_axis = 3 - up;
-        found.sort_by(|&first, &second| {
-            let a = self.nodes[first];
-            let b = self.nodes[second];
-            a[0].total_cmp(&b[0]).then(a[depth_axis].total_cmp(&b[depth_axis]))
+        let depth_axis = 3 - up_axis;
+        nodes.sort_by(|&first, &second| {
+            let first_point = self.nodes[first];
+            let second_point = self.nodes[second];
+            first_point[0]
+                .total_cmp(&second_point[0])
+                .then(first_point[depth_axis].total_cmp(&second_point[depth_axis]))
         });
-        Ok(found)
+        Ok(nodes)
     }
 
     /// Whether the mesh lies in space.
@@ -264,34 +272,34 @@ impl Mesh {
         self.has_depth
     }
 
-    /// Direction of displacements upwards: Y in the plane, Z in space.
-    pub(crate) fn upwards(&self) -> Direction {
-        self.directions()[self.up()]
+    /// Direction of upward displacements: Y in the plane, Z in space.
+    pub(crate) fn up_direction(&self) -> Direction {
+        self.directions()[self.up_axis()]
     }
 
-    /// Axis that points up: y in the plane, z in space.
-    pub(crate) fn up(&self) -> usize {
+    /// Index of the axis that points up: y in the plane, z in space.
+    pub(crate) fn up_axis(&self) -> usize {
         if self.has_depth { 2 } else { 1 }
     }
 
     /// Height of the lowest node, m; 0 for an empty mesh.
-    pub(crate) fn lowest(&self) -> f64 {
-        self.nodes.iter().map(|node| node[self.up()]).reduce(f64::min).unwrap_or(0.0)
+    pub(crate) fn lowest_height(&self) -> f64 {
+        self.nodes.iter().map(|node| node[self.up_axis()]).reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// Default tolerance for equal heights, m; far below the size of any element.
-    pub(crate) fn tolerance(&self) -> f64 {
-        1e-9 * self.extent()
+    /// Largest difference of heights that count as equal, m; far below the size of any element.
+    pub(crate) fn height_tolerance(&self) -> f64 {
+        HEIGHT_TOLERANCE * self.largest_extent()
     }
 
     /// Width, depth or height of the mesh, whichever is largest, m.
-    fn extent(&self) -> f64 {
+    fn largest_extent(&self) -> f64 {
         let mut extent = 0.0_f64;
         for axis in 0..3 {
-            let values = self.nodes.iter().map(|node| node[axis]);
-            let lowest = values.clone().fold(f64::INFINITY, f64::min);
-            let highest = values.fold(f64::NEG_INFINITY, f64::max);
-            extent = extent.max(highest - lowest);
+            let coordinates = self.nodes.iter().map(|node| node[axis]);
+            let min_coordinate = coordinates.clone().fold(f64::INFINITY, f64::min);
+            let max_coordinate = coordinates.fold(f64::NEG_INFINITY, f64::max);
+            extent = extent.max(max_coordinate - min_coordinate);
         }
         extent
     }
@@ -307,14 +315,16 @@ impl Mesh {
         mut replacement: impl FnMut(&dyn Element, &[[f64; 3]]) -> Option<Box<dyn Element>>,
     ) -> Result<()> {
         for element in &mut self.elements {
-            let points: Vec<[f64; 3]> =
-                element.nodes().iter().map(|&index| self.nodes[index]).collect();
-            let Some(changed) = replacement(element.as_ref(), &points) else { continue };
-            let same_dofs =
-                changed.nodes() == element.nodes() && changed.directions() == element.directions();
+            let coordinates: Vec<[f64; 3]> =
+                element.nodes().iter().map(|&node| self.nodes[node]).collect();
+            let Some(new_element) = replacement(element.as_ref(), &coordinates) else {
+                continue;
+            };
+            let has_same_dofs = new_element.nodes() == element.nodes()
+                && new_element.directions() == element.directions();
             let needed = "the same nodes and directions";
-            require_part("element in the static state", same_dofs, needed)?;
-            *element = Arc::from(changed);
+            require_part("element in the static state", has_same_dofs, needed)?;
+            *element = Arc::from(new_element);
         }
         Ok(())
     }
@@ -330,22 +340,18 @@ impl Mesh {
 
     /// Coordinates of `nodes`, which must exist.
     pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
-        nodes.iter().map(|&index| self.nodes[index]).collect()
+        nodes.iter().map(|&node| self.nodes[node]).collect()
     }
 }
 
-/// Error unless all coordinates of a node are finite.
-fn finite_point([x, y, z]: [f64; 3]) -> Result<()> {
+/// Returns an error unless all coordinates of a node are finite.
+fn check_finite([x, y, z]: [f64; 3]) -> Result<()> {
     finite("x of the node", x)?;
     finite("y of the node", y)?;
     finite("z of the node", z).map(drop)
 }
 
-/// Distance between two points, m.
-fn distance([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
-    (a - x).hypot(b - y).hypot(c - z)
-}
-
-fn repeats<T: PartialEq>(items: &[T]) -> bool {
+/// Whether an item occurs twice.
+fn has_repetition<T: PartialEq>(items: &[T]) -> bool {
     items.iter().enumerate().any(|(index, item)| items[..index].contains(item))
 }

@@ -1,14 +1,13 @@
-//! Finite elements: solids, shells, beams, trusses, masses, springs, and your own.
+//! Finite elements: solids, shells, beams, trusses, masses, springs, and elements of your own.
 //!
-//! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a structure of it.
+//! A [`Mesh`] has nodes and [`Element`]s; a [`FemModel`](crate::structure::FemModel) is the structure of a mesh.
 
 mod assembly;
 mod beam;
 pub(crate) mod coincident;
-mod condensation;
 mod duplicate;
 mod element;
-mod element_face;
+mod element_matrix;
 mod force_rotation;
 mod grid;
 mod hex8;
@@ -31,8 +30,7 @@ pub use crate::geometry::Direction;
 pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
 pub(crate) use beam::EndFrame;
 pub use beam::{Beam, BeamSection, SpaceBeam};
-pub use element::{Element, MassKind};
-pub use element_face::ElementFace;
+pub use element::{Element, ElementFace, MassKind};
 pub use grid::Grid;
 pub use hex8::Hex8;
 pub use layer::Layer;

@@ -1,71 +1,70 @@
-//! Numbers of the degrees of freedom of a mesh.
+//! Indices of a mesh's degrees of freedom.
 
 use super::element::Element;
 use super::mesh::Mesh;
 use crate::geometry::Direction;
 
-/// Numbers of a mesh's degrees of freedom, node by node.
+/// Indices of a mesh's degrees of freedom, node by node.
 ///
-/// Directions that no element uses at a node have no number.
+/// A node has no degree of freedom in a direction that none of its elements has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     /// Directions of the mesh.
     directions: &'static [Direction],
-    /// Numbers of each node in these directions.
-    numbers: Vec<Option<usize>>,
-    dofs: usize,
+    /// Index of each degree of freedom, by node and direction, row-major.
+    dof_indices: Vec<Option<usize>>,
+    /// Number of degrees of freedom.
+    dof_count: usize,
 }
 
 impl Numbering {
-    /// Numbers the degrees of freedom of `mesh`.
+    /// Indices for the degrees of freedom of `mesh`.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let directions = mesh.directions();
-        let mut numbers = vec![None; directions.len() * mesh.nodes().len()];
+        let mut dof_indices = vec![None; directions.len() * mesh.nodes().len()];
         for element in mesh.elements() {
-            let places: Vec<usize> = element
+            let columns: Vec<usize> = element
                 .directions()
                 .iter()
-                .filter_map(|&direction| place(directions, direction))
+                .filter_map(|&direction| direction_index(directions, direction))
                 .collect();
             for node in element.nodes() {
-                for place in &places {
-                    numbers[node * directions.len() + place] = Some(0);
+                for column in &columns {
+                    dof_indices[node * directions.len() + column] = Some(0);
                 }
             }
         }
-        let mut dofs = 0;
-        for number in numbers.iter_mut().flatten() {
-            *number = dofs;
-            dofs += 1;
+        let mut dof_count = 0;
+        for index in dof_indices.iter_mut().flatten() {
+            *index = dof_count;
+            dof_count += 1;
         }
-        Self { directions, numbers, dofs }
+        Self { directions, dof_indices, dof_count }
     }
 
     /// Number of degrees of freedom.
     pub(crate) fn dofs(&self) -> usize {
-        self.dofs
+        self.dof_count
     }
 
     /// Index of the degree of freedom of `node` in `direction`, if there is one.
     pub(crate) fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
-        let place = place(self.directions, direction)?;
-        *self.numbers.chunks_exact(self.directions.len()).nth(node)?.get(place)?
+        let column = direction_index(self.directions, direction)?;
+        *self.dof_indices.chunks_exact(self.directions.len()).nth(node)?.get(column)?
     }
 
-    /// Overwrites `indices` with the degrees of freedom of `element`.
-    ///
-    /// They have the order of the element's matrices.
-    pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
-        indices.clear();
+    /// Overwrites `dofs` with the degrees of freedom of `element`, in the order of its matrices.
+    pub(crate) fn element_dofs(&self, element: &dyn Element, dofs: &mut Vec<usize>) {
+        dofs.clear();
         for &node in element.nodes() {
             for &direction in element.directions() {
-                indices.push(self.dof(node, direction).unwrap_or(usize::MAX));
+                dofs.push(self.dof(node, direction).unwrap_or(usize::MAX));
             }
         }
     }
 }
 
-/// Place of a direction among the directions of a mesh.
-fn place(directions: &[Direction], direction: Direction) -> Option<usize> {
+/// Index of a direction among the directions of a mesh.
+fn direction_index(directions: &[Direction], direction: Direction) -> Option<usize> {
     directions.iter().position(|candidate| *candidate == direction)
 }

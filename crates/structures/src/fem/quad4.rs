@@ -1,8 +1,7 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
-use super::condensation::{condense, leading};
-use super::element::{Element, MassKind, add_square};
-use super::element_face::ElementFace;
+use super::element::{Element, ElementFace, MassKind};
+use super::element_matrix::{add_matrix, condense, leading_block};
 use super::material::Material;
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
@@ -59,10 +58,10 @@ pub struct Quad4 {
     formulation: QuadFormulation,
 }
 
-/// Columns `[ε_xx, ε_yy, γ_xy]` for unit displacements in x and in y of a shape function.
+/// Strains `[ε_xx, ε_yy, γ_xy]` by a displacement along x, and by one along y, with these derivatives.
 ///
-/// The argument holds the slopes (∂/∂x, ∂/∂y) of the shape function.
-pub(super) fn strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
+/// The argument holds the derivatives (∂/∂x, ∂/∂y) of a shape function.
+pub(super) fn plane_strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
     [[dx, 0.0, dy], [0.0, dy, dx]]
 }
 
@@ -72,43 +71,48 @@ impl Quad4 {
         Self { nodes, material, formulation }
     }
 
+    /// Stiffness by integration points of one common weight.
     fn integrated_stiffness<const N: usize>(
         &self,
         points: [[f64; 2]; N],
         weight: f64,
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
-        let points = points.into_iter().map(|point| (point, weight));
-        integrate_stiffness(&self.material.elasticity(), points, |point| {
+        let weighted_points = points.into_iter().map(|point| (point, weight));
+        integrate_stiffness(&self.material.elasticity(), weighted_points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             (node_strains(point, &jacobian), jacobian.determinant)
         })
     }
 
+    /// Stiffness of the nodes after condensation of the two bending modes.
     fn stiffness_with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
-        let centre = Jacobian::at([0.0; 2], coordinates);
-        let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut full = integrate_stiffness(&self.material.elasticity(), points, |point| {
-            let jacobian = Jacobian::at(point, coordinates);
-            let mut strain = [[0.0; 3]; 12];
-            strain[..8].copy_from_slice(&node_strains(point, &jacobian));
-            // Slopes of 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that their
-            // integral over the element vanishes, and a constant stress does no work on them.
-            let scale = -2.0 * centre.determinant / jacobian.determinant;
-            let bend_xi = strains(centre.global_slopes([scale * point[0], 0.0]));
-            let bend_eta = strains(centre.global_slopes([0.0, scale * point[1]]));
-            strain[8..10].copy_from_slice(&bend_xi);
-            strain[10..].copy_from_slice(&bend_eta);
-            (strain, jacobian.determinant)
-        });
-        condense(&mut full, 8);
-        leading(&full)
+        let centre_jacobian = Jacobian::at([0.0; 2], coordinates);
+        let weighted_points = gauss_points().into_iter().map(|point| (point, 1.0));
+        let mut full_stiffness =
+            integrate_stiffness(&self.material.elasticity(), weighted_points, |point| {
+                let jacobian = Jacobian::at(point, coordinates);
+                let mut strains = [[0.0; 3]; 12];
+                strains[..8].copy_from_slice(&node_strains(point, &jacobian));
+                // Derivatives of the modes 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that
+                // their integral over the element vanishes: a constant stress does no work on them.
+                let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
+                let xi_mode_strains =
+                    plane_strains(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
+                let eta_mode_strains =
+                    plane_strains(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
+                strains[8..10].copy_from_slice(&xi_mode_strains);
+                strains[10..].copy_from_slice(&eta_mode_strains);
+                (strains, jacobian.determinant)
+            });
+        condense(&mut full_stiffness, 8);
+        leading_block(&full_stiffness)
     }
 }
 
-/// ∫ Sᵀ D S over points with their weights, for the matrix D of the strains.
+/// Stiffness ∫ Sᵀ D S of N displacement patterns, by integration points and their weights.
 ///
-/// `strains` returns the strains S of N patterns at a point, and the determinant of the Jacobian there.
+/// D = `elasticity`; `strains` returns the strains S of the patterns at a point, and the Jacobian determinant there.
 pub(super) fn integrate_stiffness<const N: usize, const S: usize>(
     elasticity: &[[f64; S]; S],
     points: impl Iterator<Item = ([f64; 2], f64)>,
@@ -116,23 +120,25 @@ pub(super) fn integrate_stiffness<const N: usize, const S: usize>(
 ) -> [[f64; N]; N] {
     let mut matrix = [[0.0; N]; N];
     for (point, weight) in points {
-        let (strain, determinant) = strains(point);
-        add_energy(&mut matrix, &strain, elasticity, weight * determinant);
+        let (pattern_strains, determinant) = strains(point);
+        add_point_stiffness(&mut matrix, &pattern_strains, elasticity, weight * determinant);
     }
     matrix
 }
 
-/// Adds Sᵀ D S times an `area`, for N patterns of strains.
-pub(super) fn add_energy<const N: usize, const S: usize>(
+/// Adds the stiffness Sᵀ D S of N displacement patterns times an `area` to `matrix`.
+///
+/// S = `strains`, D = `elasticity`.
+pub(super) fn add_point_stiffness<const N: usize, const S: usize>(
     matrix: &mut [[f64; N]; N],
-    strain: &[[f64; S]; N],
+    strains: &[[f64; S]; N],
     elasticity: &[[f64; S]; S],
     area: f64,
 ) {
-    let stress = strain.map(|column| elasticity.map(|row| inner_product(&row, &column)));
+    let stresses = strains.map(|column| elasticity.map(|row| inner_product(&row, &column)));
     for i in 0..N {
         for j in 0..N {
-            matrix[i][j] += area * inner_product(&strain[i], &stress[j]);
+            matrix[i][j] += area * inner_product(&strains[i], &stresses[j]);
         }
     }
 }
@@ -141,10 +147,10 @@ fn inner_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Strains due to unit displacements of the nodes, in x and y alternately.
+/// Strains by each degree of freedom: displacements of the nodes along x and y in turn.
 fn node_strains(point: [f64; 2], jacobian: &Jacobian) -> [[f64; 3]; 8] {
-    let slopes = jacobian.slopes(point).map(strains);
-    std::array::from_fn(|i| slopes[i / 2][i % 2])
+    let column_pairs = jacobian.shape_derivatives(point).map(plane_strains);
+    std::array::from_fn(|i| column_pairs[i / 2][i % 2])
 }
 
 impl Element for Quad4 {
@@ -165,21 +171,23 @@ impl Element for Quad4 {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let block = match self.formulation {
+        let element_matrix = match self.formulation {
             QuadFormulation::Full => self.integrated_stiffness(gauss_points(), 1.0, coordinates),
             QuadFormulation::OnePoint => self.integrated_stiffness([[0.0; 2]], 4.0, coordinates),
             QuadFormulation::IncompatibleModes => self.stiffness_with_bending_modes(coordinates),
             QuadFormulation::Hourglass { percent } => {
                 let fraction = f64::from(percent) / 100.0;
-                let full = self.integrated_stiffness(gauss_points(), 1.0, coordinates);
-                let mut mixed = self.integrated_stiffness([[0.0; 2]], 4.0, coordinates);
-                for (mixed, full) in mixed.iter_mut().flatten().zip(full.as_flattened()) {
-                    *mixed += fraction * (full - *mixed);
+                let full_integration = self.integrated_stiffness(gauss_points(), 1.0, coordinates);
+                let mut stiffness = self.integrated_stiffness([[0.0; 2]], 4.0, coordinates);
+                for (entry, full_entry) in
+                    stiffness.iter_mut().flatten().zip(full_integration.as_flattened())
+                {
+                    *entry += fraction * (full_entry - *entry);
                 }
-                mixed
+                stiffness
             }
         };
-        add_square(matrix, &block);
+        add_matrix(matrix, &element_matrix);
     }
 
     fn density(&self) -> Option<f64> {
@@ -187,32 +195,32 @@ impl Element for Quad4 {
     }
 
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        let mut block = [[0.0; 8]; 8];
+        let mut element_matrix = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of third degree in ξ and in η.
         for point in gauss_points() {
-            let weight = self.material.density() * Jacobian::at(point, coordinates).determinant;
-            let shape = shape(point);
+            let point_mass = self.material.density() * Jacobian::at(point, coordinates).determinant;
+            let shape_values = shape_functions(point);
             for i in 0..4 {
                 for j in 0..4 {
-                    let value = weight * shape[i] * shape[j];
+                    let product = point_mass * shape_values[i] * shape_values[j];
                     let column = if kind == MassKind::Lumped { i } else { j };
                     for axis in 0..2 {
-                        block[2 * i + axis][2 * column + axis] += value;
+                        element_matrix[2 * i + axis][2 * column + axis] += product;
                     }
                 }
             }
         }
-        add_square(matrix, &block);
+        add_matrix(matrix, &element_matrix);
     }
 
     /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
         for corner in NODE_COORDINATES {
-            let value = Jacobian::at(corner, coordinates).determinant;
+            let determinant = Jacobian::at(corner, coordinates).determinant;
             let quantity = "Jacobian at a corner of a quadrilateral";
             let needed = "above zero: convex, nodes counter-clockwise";
-            require(quantity, value, value.is_finite() && value > 0.0, needed)?;
+            require(quantity, determinant, determinant.is_finite() && determinant > 0.0, needed)?;
         }
         Ok(())
     }
@@ -224,54 +232,55 @@ pub(super) const NODE_COORDINATES: [[f64; 2]; 4] =
 
 /// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
 pub(super) fn gauss_points() -> [[f64; 2]; 4] {
-    let place = gauss::rule(2).nodes[1];
-    NODE_COORDINATES.map(|[xi, eta]| [place * xi, place * eta])
+    let gauss_coordinate = gauss::rule(2).nodes[1];
+    NODE_COORDINATES.map(|[xi, eta]| [gauss_coordinate * xi, gauss_coordinate * eta])
 }
 
 /// Bilinear shape functions at (ξ, η).
-pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
+pub(super) fn shape_functions([xi, eta]: [f64; 2]) -> [f64; 4] {
     NODE_COORDINATES.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
 }
 
-/// Inverse transpose and determinant of the Jacobian ∂(x, y)/∂(ξ, η) at a point.
+/// Jacobian ∂(x, y)/∂(ξ, η) at a point: its inverse transpose and determinant.
 pub(super) struct Jacobian {
     /// Rows: ∂ξ/∂x, ∂η/∂x; ∂ξ/∂y, ∂η/∂y.
-    inverse: [[f64; 2]; 2],
+    inverse_transpose: [[f64; 2]; 2],
     pub(super) determinant: f64,
 }
 
 impl Jacobian {
+    /// Jacobian of an element with these nodes at a point (ξ, η).
     pub(super) fn at<const D: usize>(point: [f64; 2], coordinates: &[[f64; D]]) -> Self {
-        let j = tangents(&natural_slopes(point), coordinates);
+        let j = jacobian_matrix(&natural_derivatives(point), coordinates);
         let determinant = determinant(&j);
-        let inverse = [
+        let inverse_transpose = [
             [j[1][1] / determinant, -j[1][0] / determinant],
             [-j[0][1] / determinant, j[0][0] / determinant],
         ];
-        Self { inverse, determinant }
+        Self { inverse_transpose, determinant }
     }
 
-    /// Slopes (∂/∂x, ∂/∂y) from slopes (∂/∂ξ, ∂/∂η).
-    pub(super) fn global_slopes(&self, natural: [f64; 2]) -> [f64; 2] {
-        self.inverse.map(|row| row[0] * natural[0] + row[1] * natural[1])
+    /// Derivatives (∂/∂x, ∂/∂y) by derivatives (∂/∂ξ, ∂/∂η).
+    pub(super) fn global_derivatives(&self, natural: [f64; 2]) -> [f64; 2] {
+        self.inverse_transpose.map(|row| row[0] * natural[0] + row[1] * natural[1])
     }
 
-    /// Slopes (∂/∂x, ∂/∂y) of the four shape functions at `point`.
-    pub(super) fn slopes(&self, point: [f64; 2]) -> [[f64; 2]; 4] {
-        natural_slopes(point).map(|slope| self.global_slopes(slope))
+    /// Derivatives (∂/∂x, ∂/∂y) of the four shape functions at `point`, the point of this Jacobian.
+    pub(super) fn shape_derivatives(&self, point: [f64; 2]) -> [[f64; 2]; 4] {
+        natural_derivatives(point).map(|derivatives| self.global_derivatives(derivatives))
     }
 }
 
-/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions.
-pub(super) fn tangents<const D: usize>(
-    natural: &[[f64; 2]],
+/// Jacobian matrix ∂(x, y)/∂(ξ, η) by the derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
+pub(super) fn jacobian_matrix<const D: usize>(
+    natural_derivatives: &[[f64; 2]],
     coordinates: &[[f64; D]],
 ) -> [[f64; 2]; 2] {
     let mut j = [[0.0; 2]; 2];
-    for (slope, node) in natural.iter().zip(coordinates) {
+    for (derivatives, node) in natural_derivatives.iter().zip(coordinates) {
         for axis in 0..2 {
-            j[axis][0] += slope[0] * node[axis];
-            j[axis][1] += slope[1] * node[axis];
+            j[axis][0] += derivatives[0] * node[axis];
+            j[axis][1] += derivatives[1] * node[axis];
         }
     }
     j
@@ -282,7 +291,7 @@ pub(super) fn determinant(j: &[[f64; 2]; 2]) -> f64 {
     j[0][0] * j[1][1] - j[0][1] * j[1][0]
 }
 
-/// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
-pub(super) fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
+/// Derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
+pub(super) fn natural_derivatives([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
     NODE_COORDINATES.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
 }

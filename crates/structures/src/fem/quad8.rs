@@ -1,9 +1,9 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
-use super::element::{Element, MassKind, add_square};
-use super::element_face::ElementFace;
+use super::element::{Element, ElementFace, MassKind};
+use super::element_matrix::add_matrix;
 use super::material::Material;
-use super::quad4::{determinant, integrate_stiffness, strains, tangents};
+use super::quad4::{determinant, integrate_stiffness, jacobian_matrix, plane_strains};
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
@@ -14,19 +14,20 @@ use crate::linalg::gauss;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quad8Integration {
-    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. A single
-    /// element has no stiffness against one pattern, but two neighbours cannot deform in it together.
+    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and no element locks as ν → 1/2.
+    ///
+    /// A single element has no stiffness against one hourglass pattern. Two neighbouring elements resist it.
     #[default]
     Reduced,
-    /// 3 × 3 Gauss points: no such pattern; stiffer when distorted or nearly incompressible.
+    /// 3 × 3 Gauss points: no hourglass pattern; stiffer if distorted or nearly incompressible.
     Full,
 }
 
 /// Eight-node plane-strain serendipity quadrilateral, 1 m thick.
 ///
 /// Nodes are the four corners counter-clockwise, then the nodes between the first and second corner, the
-/// second and third, and so on. Edges may be curved. At the base, the ground assumes straight lines between
-/// neighbouring nodes. There the mid-edge nodes are contact nodes, as the corners are.
+/// second and third, and so on. Edges may be curved. The ground assumes straight lines between neighbouring nodes of
+/// the base, whose contact nodes are corners and mid-edge nodes.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Quad8};
@@ -78,7 +79,7 @@ impl Quad8 {
 }
 
 /// Shape functions at (ξ, η) (Zienkiewicz & Taylor, The Finite Element Method, serendipity family).
-fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
+fn shape_functions([xi, eta]: [f64; 2]) -> [f64; 8] {
     NODE_COORDINATES.map(|[a, b]| {
         let x = a * xi;
         let y = b * eta;
@@ -92,8 +93,8 @@ fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
     })
 }
 
-/// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
-fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
+/// Derivatives (∂/∂ξ, ∂/∂η) of the shape functions.
+fn natural_derivatives([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
     NODE_COORDINATES.map(|[a, b]| {
         let x = a * xi;
         let y = b * eta;
@@ -107,20 +108,20 @@ fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
     })
 }
 
-/// Slopes (∂/∂x, ∂/∂y) at a point, and the determinant of ∂(x, y)/∂(ξ, η).
-fn slopes(point: [f64; 2], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 8], f64) {
-    let natural = natural_slopes(point);
-    let j = tangents(&natural, coordinates);
+/// Derivatives (∂/∂x, ∂/∂y) of the shape functions at a point, and the Jacobian determinant.
+fn global_derivatives(point: [f64; 2], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 8], f64) {
+    let natural = natural_derivatives(point);
+    let j = jacobian_matrix(&natural, coordinates);
     let determinant = determinant(&j);
-    let global = natural.map(|[xi, eta]| {
+    let derivatives = natural.map(|[xi, eta]| {
         [(j[1][1] * xi - j[1][0] * eta) / determinant, (j[0][0] * eta - j[0][1] * xi) / determinant]
     });
-    (global, determinant)
+    (derivatives, determinant)
 }
 
 impl Quad8Integration {
-    /// Number of Gauss points along a side of the square.
-    fn order(self) -> usize {
+    /// Number of Gauss points along each natural coordinate.
+    fn points_per_axis(self) -> usize {
         match self {
             Self::Reduced => 2,
             Self::Full => 3,
@@ -146,62 +147,65 @@ impl Element for Quad8 {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let points = gauss::square(self.integration.order());
-        let block = integrate_stiffness(&self.material.elasticity(), points, |point| {
-            let (slopes, determinant) = slopes(point, coordinates);
-            let strains = slopes.map(strains);
-            (std::array::from_fn::<_, 16, _>(|i| strains[i / 2][i % 2]), determinant)
+        let points = gauss::square(self.integration.points_per_axis());
+        let element_matrix = integrate_stiffness(&self.material.elasticity(), points, |point| {
+            let (derivatives, determinant) = global_derivatives(point, coordinates);
+            let column_pairs = derivatives.map(plane_strains);
+            (std::array::from_fn::<_, 16, _>(|i| column_pairs[i / 2][i % 2]), determinant)
         });
-        add_square(matrix, &block);
+        add_matrix(matrix, &element_matrix);
     }
 
     fn density(&self) -> Option<f64> {
         Some(self.material.density())
     }
 
-    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
-    /// Zienkiewicz 1976). Row sums would be negative at the corners.
+    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element.
+    ///
+    /// The method is that of Hinton, Rock & Zienkiewicz (1976). Row sums would be negative at the corners.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut nodal_mass = [[0.0; 8]; 8];
-        let mut total = 0.0;
-        for (point, weight) in gauss::square(Quad8Integration::Full.order()) {
-            let shape = shape(point);
-            let weight = weight * self.material.density() * slopes(point, coordinates).1;
-            total += weight;
+        let mut total_mass = 0.0;
+        for (point, weight) in gauss::square(Quad8Integration::Full.points_per_axis()) {
+            let shape_values = shape_functions(point);
+            let point_mass =
+                weight * self.material.density() * global_derivatives(point, coordinates).1;
+            total_mass += point_mass;
             for i in 0..8 {
                 for j in 0..8 {
-                    nodal_mass[i][j] += weight * shape[i] * shape[j];
+                    nodal_mass[i][j] += point_mass * shape_values[i] * shape_values[j];
                 }
             }
         }
         if kind == MassKind::Lumped {
-            let diagonal: f64 = (0..8).map(|i| nodal_mass[i][i]).sum();
-            let scale = if diagonal > 0.0 { total / diagonal } else { 0.0 };
+            let diagonal_sum: f64 = (0..8).map(|i| nodal_mass[i][i]).sum();
+            let scale = if diagonal_sum > 0.0 { total_mass / diagonal_sum } else { 0.0 };
             for (i, row) in nodal_mass.iter_mut().enumerate() {
-                let lumped = scale * row[i];
+                let lumped_mass = scale * row[i];
                 row.fill(0.0);
-                row[i] = lumped;
+                row[i] = lumped_mass;
             }
         }
-        let mut block = [[0.0; 16]; 16];
+        let mut element_matrix = [[0.0; 16]; 16];
         for i in 0..8 {
             for j in 0..8 {
-                block[2 * i][2 * j] = nodal_mass[i][j];
-                block[2 * i + 1][2 * j + 1] = nodal_mass[i][j];
+                element_matrix[2 * i][2 * j] = nodal_mass[i][j];
+                element_matrix[2 * i + 1][2 * j + 1] = nodal_mass[i][j];
             }
         }
-        add_square(matrix, &block);
+        add_matrix(matrix, &element_matrix);
     }
 
-    /// [`Error::Input`](crate::Error::Input) unless the element's map is regular at its nodes and Gauss points.
+    /// [`Error::Input`](crate::Error::Input) unless the Jacobian is positive at the nodes and Gauss points.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
-        let points = gauss::square(Quad8Integration::Full.order()).map(|(point, _)| point);
+        let points =
+            gauss::square(Quad8Integration::Full.points_per_axis()).map(|(point, _)| point);
         for point in points.chain(NODE_COORDINATES) {
-            let value = slopes(point, coordinates).1;
+            let determinant = global_derivatives(point, coordinates).1;
             let quantity = "Jacobian of an eight-node quadrilateral";
             let needed = "above zero: nodes counter-clockwise, those of edges near the middle";
-            require(quantity, value, value.is_finite() && value > 0.0, needed)?;
+            require(quantity, determinant, determinant.is_finite() && determinant > 0.0, needed)?;
         }
         Ok(())
     }

@@ -1,15 +1,16 @@
 //! Springs and dashpots.
 
-use super::element::{Element, MassKind, add_square};
+use super::element::{Element, MassKind};
+use super::element_matrix::add_matrix;
 use super::line::ElementLine;
 use crate::error::{Result, positive};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
 /// Linear spring between two nodes.
 ///
-/// It acts along the line between its nodes, or in one given direction. In the latter case the nodes should
-/// lie on a line in that direction or at the same place. Otherwise a rigid rotation of both nodes causes a
-/// force, or the pair of forces leaves a moment.
+/// It acts along the line between its nodes, or in a fixed direction. For a fixed direction the nodes should coincide
+/// or lie on a line in that direction. Otherwise the two forces form a couple, and a rigid rotation of both nodes
+/// causes a force.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, Spring};
@@ -32,7 +33,11 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(NodePair { nodes, action: Action::Direction(direction), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            line_of_action: LineOfAction::Direction(direction),
+            coefficient,
+        }))
     }
 
     /// Spring against the change of distance between two nodes.
@@ -43,7 +48,11 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(NodePair { nodes, action: Action::ElementLine(PLANE_TRANSLATIONS), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            line_of_action: LineOfAction::BetweenNodes(PLANE_TRANSLATIONS),
+            coefficient,
+        }))
     }
 
     /// Spring of a mesh in space, against the change of distance between two nodes.
@@ -56,7 +65,7 @@ impl Spring {
         positive("coefficient of the spring", coefficient)?;
         Ok(Self(NodePair {
             nodes,
-            action: Action::ElementLine(&SPACE_DIRECTIONS[..3]),
+            line_of_action: LineOfAction::BetweenNodes(&SPACE_DIRECTIONS[..3]),
             coefficient,
         }))
     }
@@ -77,7 +86,7 @@ impl Element for Spring {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        self.0.add(coordinates, matrix);
+        self.0.add_to(coordinates, matrix);
     }
 
     /// Adds nothing.
@@ -89,36 +98,37 @@ impl Element for Spring {
     }
 }
 
-/// Directions in which a pair of nodes acts.
+/// Line along which the force of a pair of nodes acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Action {
+enum LineOfAction {
+    /// A line in one direction.
     Direction(Direction),
-    /// Along the line between the nodes, which move in these directions.
-    ElementLine(&'static [Direction]),
+    /// The line between the nodes, which have displacements in these directions.
+    BetweenNodes(&'static [Direction]),
 }
 
 /// Two nodes, and the coefficient of the spring or dashpot between them.
 #[derive(Debug, Clone, PartialEq)]
 struct NodePair {
     nodes: [usize; 2],
-    action: Action,
+    line_of_action: LineOfAction,
     coefficient: f64,
 }
 
 impl NodePair {
     fn directions(&self) -> &[Direction] {
-        match &self.action {
-            Action::Direction(direction) => std::slice::from_ref(direction),
-            Action::ElementLine(directions) => directions,
+        match &self.line_of_action {
+            LineOfAction::Direction(direction) => std::slice::from_ref(direction),
+            LineOfAction::BetweenNodes(directions) => directions,
         }
     }
 
-    /// Adds the matrix of the pair to `matrix`.
-    fn add(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+    /// Adds the matrix of the spring or dashpot to `matrix`.
+    fn add_to(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let c = self.coefficient;
-        match self.action {
-            Action::Direction(_) => add_square(matrix, &[[c, -c], [-c, c]]),
-            Action::ElementLine(directions) => {
+        match self.line_of_action {
+            LineOfAction::Direction(_) => add_matrix(matrix, &[[c, -c], [-c, c]]),
+            LineOfAction::BetweenNodes(directions) => {
                 if let Some(line) = ElementLine::between(coordinates) {
                     line.add_axial(c, directions.len(), matrix);
                 }
@@ -126,20 +136,20 @@ impl NodePair {
         }
     }
 
-    /// Error if an axial pair has both nodes at one place.
-    fn check(&self, length: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
-        match self.action {
-            Action::Direction(_) => Ok(()),
-            Action::ElementLine(_) => ElementLine::check(length, coordinates),
+    /// Returns an error if the nodes of an axial pair coincide; `length_name` names their distance.
+    fn check(&self, length_name: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
+        match self.line_of_action {
+            LineOfAction::Direction(_) => Ok(()),
+            LineOfAction::BetweenNodes(_) => ElementLine::check_length(length_name, coordinates),
         }
     }
 }
 
 /// Linear viscous dashpot between two nodes.
 ///
-/// It acts along the line between its nodes, or in one given direction. In the latter case the nodes should
-/// lie on a line in that direction or at the same place. Otherwise a rigid rotation of both nodes causes a
-/// force, or the pair of forces leaves a moment.
+/// It acts along the line between its nodes, or in a fixed direction. For a fixed direction the nodes should coincide
+/// or lie on a line in that direction. Otherwise the two forces form a couple, and a rigid rotation of both nodes
+/// causes a force.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, Dashpot};
@@ -162,7 +172,11 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(NodePair { nodes, action: Action::Direction(direction), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            line_of_action: LineOfAction::Direction(direction),
+            coefficient,
+        }))
     }
 
     /// Dashpot against the rate of the distance between two nodes.
@@ -173,7 +187,11 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(NodePair { nodes, action: Action::ElementLine(PLANE_TRANSLATIONS), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            line_of_action: LineOfAction::BetweenNodes(PLANE_TRANSLATIONS),
+            coefficient,
+        }))
     }
 
     /// Dashpot of a mesh in space, against the rate of the distance between two nodes.
@@ -186,7 +204,7 @@ impl Dashpot {
         positive("coefficient of the dashpot", coefficient)?;
         Ok(Self(NodePair {
             nodes,
-            action: Action::ElementLine(&SPACE_DIRECTIONS[..3]),
+            line_of_action: LineOfAction::BetweenNodes(&SPACE_DIRECTIONS[..3]),
             coefficient,
         }))
     }
@@ -213,7 +231,7 @@ impl Element for Dashpot {
     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     fn damping(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        self.0.add(coordinates, matrix);
+        self.0.add_to(coordinates, matrix);
     }
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial dashpot coincide.

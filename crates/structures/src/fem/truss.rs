@@ -26,7 +26,7 @@ pub struct Truss {
     area: f64,
     density: f64,
     directions: &'static [Direction],
-    /// Axial force for P–Δ, N.
+    /// Compressive axial force for P–Δ, N.
     compression: f64,
 }
 
@@ -83,7 +83,7 @@ impl Element for Truss {
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         if let Some(line) = ElementLine::between(coordinates).filter(|_| self.compression != 0.0) {
-            line.add_sway(self.compression, self.directions.len(), matrix);
+            line.add_geometric_stiffness(self.compression, self.directions.len(), matrix);
         }
     }
 
@@ -94,9 +94,9 @@ impl Element for Truss {
         _gravity: f64,
     ) -> Option<Box<dyn Element>> {
         let line = ElementLine::between(coordinates)?;
-        let (first, second) = displacement.split_at_checked(self.directions.len())?;
-        let lengthening = line.lengthening(first, second);
-        let compression = -self.young_modulus * self.area / line.length * lengthening;
+        let (first_end, second_end) = displacement.split_at_checked(self.directions.len())?;
+        let elongation = line.elongation(first_end, second_end);
+        let compression = -self.young_modulus * self.area / line.length * elongation;
         Some(Box::new(Self { compression, ..self.clone() }))
     }
 
@@ -109,18 +109,18 @@ impl Element for Truss {
             return;
         };
         let mass = self.density * self.area * line.length;
-        // Points of the bar move linearly between the ends, in all directions.
+        // The displacement varies linearly along the bar, in every direction.
         let is_lumped = kind == MassKind::Lumped;
         let diagonal = if is_lumped { mass / 2.0 } else { mass / 3.0 };
         let coupling = if is_lumped { 0.0 } else { mass / 6.0 };
-        let axes = self.directions.len();
-        let order = 2 * axes;
+        let axis_count = self.directions.len();
+        let order = 2 * axis_count;
         for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
             let row = index / order;
             let column = index % order;
             if row == column {
                 *entry += diagonal;
-            } else if row % axes == column % axes {
+            } else if row % axis_count == column % axis_count {
                 *entry += coupling;
             }
         }
@@ -128,6 +128,6 @@ impl Element for Truss {
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
-        ElementLine::check("length of the truss", coordinates)
+        ElementLine::check_length("length of the truss", coordinates)
     }
 }

@@ -1,9 +1,9 @@
-//! The base of a structure: foundations in the plane, or faces in plan.
+//! The base of a structure: foundations in the plane, or faces in space.
 
 use super::BaseNode;
 use crate::error::{Result, at_least};
 
-/// Base of a structure: lines of nodes in the plane, or faces in plan.
+/// Base of a structure: lines of nodes in the plane, or faces in space.
 ///
 /// One line is the usual case in the plane: `[left, right].into()`, or `.into()` after
 /// [`BaseNode::rigid_base`].
@@ -15,10 +15,10 @@ pub enum Base {
     /// The base is straight between neighbouring nodes. Between two foundations there is no base. A rigid
     /// foundation needs two nodes, its ends.
     Lines(Vec<Vec<BaseNode>>),
-    /// Faces in plan, for a ground of three directions.
+    /// Faces of a structure in space.
     ///
-    /// Faces are triangles or other convex polygons, each given by its corners in either order, flat and at
-    /// one height, not overlapping. The base is flat over a triangle and bilinear over a quadrilateral; a
+    /// Faces are triangles or other convex polygons, each given by its corners in either sense of rotation. They are flat,
+    /// at one height, and do not overlap. The base is flat over a triangle and bilinear over a quadrilateral; a
     /// polygon of more corners is divided into triangles from its first corner. A rigid base needs one face,
     /// its outline. Faces that share a corner, or have a corner on the other's edge, belong to one
     /// foundation; other faces are foundations of their own.
@@ -31,41 +31,41 @@ impl Base {
     /// ```
     /// use basemat::structure::{Base, BaseNode, RigidBlock, Structure};
     ///
-    /// let own: Base = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]).into();
-    /// assert_eq!(own, RigidBlock::new(6.0, 4.0, 2400.0)?.base());
-    /// assert_eq!(own.nodes().map(|node| node.x).collect::<Vec<_>>(), [-3.0, 3.0]);
+    /// let base: Base = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]).into();
+    /// assert_eq!(base, RigidBlock::new(6.0, 4.0, 2400.0)?.base());
+    /// assert_eq!(base.nodes().map(|node| node.x).collect::<Vec<_>>(), [-3.0, 3.0]);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn nodes(&self) -> impl Iterator<Item = &BaseNode> + Clone {
         self.parts().iter().flatten()
     }
 
-    /// The lines or the faces.
+    /// The lines in the plane or the faces in space.
     #[doc(hidden)]
     pub fn parts(&self) -> &[Vec<BaseNode>] {
-        let (Self::Lines(all) | Self::Faces(all)) = self;
-        all
+        let (Self::Lines(parts) | Self::Faces(parts)) = self;
+        parts
     }
 
     /// All nodes, to move or renumber them.
     pub(crate) fn nodes_mut(&mut self) -> impl Iterator<Item = &mut BaseNode> {
-        let (Self::Lines(all) | Self::Faces(all)) = self;
-        all.iter_mut().flatten()
+        let (Self::Lines(parts) | Self::Faces(parts)) = self;
+        parts.iter_mut().flatten()
     }
 
     /// All nodes, in the order of [`nodes`](Base::nodes).
     #[doc(hidden)]
     pub fn into_nodes(self) -> Vec<BaseNode> {
-        let (Self::Lines(all) | Self::Faces(all)) = self;
-        all.into_iter().flatten().collect()
+        let (Self::Lines(parts) | Self::Faces(parts)) = self;
+        parts.into_iter().flatten().collect()
     }
 
-    /// Error for too few nodes, for places or weights that are not finite, and for degrees of freedom that
-    /// do not exist.
+    /// Returns an error for too few nodes, for coordinates or weights that are not finite, and for degrees of freedom of
+    /// at least `dof_count`.
     #[doc(hidden)]
-    pub fn check(&self, dofs: usize) -> Result<()> {
+    pub fn check(&self, dof_count: usize) -> Result<()> {
         at_least("list of contact nodes", self.nodes().count(), 2)?;
-        self.nodes().try_for_each(|node| node.check(dofs))
+        self.nodes().try_for_each(|node| node.check(dof_count))
     }
 }
 

@@ -8,9 +8,9 @@ use crate::error::{Result, finite, in_bounds};
 ///
 /// Examples: a displacement of a point, a drift, a rotation.
 ///
-/// It stores (degree of freedom, weight) terms in the order given. A degree of freedom that occurs more than
-/// once counts with the sum of its weights. A function that takes a combination also takes a bare degree of
-/// freedom (with weight one), a term, or a list of terms.
+/// It stores (degree of freedom, weight) terms in the order of their input. A degree of freedom that occurs more than once
+/// counts with the sum of its weights. A function with a combination as argument also accepts a degree of freedom (with
+/// weight one), a term, or a list of terms.
 ///
 /// ```
 /// use basemat::structure::DofCombination;
@@ -29,29 +29,29 @@ use crate::error::{Result, finite, in_bounds};
 pub struct DofCombination(Vec<(usize, f64)>);
 
 impl DofCombination {
-    /// The sum for these values of all degrees of freedom.
+    /// Value of the sum for the displacements, velocities or accelerations `dofs` of all degrees of freedom.
     ///
-    /// `dofs`: displacements, velocities or accelerations; degrees of freedom beyond their end count as zero.
+    /// Degrees of freedom beyond the end of `dofs` count as zero.
     pub fn value(&self, dofs: &[f64]) -> f64 {
-        let at = |index: usize| dofs.get(index).copied().unwrap_or(0.0);
-        self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
+        let dof_value = |dof: usize| dofs.get(dof).copied().unwrap_or(0.0);
+        self.0.iter().map(|&(dof, weight)| weight * dof_value(dof)).sum()
     }
 
-    /// This sum with other numbers of its degrees of freedom.
+    /// The sum with its degrees of freedom renumbered by `new_dof`.
     #[doc(hidden)]
     #[must_use]
-    pub fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
-        self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
+    pub fn map_dofs(&self, new_dof: impl Fn(usize) -> usize) -> Self {
+        self.0.iter().map(|&(dof, weight)| (new_dof(dof), weight)).collect()
     }
 
-    /// Error for a weight that is not finite, or a degree of freedom at `bound` or beyond.
+    /// Returns an error for a weight that is not finite, or a degree of freedom of at least `bound`.
     ///
     /// `quantity`: name of the degree of freedom in the error.
     #[doc(hidden)]
     pub fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
-        for &(index, weight) in &self.0 {
+        for &(dof, weight) in &self.0 {
             finite("weight of a degree of freedom", weight)?;
-            in_bounds(quantity, index, bound)?;
+            in_bounds(quantity, dof, bound)?;
         }
         Ok(())
     }
@@ -123,10 +123,10 @@ impl AsRef<[(usize, f64)]> for DofCombination {
 
 impl AddAssign for DofCombination {
     fn add_assign(&mut self, other: Self) {
-        for (index, weight) in other.0 {
-            match self.0.iter_mut().find(|term| term.0 == index) {
+        for (dof, weight) in other.0 {
+            match self.0.iter_mut().find(|term| term.0 == dof) {
                 Some(term) => term.1 += weight,
-                None => self.0.push((index, weight)),
+                None => self.0.push((dof, weight)),
             }
         }
     }

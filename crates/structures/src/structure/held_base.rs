@@ -1,4 +1,4 @@
-//! Structures on springs under their contact nodes.
+//! Stiffness of a structure on springs at its contact nodes.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -10,20 +10,24 @@ use crate::error::Result;
 use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
-/// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
+/// Stiffness K + γ NᵀN of a structure on springs at its contact nodes.
 #[allow(missing_debug_implementations, reason = "a helper of basemat")]
 pub struct HeldBase<'a> {
     nodes: &'a [BaseNode],
+    /// Stiffness γ of the springs, N/m.
     #[doc(hidden)]
     pub spring: f64,
+    /// K + γ NᵀN.
     #[doc(hidden)]
     pub matrix: Triplets,
 }
 
 impl<'a> HeldBase<'a> {
+    /// Name of the matrix in errors.
     #[doc(hidden)]
     pub const STIFFNESS_NAME: &'static str = "stiffness matrix with its base held";
 
+    /// Springs of the stiffness `spring` (N/m) at each displacement of `nodes`.
     #[doc(hidden)]
     pub fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring: f64) -> Self {
         let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
@@ -33,13 +37,13 @@ impl<'a> HeldBase<'a> {
         Self { nodes, spring, matrix }
     }
 
-    /// The factored matrix.
+    /// Factors of the matrix.
     #[doc(hidden)]
     pub fn factor(&self) -> Result<SparseFactor> {
         SparseFactor::new(Self::STIFFNESS_NAME, &self.matrix)
     }
 
-    /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.
+    /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in space, away.
     #[doc(hidden)]
     pub fn pulls(&self) -> Vec<Vec<f64>> {
         (0..self.directions())
@@ -51,26 +55,26 @@ impl<'a> HeldBase<'a> {
 
     /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
     ///
-    /// In the plane: the rotation of x and up, at the height of the lowest node. In plan: the rotations of x and up, of
-    /// y and up, and of x and y.
+    /// In the plane there is one rotation, which tilts x upwards, about the height of the lowest node. In space there are
+    /// three: they tilt x upwards, tilt y upwards, and turn x towards y.
     #[doc(hidden)]
     pub fn turns<'b>(
         &self,
         nodes: impl Iterator<Item = &'b BaseNode> + Clone,
         [x, y]: [f64; 2],
     ) -> Vec<Vec<f64>> {
-        let lowest = nodes.clone().map(|node| node.z).fold(f64::INFINITY, f64::min);
-        let walls = nodes.clone().filter(|node| node.z > lowest);
-        let along = walls.map(|node| (&node.horizontal, lowest - node.z));
-        let up = nodes.clone().map(|node| (&node.vertical, node.x - x));
-        let mut turns = vec![self.forces(up.chain(along))];
+        let lowest_height = nodes.clone().map(|node| node.z).fold(f64::INFINITY, f64::min);
+        let wall_nodes = nodes.clone().filter(|node| node.z > lowest_height);
+        let horizontal = wall_nodes.map(|node| (&node.horizontal, lowest_height - node.z));
+        let vertical = nodes.clone().map(|node| (&node.vertical, node.x - x));
+        let mut rotations = vec![self.forces(vertical.chain(horizontal))];
         if self.directions() == COMPONENTS_IN_SPACE {
-            turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
-            let along = self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y)));
-            let across = self.forces(nodes.map(|node| (&node.across, node.x - x)));
-            turns.push(along.iter().zip(&across).map(|(one, other)| one + other).collect());
+            rotations.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
+            let x_forces = self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y)));
+            let y_forces = self.forces(nodes.map(|node| (&node.across, node.x - x)));
+            rotations.push(x_forces.iter().zip(&y_forces).map(|(a, b)| a + b).collect());
         }
-        turns
+        rotations
     }
 
     /// Number of directions in which the nodes move.
@@ -78,20 +82,20 @@ impl<'a> HeldBase<'a> {
         self.nodes.first().map_or(COMPONENTS_IN_PLANE, BaseNode::directions)
     }
 
-    /// Forces of springs with these elongations.
-    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
+    /// Forces of the springs by elongations (m) of displacements of nodes.
+    fn forces<'b>(&self, elongations: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
         let mut force = vec![0.0; self.matrix.order()];
-        for (row, amount) in pulled {
-            for &(i, weight) in row {
-                force[i] += self.spring * weight * amount;
+        for (row, elongation) in elongations {
+            for &(dof, weight) in row {
+                force[dof] += self.spring * weight * elongation;
             }
         }
         force
     }
 }
 
-/// The largest stiffness on the diagonal, or one.
+/// Largest stiffness on the diagonal, N/m; one for a zero matrix.
 pub fn stiffest(stiffness: &SparseMatrix) -> f64 {
-    let stiffest = largest(&stiffness.diagonal());
-    if stiffest > 0.0 { stiffest } else { 1.0 }
+    let max_stiffness = largest(&stiffness.diagonal());
+    if max_stiffness > 0.0 { max_stiffness } else { 1.0 }
 }

@@ -1,6 +1,6 @@
 //! Structures: the trait that users implement, implementations of it, and hysteretic springs.
 
-/// Forwards the methods of [`Structure`] that a wrapper leaves unchanged.
+/// Forwards the methods of [`Structure`] that a wrapper does not change.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! forward_structure {
@@ -71,8 +71,8 @@ use crate::error::Result;
 
 /// A structure for the integrator: implement this for your own model.
 ///
-/// Four methods are needed: [`dofs`](Structure::dofs), [`base`](Structure::base), [`mass`](Structure::mass) and
-/// [`stiffness`](Structure::stiffness). This is a rigid base that carries a mass 6 m up on a column:
+/// Four methods are required: [`dofs`](Structure::dofs), [`base`](Structure::base), [`mass`](Structure::mass) and
+/// [`stiffness`](Structure::stiffness). The example is a rigid base with a mass on a column 6 m high:
 /// ```
 /// use basemat::prelude::*;
 ///
@@ -105,38 +105,37 @@ use crate::error::Result;
 ///     .interface(Coulomb::new(0.4)?)
 ///     .motion(el_centro_1940())
 ///     .build()?;
-/// // The ground carries the vertical mass.
+/// // The normal force of the ground is the weight of the vertical mass.
 /// assert!((simulation.state().normal_force - 30.0e3 * STANDARD_GRAVITY).abs() < 1.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
-/// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up,
-/// rotations counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute**
-/// displacements. A translation strains nothing. The force f is therefore evaluated, and a step committed, at
-/// displacements from which the mean translation of the base (of each connected part) is subtracted; static
-/// displacements are included. The structure obeys
+/// A structure has `n` degrees of freedom: displacements and rotations (m, rad; x to the right, y up, rotations
+/// counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute** displacements. A translation
+/// causes no strain. The force f is therefore evaluated, and a step committed, at displacements from which the mean
+/// translation of the base (of each connected part) is subtracted; static displacements are included. The equation of motion
+/// is
 ///
 /// ```text
 /// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
 /// ```
 ///
-/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act
-/// on the translation with the ground) and f the optional [`NonlinearForce`].
+/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act on the translation
+/// with the ground) and f the optional [`NonlinearForce`].
 ///
-/// No support is fixed; the ground holds the structure up. Neither K nor the tangent of f at rest may resist
-/// a rigid translation to the right or upwards. Building a simulation returns
-/// [`StructureError::Restrained`] for stiffness to a fixed point. It returns
-/// [`StructureError::Detached`] for a part that has mass or stiffness but is not connected by
-/// stiffness to the degrees of freedom of a contact node. Modal and other base-relative coordinates are
-/// allowed: their own stiffness holds them, and mass couples them to the base.
+/// The structure has no fixed support; the ground supports it. Neither K nor the tangent of f at rest may resist a rigid
+/// translation to the right or upwards. Building a simulation returns [`StructureError::Restrained`] for stiffness to a fixed
+/// point. It returns [`StructureError::Detached`] for a part that has mass or stiffness but is not connected by stiffness to
+/// the degrees of freedom of a contact node. Modal and other coordinates relative to the base are allowed: they have their own
+/// stiffness, and mass couples them to the base.
 ///
-/// All forces are per metre of thickness, except for a structure in plan ([`Base::Faces`]), which moves in
-/// three directions: x to the right, y away from the reader, z up. Matrices and loads may return an error, for
-/// a reason of your own by [`Error::part`](crate::Error::part). The error ends the build, or the step with
-/// nothing of it committed.
+/// All forces are per metre of thickness, except for a structure in space ([`Base::Faces`]), which has displacements in three
+/// directions: x to the right, y away from the reader, z up. Matrices and loads may return an error;
+/// [`Error::part`](crate::Error::part) makes one with your reason. The error ends the build, or a step of which nothing is
+/// committed.
 ///
-/// Every structure is [`Any`], so that `Simulation::structure` leads back to
-/// your own type and its current internal variables.
+/// Every structure is [`Any`], so that `Simulation::structure` can be downcast to your type with its current internal
+/// variables.
 #[auto_impl::auto_impl(Box)]
 pub trait Structure: Any + Send {
     /// Number of degrees of freedom n.
@@ -144,9 +143,9 @@ pub trait Structure: Any + Send {
 
     /// Base of the structure: the nodes that touch the ground.
     ///
-    /// In the plane: nodes from left to right, `nodes.into()`, straight between neighbours. A rigid base needs
-    /// its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] put the
-    /// structure in plan. Every call returns the same base.
+    /// In the plane it lists nodes from left to right, `nodes.into()`, and is straight between neighbours. A rigid base needs
+    /// its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] belong to a
+    /// structure in space. Every call returns the same base.
     fn base(&self) -> Base;
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`.
@@ -154,8 +153,8 @@ pub trait Structure: Any + Send {
     /// It is symmetric and positive semi-definite.
     ///
     /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to
-    /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
-    /// diagonal of one. Beyond that `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
+    /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a diagonal of one. For
+    /// lower values `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
     ///
     /// # Errors
     /// Any: `build` returns it.
@@ -163,13 +162,13 @@ pub trait Structure: Any + Send {
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
     ///
-    /// Symmetric, unless [`has_active_stiffness`](Structure::has_active_stiffness) returns `true`; otherwise
+    /// It is symmetric, unless [`has_active_stiffness`](Structure::has_active_stiffness) returns `true`; otherwise
     /// `build` returns [`Error::Unsymmetric`](crate::Error::Unsymmetric). The stiffness of a linear structure
-    /// must be positive semi-definite with the base held, up to rounding (10⁻¹² of its largest entry on the
+    /// must be positive semi-definite with a fixed base, up to rounding (10⁻¹² of its largest entry on the
     /// diagonal); otherwise `build` returns [`Error::Indefinite`](crate::Error::Indefinite). Lagrange
     /// multipliers are excepted: a degree of freedom with exactly zero on the diagonal, no mass and no
-    /// damping, but coefficients cⱼ in its row and column, is the force that keeps Σ cⱼ uⱼ = 0. The rest must
-    /// be positive semi-definite for the displacements that this constraint leaves.
+    /// damping, but coefficients cⱼ in its row and column, is the force that keeps Σ cⱼ uⱼ = 0. The other degrees
+    /// of freedom must have a positive semi-definite stiffness for all displacements that satisfy this constraint.
     ///
     /// # Errors
     /// Any: `build` returns it.
@@ -177,7 +176,7 @@ pub trait Structure: Any + Send {
 
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
     ///
-    /// Symmetric and positive semi-definite, up to rounding as for the mass; otherwise `build` returns
+    /// It is symmetric and positive semi-definite, up to rounding as for the mass; otherwise `build` returns
     /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) or [`Error::Indefinite`](crate::Error::Indefinite).
     /// A structure whose [`has_active_damping`](Structure::has_active_damping) returns `true` is not checked.
     ///
@@ -187,11 +186,10 @@ pub trait Structure: Any + Send {
         Ok(())
     }
 
-    /// Adds the part of the stiffness that comes from the forces at rest (P–Δ), n × n, to `matrix`. Default: none.
+    /// Adds the geometric stiffness of the static forces (P–Δ), n × n, to `matrix`. Default: none.
     ///
-    /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure
-    /// buckles, and `build` refuses a structure that buckles on its ground
-    /// (`StabilityError::Buckling`), even one that is upright.
+    /// [`stiffness`](Structure::stiffness) contains this part. By it, errors state the load factor at which the structure
+    /// buckles, and `build` returns an error for a structure that buckles on its ground (`StabilityError::Buckling`).
     ///
     /// # Errors
     /// Any; `build` returns it.
@@ -201,27 +199,27 @@ pub trait Structure: Any + Send {
 
     /// Whether the damping matrix may be unsymmetric or feed energy in. Default: no.
     ///
-    /// Gyroscopes and active dampers have such a matrix. It is then not checked.
+    /// Gyroscopes and active dampers have such a matrix. The matrix is then not checked.
     fn has_active_damping(&self) -> bool {
         false
     }
 
     /// Whether the stiffness matrix may be unsymmetric. Default: no.
     ///
-    /// Follower forces have such a stiffness. It is then not checked. Its work is not in the energy balance,
-    /// which stays open by that amount.
+    /// Follower forces have such a stiffness. The matrix is then not checked. The energy balance does not contain its work, which
+    /// is part of the energy error.
     fn has_active_stiffness(&self) -> bool {
         false
     }
 
-    /// Facts by which a run warns of probable mistakes, such as numbers in another unit. Default: none.
+    /// Properties by which a run warns of probable mistakes, such as numbers in another unit. Default: none.
     fn description(&self) -> StructureDescription {
         StructureDescription::default()
     }
 
-    /// Name of these degrees of freedom for errors, by nodes or storeys.
+    /// Text that names degrees of freedom in errors, by nodes or storeys.
     ///
-    /// Default: `None`; errors then give their numbers.
+    /// Default: `None`; errors then list their indices.
     fn describe(&self, _dofs: &[usize]) -> Option<String> {
         None
     }
@@ -229,8 +227,7 @@ pub trait Structure: Any + Send {
     /// Adds the external load at `time` (n, N/m), without the weight, to `load`. Default: none.
     ///
     /// # Errors
-    /// Any: at t = 0 `build` returns it; later it is the source of
-    /// `StepError::Part`.
+    /// Any: at t = 0 `build` returns it; later it is the source of `StepError::Part`.
     fn load(&self, _time: f64, _load: &mut [f64]) -> Result<()> {
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Damping given mode by mode.
+//! Damping ratios for each mode of a structure.
 
 use std::f64::consts::TAU;
 
@@ -10,11 +10,11 @@ use crate::structure::{
     HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
-/// Damping ratios of a structure's own modes; its rigid motions are not damped.
+/// Damping ratios of a structure's modes; its rigid motions are not damped.
 ///
-/// * [`on_fixed_base`](ModalDamping::on_fixed_base): modes on a fixed base, to which codes and tests refer.
-///   On a compliant ground the structural damping of the first mode is smaller, since part of the deformation
-///   is in the ground.
+/// * [`on_fixed_base`](ModalDamping::on_fixed_base): modes on a fixed base, to which codes and tests refer. On a
+///   compliant ground the structure contributes less damping to the first mode, since part of the deformation is in the
+///   ground.
 /// * [`on`](ModalDamping::on): modes of the structure alone, without ground: C = M Φ diag(2 ζ ω) Φᵀ M. They
 ///   are also modes of the damped structure, so that the structure can be stepped in modal coordinates
 ///   (`Coordinates::Modes`). Their frequencies are far above the
@@ -35,6 +35,7 @@ use crate::structure::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ModalDampingForm"))]
 pub struct ModalDamping {
+    /// Damping ratios of the modes, ascending in frequency; the last one is that of all further modes.
     ratios: Vec<f64>,
 }
 
@@ -43,12 +44,12 @@ validated! {
     => ModalDamping::new(&ratios)
 }
 
-/// A structure with the damping of [`ModalDamping`] in addition to its own.
+/// A structure with [`ModalDamping`] in addition to its other damping.
 pub struct WithModalDamping {
     structure: Box<dyn Structure>,
-    /// C, row-major.
+    /// Modal damping matrix C, row-major.
     damping: Vec<f64>,
-    /// ω/2π of the modes that are not rigid, ascending.
+    /// Frequencies ω/2π of the modes that are not rigid, Hz, ascending.
     frequencies: Vec<f64>,
 }
 
@@ -58,15 +59,19 @@ short_debug! {
 
 /// Largest number of degrees of freedom: C is a full matrix.
 const MAX_DAMPED_DOFS: usize = 3000;
-/// A mode is rigid if rigid motions hold more than this fraction of its momentum.
+/// A mode is rigid if rigid motions contain more than this fraction of its kinetic energy.
 ///
-/// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
-/// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
-const RIGID_MOMENTUM_FRACTION: f64 = 0.5;
-/// Stiffness of the springs that hold a base, relative to the largest stiffness: within a millionth of a fixed base.
+/// Eigenvalues do not distinguish rigid modes: their rounded values are small but arbitrary, and in fine meshes the lowest
+/// modes that are not rigid have 10⁻¹² of the highest eigenvalue.
+const MAX_RIGID_ENERGY_FRACTION: f64 = 0.5;
+/// Stiffness of the springs under a fixed base, relative to the largest stiffness of the structure.
+///
+/// Frequencies on these springs differ by about a millionth from those on a rigid support.
 const FIXED_BASE_STIFFNESS_RATIO: f64 = 1e6;
 /// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
-const MASSLESS_VALUE_FRACTION: f64 = 1e-13;
+const MASSLESS_EIGENVALUE_RATIO: f64 = 1e-13;
+/// Stiffness energy above which a mode deforms the structure; below it the mode moves the base on its springs.
+const MIN_STRUCTURE_ENERGY: f64 = 0.5;
 const UNSUITABLE_MATRICES: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must have symmetric matrices and mass at every degree of freedom (elements with density give mass to \
@@ -92,12 +97,12 @@ impl ModalDamping {
         Ok(Self { ratios: ratios.to_vec() })
     }
 
-    /// Gives this damping to the modes of a structure on its fixed base.
+    /// Adds this damping to the modes of a structure on its fixed base.
     ///
-    /// Codes and tests state ratios of these modes. Displacements are relative to the base: u − R N u, with N
-    /// u the displacements of the contact nodes and R the displacements that follow them at rest. A mode φ of
-    /// circular frequency ω exerts the forces K φ, which do no work on rigid motions: C = Σ (2 ζ/ω³) K φ (K
-    /// φ)ᵀ. Degrees of freedom may be massless. The stiffness of a nonlinear structure is its first tangent.
+    /// Codes and tests state ratios of these modes. Displacements are relative to the base: u − R N u, with the
+    /// displacements N u of the contact nodes and the static displacements R by them. A mode φ of circular frequency ω
+    /// exerts the forces K φ, which do no work on rigid motions: C = Σ (2 ζ/ω³) K φ (K φ)ᵀ. Degrees of freedom may be
+    /// massless. The stiffness of a nonlinear structure is its initial tangent.
     ///
     /// ```
     /// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
@@ -114,77 +119,76 @@ impl ModalDamping {
         let stiffness = &matrices.stiffness;
         let nodes = structure.base().into_nodes();
         check_rows(&nodes, matrices.mass.order())?;
-        let spring = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
-        let on_springs = HeldBase::new(&nodes, stiffness, spring);
-        let on_springs = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &on_springs.matrix)?;
-        let Eigenpairs { values, vectors } =
-            generalised_modes(&matrices.mass, &on_springs).ok_or(UNRESISTED_MOTION)?;
-        let mut found = WithModalDamping::new(structure);
-        let largest = values.last().copied().unwrap_or(0.0);
-        let mut mode = vec![0.0; values.len()];
-        let mut force = vec![0.0; values.len()];
+        let spring_stiffness = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
+        let supported = HeldBase::new(&nodes, stiffness, spring_stiffness);
+        let supported_stiffness = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &supported.matrix)?;
+        let Eigenpairs { values: eigenvalues, vectors: eigenvectors } =
+            generalised_modes(&matrices.mass, &supported_stiffness).ok_or(UNRESISTED_MOTION)?;
+        let mut damped = WithModalDamping::new(structure);
+        let max_eigenvalue = eigenvalues.last().copied().unwrap_or(0.0);
+        let mut mode = vec![0.0; eigenvalues.len()];
+        let mut force = vec![0.0; eigenvalues.len()];
         // Values are 1/ω², ascending, and modes have φᵀ(K + γ NᵀN)φ = 1.
-        for (j, value) in values.iter().enumerate().rev() {
-            if *value <= MASSLESS_VALUE_FRACTION * largest {
+        for (mode_index, eigenvalue) in eigenvalues.iter().enumerate().rev() {
+            if *eigenvalue <= MASSLESS_EIGENVALUE_RATIO * max_eigenvalue {
                 break;
             }
-            column(&vectors, j, &mut mode);
+            copy_column(&eigenvectors, mode_index, &mut mode);
             force.fill(0.0);
             stiffness.multiply_add(1.0, &mode, &mut force);
-            // Otherwise the base moves on its springs.
-            if dot(&mode, &force) > 0.5 {
-                let circular = value.sqrt().recip();
-                let ratio = self.ratio(found.frequencies.len());
-                found.add(circular, 2.0 * ratio / circular, &force);
+            if dot(&mode, &force) > MIN_STRUCTURE_ENERGY {
+                let circular_frequency = eigenvalue.sqrt().recip();
+                let ratio = self.ratio(damped.frequencies.len());
+                damped.add_mode(circular_frequency, 2.0 * ratio / circular_frequency, &force);
             }
         }
-        Ok(found)
+        Ok(damped)
     }
 
-    /// Gives this damping to the modes of a structure without ground.
+    /// Adds this damping to the modes of a structure without ground.
     ///
-    /// The stiffness of a nonlinear structure is its first tangent.
+    /// The stiffness of a nonlinear structure is its initial tangent.
     ///
     /// # Errors
     /// [`Error::Input`] for more than 3000 degrees of freedom: reduce the structure by
     /// [`CraigBampton`](crate::structure::CraigBampton) first; [`Error::Scene`] when the matrices are not
     /// symmetric, the mass is not positive definite or a motion that is not rigid has no stiffness or a
-    /// negative one; [`Error::Singular`] when contact nodes at rest do not hold the structure; and errors of
-    /// the entries.
+    /// negative one; [`Error::Singular`] when the structure is a mechanism on fixed contact nodes; and errors
+    /// of the matrix entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let matrices = matrices(&structure)?;
-        let Eigenpairs { values, vectors } =
+        let Eigenpairs { values: eigenvalues, vectors: eigenvectors } =
             generalised_modes(&matrices.stiffness, &matrices.mass).ok_or(UNSUITABLE_MATRICES)?;
         let nodes = structure.base().into_nodes();
         let rigid_momenta = rigid_momenta(&nodes, &matrices.stiffness, &matrices.mass)?;
-        let mut found = WithModalDamping::new(structure);
-        let mut mode = vec![0.0; values.len()];
-        let mut momentum = vec![0.0; values.len()];
-        for (j, value) in values.iter().enumerate() {
-            column(&vectors, j, &mut mode);
-            let rigid_parts = rigid_momenta.iter().map(|momentum| dot(momentum, &mode).powi(2));
-            if rigid_parts.sum::<f64>() > RIGID_MOMENTUM_FRACTION {
+        let mut damped = WithModalDamping::new(structure);
+        let mut mode = vec![0.0; eigenvalues.len()];
+        let mut momentum = vec![0.0; eigenvalues.len()];
+        for (mode_index, eigenvalue) in eigenvalues.iter().enumerate() {
+            copy_column(&eigenvectors, mode_index, &mut mode);
+            let rigid_energies = rigid_momenta.iter().map(|rigid| dot(rigid, &mode).powi(2));
+            if rigid_energies.sum::<f64>() > MAX_RIGID_ENERGY_FRACTION {
                 continue;
             }
-            if *value <= 0.0 {
+            if *eigenvalue <= 0.0 {
                 return Err(UNRESISTED_MOTION);
             }
-            let circular = value.sqrt();
+            let circular_frequency = eigenvalue.sqrt();
             momentum.fill(0.0);
             matrices.mass.multiply_add(1.0, &mode, &mut momentum);
-            let ratio = self.ratio(found.frequencies.len());
-            found.add(circular, 2.0 * ratio * circular, &momentum);
+            let ratio = self.ratio(damped.frequencies.len());
+            damped.add_mode(circular_frequency, 2.0 * ratio * circular_frequency, &momentum);
         }
-        Ok(found)
+        Ok(damped)
     }
 
-    /// Ratio of the mode with this number.
-    fn ratio(&self, mode: usize) -> f64 {
-        self.ratios[mode.min(self.ratios.len() - 1)]
+    /// Damping ratio of a mode that is not rigid, counted from the lowest.
+    fn ratio(&self, mode_index: usize) -> f64 {
+        self.ratios[mode_index.min(self.ratios.len() - 1)]
     }
 }
 
-/// Matrices of a structure that is small enough; an error unless they are symmetric.
+/// Mass and stiffness; returns an error for a large structure or matrices that are not symmetric.
 fn matrices(structure: &dyn Structure) -> Result<MassAndStiffness> {
     let n = structure.dofs();
     let is_small = n <= MAX_DAMPED_DOFS;
@@ -197,8 +201,8 @@ fn matrices(structure: &dyn Structure) -> Result<MassAndStiffness> {
     Ok(matrices)
 }
 
-/// Overwrites `vector` with column `j` of a square matrix.
-fn column(matrix: &[f64], j: usize, vector: &mut [f64]) {
+/// Overwrites `vector` with column `j` of a square row-major matrix.
+fn copy_column(matrix: &[f64], j: usize, vector: &mut [f64]) {
     let n = vector.len();
     vector.iter_mut().enumerate().for_each(|(i, entry)| *entry = matrix[i * n + j]);
 }
@@ -213,12 +217,12 @@ impl WithModalDamping {
         }
     }
 
-    /// Adds a mode: factor × vector vectorᵀ.
-    fn add(&mut self, circular: f64, factor: f64, vector: &[f64]) {
-        self.frequencies.push(circular / TAU);
+    /// Adds the damping factor × vector vectorᵀ of a mode; circular frequency in rad/s.
+    fn add_mode(&mut self, circular_frequency: f64, factor: f64, vector: &[f64]) {
+        self.frequencies.push(circular_frequency / TAU);
         for (row, a) in self.damping.chunks_exact_mut(vector.len()).zip(vector) {
-            let factor = factor * a;
-            row.iter_mut().zip(vector).for_each(|(entry, b)| *entry += factor * b);
+            let row_factor = factor * a;
+            row.iter_mut().zip(vector).for_each(|(entry, b)| *entry += row_factor * b);
         }
     }
 
@@ -241,14 +245,11 @@ impl Structure for WithModalDamping {
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.structure.damping(matrix)?;
         let n = self.structure.dofs().max(1);
-        for (place, &value) in self.damping.iter().enumerate() {
-            // The mean of mirrored entries, which differ by rounding: the matrix is symmetric to the last
-            // bit.
-            matrix.add(
-                place / n,
-                place % n,
-                0.5 * (value + self.damping[place % n * n + place / n]),
-            );
+        for (index, &value) in self.damping.iter().enumerate() {
+            let row = index / n;
+            let column = index % n;
+            // The mean of mirrored entries makes the matrix symmetric to the last bit.
+            matrix.add(row, column, 0.5 * (value + self.damping[column * n + row]));
         }
         Ok(())
     }

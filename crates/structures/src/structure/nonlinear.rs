@@ -9,7 +9,7 @@ use crate::linalg::matrix::SparseMatrix;
 pub struct InternalEnergy {
     /// Energy that unloading recovers.
     pub stored: f64,
-    /// Energy turned into heat since the structure was new; it never decreases.
+    /// Energy turned into heat since the initial state; it never decreases.
     pub dissipated: f64,
 }
 
@@ -26,18 +26,17 @@ impl std::ops::Add for InternalEnergy {
 
 /// The nonlinear force f(u) of a structure, beyond K u.
 ///
-/// Implement this for materials that yield, geometry that changes, parts that collide. A [`Structure`]
-/// returns it by [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force, tangent and energy belong
-/// to a trial `displacement` reached from the last **committed** displacement, and change nothing;
-/// [`commit`](NonlinearForce::commit) accepts the end of a step. Force and tangent are evaluated where the
-/// time scheme writes its equations (the midpoint rule: halfway through the step), at every iterate of
-/// Newton's method.
+/// Implement this trait for yielding materials, nonlinear geometry or impacts. A [`Structure`] returns it by
+/// [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force, tangent and energy belong to a trial `displacement`
+/// on a path from the last **committed** displacement; these methods change no state. [`commit`](NonlinearForce::commit)
+/// accepts the end of a step. Force and tangent are evaluated at the time at which the time scheme enforces equilibrium
+/// (midpoint rule: the middle of the step), at every iterate of Newton's method.
 ///
 /// ```
 /// use basemat::structure::{Base, NonlinearForce, RigidBlock, Structure, Triplets};
 /// use basemat::Result;
 ///
-/// /// A block with a mass on top, on a spring that hardens: 1 MN/m and 10 GN/m³.
+/// /// A block that carries a mass on a hardening spring: 1 MN/m and 10 GN/m³.
 /// struct Tuned(RigidBlock);
 ///
 /// impl Structure for Tuned {
@@ -90,33 +89,31 @@ pub trait NonlinearForce {
     /// Adds f(u) (n, N per metre of thickness) to `force`.
     ///
     /// # Errors
-    /// Any error, [`Error::part`](crate::Error::part) for a reason of your own, ends the step with
-    /// `StepError::Part`, and nothing of the step is committed. An error
-    /// at an iterate ends the step even if Newton's method would have left that iterate again. To report that
-    /// the structure has passed a limit, return an error from the observer of
-    /// `Simulation::run`: it ends the run after the step.
+    /// Any error ends the step with `StepError::Part`, and nothing of the step is committed;
+    /// [`Error::part`](crate::Error::part) makes one with your reason. An error at an intermediate iterate of Newton's
+    /// method also ends the step. To end a run because the structure exceeds a limit, return an error from the observer of
+    /// `Simulation::run`: the run then ends after the step.
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
     ///
-    /// Its entries are at the same places at every call, or at fewer.
+    /// The sparsity pattern never grows after the first call.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
 
-    /// Energies of f at `displacement`, where they are known. Default: unknown.
+    /// Energies of f at `displacement`. Default: `None`.
     ///
-    /// Stored energy counts as strain energy of the energy balance, dissipated energy as
-    /// `hysteresis`. If the energies are unknown, all work of f
-    /// counts as strain energy.
+    /// In the energy balance, stored energy counts as strain energy and dissipated energy as `hysteresis`. With `None`
+    /// all work of f counts as strain energy.
     fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
         None
     }
 
     /// Accepts a step that ended with `displacement`. Default: does nothing.
     ///
-    /// Internal variables may change here only. Also called for the static state and an initial motion.
+    /// Internal variables may change here only. The method is also called for the static state and an initial motion.
     fn commit(&mut self, _displacement: &[f64]) {}
 
     /// The internal variables that [`commit`](NonlinearForce::commit) changes, for a checkpoint.
@@ -131,36 +128,37 @@ pub trait NonlinearForce {
 
     /// Restores the variables that [`save`](NonlinearForce::save) returned.
     ///
-    /// All values are finite. On an error the force stays unchanged.
+    /// The caller passes finite values only. On an error the internal variables must not change.
     ///
     /// # Errors
     /// [`CheckpointError::Corrupt`] for impossible values, or [`Error::part`](crate::Error::part) with a more
     /// precise reason. The default returns an error for any value.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        no_variables(values)
+        check_no_variables(values)
     }
 }
 
 /// Internal variables of a structure, for a checkpoint; empty for a linear structure.
 ///
 /// # Errors
-/// Faults of the structure's own methods.
+/// Errors of the structure's methods.
 pub fn save_variables(structure: &dyn Structure) -> Result<Vec<f64>> {
     structure.nonlinear().map_or_else(|| Ok(Vec::new()), NonlinearForce::save)
 }
 
-/// Restores internal variables; on an error the structure stays unchanged.
+/// Restores internal variables; on an error the structure does not change.
 ///
 /// # Errors
-/// Faults of the structure's own methods.
+/// Errors of the structure's methods.
 pub fn restore_variables(structure: &mut dyn Structure, values: &[f64]) -> Result<()> {
     match structure.nonlinear_mut() {
         Some(force) => force.restore(values),
-        None => no_variables(values),
+        None => check_no_variables(values),
     }
 }
 
-fn no_variables(values: &[f64]) -> Result<()> {
+/// Returns an error unless there are no internal variables.
+fn check_no_variables(values: &[f64]) -> Result<()> {
     if values.is_empty() {
         Ok(())
     } else {
@@ -173,42 +171,46 @@ fn no_variables(values: &[f64]) -> Result<()> {
 /// # Errors
 /// [`Error::Scene`] if only one of [`Structure::nonlinear`] and [`Structure::nonlinear_mut`] returns a force.
 pub fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
-    let shown = structure.nonlinear().is_some();
-    if structure.nonlinear_mut().is_some() == shown {
-        return Ok(shown);
+    let has_force = structure.nonlinear().is_some();
+    if structure.nonlinear_mut().is_some() == has_force {
+        return Ok(has_force);
     }
     let quantity = "nonlinear force of the structure";
-    let needed = "`nonlinear` and `nonlinear_mut` must both give it, or neither";
+    let needed = "must be returned by both `nonlinear` and `nonlinear_mut`, or by neither";
     Err(Error::Scene { quantity, needed })
 }
 
-/// f and its energies at a displacement; zero and `None` for a linear structure.
+/// Nonlinear force and its energies at a displacement; zero and `None` for a linear structure.
 ///
 /// # Errors
-/// Faults of the structure's own methods.
+/// Errors of the structure's methods.
 pub fn nonlinear_state(
     structure: &dyn Structure,
     displacement: &[f64],
 ) -> Result<(Vec<f64>, Option<InternalEnergy>)> {
     let mut force = vec![0.0; displacement.len()];
-    let Some(law) = structure.nonlinear() else { return Ok((force, None)) };
-    law.force(displacement, &mut force)?;
-    Ok((force, law.energy(displacement)))
+    let Some(nonlinear_force) = structure.nonlinear() else {
+        return Ok((force, None));
+    };
+    nonlinear_force.force(displacement, &mut force)?;
+    Ok((force, nonlinear_force.energy(displacement)))
 }
 
-/// Mass, and stiffness with the tangent of the nonlinear force at rest.
+/// Mass and initial stiffness of a structure.
 #[derive(Debug)]
 pub struct MassAndStiffness {
     /// Mass matrix.
     pub mass: SparseMatrix,
-    /// Stiffness matrix.
+    /// Stiffness matrix, with the tangent of the nonlinear force at zero displacement.
     pub stiffness: SparseMatrix,
 }
 
-/// Mass, and stiffness with the tangent of the nonlinear force at rest.
+/// Mass and initial stiffness of a structure.
+///
+/// The stiffness contains the tangent of the nonlinear force at zero displacement.
 ///
 /// # Errors
-/// Faults of the structure's own methods.
+/// Errors of the structure's methods.
 pub fn mass_and_stiffness(structure: &dyn Structure) -> Result<MassAndStiffness> {
     let n = structure.dofs();
     let mut triplets = Triplets::new(n);
@@ -220,7 +222,7 @@ pub fn mass_and_stiffness(structure: &dyn Structure) -> Result<MassAndStiffness>
     Ok(MassAndStiffness { mass, stiffness })
 }
 
-/// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.
+/// Tangent matrix ∂f/∂u of the nonlinear force; empty for a linear structure.
 #[allow(missing_debug_implementations, reason = "a helper of basemat")]
 pub struct Tangent {
     #[doc(hidden)]
@@ -229,12 +231,13 @@ pub struct Tangent {
 }
 
 impl Tangent {
+    /// Empty tangent for a number of degrees of freedom.
     #[doc(hidden)]
     pub fn new(dofs: usize) -> Self {
         Self { matrix: SparseMatrix::default(), entries: Triplets::new(dofs) }
     }
 
-    /// The tangent at a displacement.
+    /// Tangent at a displacement.
     #[doc(hidden)]
     pub fn at(structure: &dyn Structure, displacement: &[f64]) -> Result<Self> {
         let mut tangent = Self::new(displacement.len());
@@ -242,13 +245,13 @@ impl Tangent {
         Ok(tangent)
     }
 
-    /// Computes the tangent at a displacement; allocates only for entries at new places.
+    /// Overwrites the tangent by that at a displacement; allocates only if the sparsity pattern grows.
     #[doc(hidden)]
     pub fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
         const TANGENT_NAME: &str = "tangent of the nonlinear force";
         self.entries.clear();
-        if let Some(law) = structure.nonlinear() {
-            law.tangent(displacement, &mut self.entries)?;
+        if let Some(nonlinear_force) = structure.nonlinear() {
+            nonlinear_force.tangent(displacement, &mut self.entries)?;
             same_length(TANGENT_NAME, self.entries.order(), displacement.len())?;
         }
         if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {

@@ -6,10 +6,9 @@ use crate::text::column::column;
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities, accelerations.
 ///
-/// Displacements are changes from the static state, relative to the translation of the free field under the
-/// connected part. [`Probe::absolute_displacement`] includes that translation;
-/// [`DofCombination::relative_to_base`] and [`DofCombination::total_drift`] also subtract the motion of the
-/// base. Velocities and accelerations are total.
+/// Displacements are changes from the static state, relative to the translation of the free field under the connected part.
+/// [`Probe::absolute_displacement`] includes that translation; [`DofCombination::relative_to_base`] and
+/// [`DofCombination::total_drift`] also subtract the motion of the base. Velocities and accelerations are absolute.
 ///
 /// ```
 /// use basemat::coupled::Probe;
@@ -40,7 +39,7 @@ pub struct Probe {
     ///
     /// It is a label: values are weighted sums in SI units.
     pub unit: String,
-    /// Sum of displacements (changes against the static state).
+    /// Sum of displacements, as changes from the static state.
     pub displacement: DofCombination,
     /// Whether the displacements include the translation of the free field.
     pub absolute: bool,
@@ -51,12 +50,12 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// Displacement (m) relative to the free field: a degree of freedom, or a weighted sum of some.
+    /// Displacement (m) relative to the free field: a degree of freedom, or a weighted sum.
     pub fn displacement(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { displacement: row.into(), ..Self::new(name, "m") }
     }
 
-    /// Displacement with the translation of the free field added.
+    /// Displacement (m) that includes the translation of the free field.
     pub fn absolute_displacement(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { absolute: true, ..Self::displacement(name, row) }
     }
@@ -81,16 +80,16 @@ impl Probe {
         }
     }
 
-    /// Replaces the label of the probe's unit, for a rotation for example; values stay.
+    /// Replaces the label of the probe's unit, for a rotation for example; values do not change.
     ///
-    /// Printed tables and pictures convert the labels "m", "rad", "N/m" and "N·m/m" to mm, mrad, kN/m and
-    /// kN·m/m. They leave other labels as they are. Files use the probe's unit.
+    /// Printed tables and pictures convert the units "m", "rad", "N/m" and "N·m/m" to mm, mrad, kN/m and kN·m/m, but no
+    /// other units. Files use the probe's unit.
     #[must_use]
     pub fn in_unit(self, unit: impl Into<String>) -> Self {
         Self { unit: unit.into(), ..self }
     }
 
-    /// Column in files, `roof_left_m_per_s2`: name and unit by the rule of `basemat::results`.
+    /// Name of the column in files, from name and unit, such as `roof_left_m_per_s2`.
     #[doc(hidden)]
     pub fn column(&self) -> String {
         column(&self.name, &self.unit)
@@ -100,29 +99,32 @@ impl Probe {
         Self { name: name.into(), unit: unit.to_owned(), ..Self::default() }
     }
 
+    /// Weighted sums of displacements, velocities and accelerations.
     #[doc(hidden)]
     pub fn rows(&self) -> [&DofCombination; 3] {
         [&self.displacement, &self.velocity, &self.acceleration]
     }
 
-    /// Maps the probe's weighted sums to other degrees of freedom; an error names the probe.
+    /// Converts the probe's weighted sums to other degrees of freedom; an error names the probe.
     pub(crate) fn try_map_rows(
         self,
         map: impl Fn(DofCombination) -> Result<DofCombination>,
     ) -> Result<Self> {
         let Self { name, displacement, velocity, acceleration, .. } = self.clone();
-        let map = |row| map(row).map_err(|fault| fault.within(format!("probe '{name}'")));
-        let displacement = map(displacement)?;
-        let velocity = map(velocity)?;
-        let acceleration = map(acceleration)?;
-        Ok(Self { displacement, velocity, acceleration, ..self })
+        let named_map = |row| map(row).map_err(|fault| fault.within(format!("probe '{name}'")));
+        Ok(Self {
+            displacement: named_map(displacement)?,
+            velocity: named_map(velocity)?,
+            acceleration: named_map(acceleration)?,
+            ..self
+        })
     }
 }
 
 /// Checks the degrees of freedom and the names of probes.
 ///
 /// # Errors
-/// For degrees of freedom that do not exist, and [`Error::DuplicateName`] for two probes of one name.
+/// [`Error::Item`] for degrees of freedom of at least `dofs`, and [`Error::DuplicateName`] for two probes of one name.
 pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
@@ -138,15 +140,15 @@ pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     Ok(())
 }
 
-/// Place of the probe called `name` in a list.
+/// Index of the probe called `name` in a list.
 ///
 /// # Errors
 /// [`Error::Name`] with the names in the list.
 pub fn probe_index<T>(
-    list: &[T],
+    probes: &[T],
     name: &str,
     name_of: impl Fn(&T) -> &String + Copy,
 ) -> Result<usize> {
-    let index = list.iter().position(|entry| name_of(entry) == name);
-    index.ok_or_else(|| Error::no_name("probe", name, list.iter().map(name_of)))
+    let index = probes.iter().position(|probe| name_of(probe) == name);
+    index.ok_or_else(|| Error::no_name("probe", name, probes.iter().map(name_of)))
 }

@@ -18,7 +18,9 @@ use crate::error::{Result, damping_ratio, not_negative, positive, require};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "RayleighDampingForm"))]
 pub struct RayleighDamping {
+    /// Factor α of the mass, 1/s.
     mass: f64,
+    /// Factor β of the stiffness, s.
     stiffness: f64,
 }
 
@@ -38,7 +40,7 @@ impl RayleighDamping {
         Ok(Self { mass, stiffness })
     }
 
-    /// Damping with given damping ratios at two frequencies (Hz).
+    /// Damping with prescribed damping ratios at two frequencies (Hz).
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when the frequencies are not positive or equal, a ratio is not from 0 to
@@ -48,29 +50,40 @@ impl RayleighDamping {
             positive("frequency of Rayleigh damping", frequency)?;
             damping_ratio("damping ratio", ratio)?;
         }
-        let [low, high] = frequencies.map(|frequency| TAU * frequency);
-        let spread = (high - low) * (high + low);
+        let [first_circular, second_circular] = frequencies.map(|frequency| TAU * frequency);
+        let squared_difference =
+            (second_circular - first_circular) * (second_circular + first_circular);
         let needed = "different from the first";
-        require("second frequency of Rayleigh damping", frequencies[1], spread != 0.0, needed)?;
+        require(
+            "second frequency of Rayleigh damping",
+            frequencies[1],
+            squared_difference != 0.0,
+            needed,
+        )?;
         // Solves ζ = α/(2ω) + βω/2 at both frequencies.
-        let mass = 2.0 * low * high * (ratios[0] * high - ratios[1] * low) / spread;
-        let stiffness = 2.0 * (ratios[1] * high - ratios[0] * low) / spread;
+        let mass = 2.0
+            * first_circular
+            * second_circular
+            * (ratios[0] * second_circular - ratios[1] * first_circular)
+            / squared_difference;
+        let stiffness =
+            2.0 * (ratios[1] * second_circular - ratios[0] * first_circular) / squared_difference;
         Self::new(mass, stiffness)
     }
 
-    /// α, 1/s.
+    /// Factor α of the mass, 1/s.
     pub fn mass(&self) -> f64 {
         self.mass
     }
 
-    /// β, s.
+    /// Factor β of the stiffness, s.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
     /// Damping ratio ζ = α/(2ω) + βω/2 of a mode of `frequency` (Hz).
     pub fn ratio(&self, frequency: f64) -> f64 {
-        let circular = TAU * frequency;
-        0.5 * (self.mass / circular + self.stiffness * circular)
+        let circular_frequency = TAU * frequency;
+        0.5 * (self.mass / circular_frequency + self.stiffness * circular_frequency)
     }
 }

@@ -1,76 +1,89 @@
-//! Rigid motions of a structure, which strain nothing.
+//! Rigid motions of a structure, which cause no strain.
 
 use crate::error::Result;
 use crate::linalg::{Partition, SparseMatrix, dot};
 use crate::structure::{BaseNode, HeldBase, stiffest};
 
-/// A part counts as at rest if it has less than this fraction of a motion's norm.
+/// A part counts as at rest in a motion if its norm is below this fraction of the motion's norm.
 const RESTING_PART_FRACTION: f64 = 1e-8;
-/// A motion depends on the others if the rest after removing them is below this fraction.
+/// A motion is linearly dependent if its norm after orthogonalisation is below this fraction.
 const DEPENDENT_MOTION_FRACTION: f64 = 1e-6;
 
-/// Error for contact nodes with degrees of freedom at `n` or beyond.
-pub(super) fn check_rows(contact: &[BaseNode], n: usize) -> Result<()> {
-    let mut rows = contact.iter().flat_map(BaseNode::rows);
+/// Returns an error for contact nodes with degrees of freedom of at least `n`.
+pub(super) fn check_rows(contact_nodes: &[BaseNode], n: usize) -> Result<()> {
+    let mut rows = contact_nodes.iter().flat_map(BaseNode::rows);
     rows.try_for_each(|row| row.check("degree of freedom of a contact node", n))
 }
 
 /// Momenta M r of the rigid motions r of every part that stiffness connects.
 ///
-/// Motions are to the right, upwards and turning, and orthonormal in M. A motion without strain follows from
-/// the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N
-/// gives the nodes' displacements and t their prescribed values.
+/// Motions are to the right, upwards and rotations, and orthonormal with respect to M. A motion without strain follows
+/// from the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N gives the
+/// nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
-    contact: &[BaseNode],
+    contact_nodes: &[BaseNode],
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
-    check_rows(contact, n)?;
-    let count = contact.len().max(1) as f64;
+    check_rows(contact_nodes, n)?;
+    let node_count = contact_nodes.len().max(1) as f64;
     let center = [
-        contact.iter().map(|node| node.x).sum::<f64>() / count,
-        contact.iter().map(|node| node.y).sum::<f64>() / count,
+        contact_nodes.iter().map(|node| node.x).sum::<f64>() / node_count,
+        contact_nodes.iter().map(|node| node.y).sum::<f64>() / node_count,
     ];
-    let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
-    let mut factor = held.factor()?;
-    let mut rigid = held.pulls();
-    rigid.extend(held.turns(contact.iter(), center));
+    let supported = HeldBase::new(contact_nodes, stiffness, stiffest(stiffness));
+    let mut factor = supported.factor()?;
+    let mut base_forces = supported.pulls();
+    base_forces.extend(supported.turns(contact_nodes.iter(), center));
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();
-    let mut motions: Vec<Vec<f64>> = Vec::new();
-    let mut momenta: Vec<Vec<f64>> = Vec::new();
-    for mut all in rigid {
-        factor.solve(&mut all);
-        let whole = mass.form(&all, &all).sqrt();
+    let mut rigid_motions = OrthonormalMotions::default();
+    for mut whole_motion in base_forces {
+        factor.solve(&mut whole_motion);
+        let whole_norm = mass.form(&whole_motion, &whole_motion).sqrt();
         for part in &parts {
-            let mut motion = vec![0.0; n];
-            for &i in part {
-                motion[i] = all[i];
+            let mut part_motion = vec![0.0; n];
+            for &dof in part {
+                part_motion[dof] = whole_motion[dof];
             }
-            let norm = mass.form(&motion, &motion).sqrt();
-            if norm.is_nan() || norm <= RESTING_PART_FRACTION * whole {
+            let part_norm = mass.form(&part_motion, &part_motion).sqrt();
+            if part_norm.is_nan() || part_norm <= RESTING_PART_FRACTION * whole_norm {
                 continue;
             }
-            for x in &mut motion {
-                *x /= norm;
+            for displacement in &mut part_motion {
+                *displacement /= part_norm;
             }
-            for (other, momentum) in motions.iter().zip(&momenta) {
-                let share = dot(momentum, &motion);
-                motion.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
-            }
-            let rest = mass.form(&motion, &motion).sqrt();
-            if rest > DEPENDENT_MOTION_FRACTION {
-                for x in &mut motion {
-                    *x /= rest;
-                }
-                let mut momentum = vec![0.0; n];
-                mass.multiply_add(1.0, &motion, &mut momentum);
-                motions.push(motion);
-                momenta.push(momentum);
-            }
+            rigid_motions.add(part_motion, mass);
         }
     }
-    Ok(momenta)
+    Ok(rigid_motions.momenta)
+}
+
+/// Motions that are orthonormal with respect to a mass matrix, and their momenta.
+#[derive(Default)]
+struct OrthonormalMotions {
+    motions: Vec<Vec<f64>>,
+    momenta: Vec<Vec<f64>>,
+}
+
+impl OrthonormalMotions {
+    /// Adds the part of a normalised motion that is orthogonal to the others, unless it is negligible.
+    fn add(&mut self, mut motion: Vec<f64>, mass: &SparseMatrix) {
+        for (other_motion, momentum) in self.motions.iter().zip(&self.momenta) {
+            let coefficient = dot(momentum, &motion);
+            motion.iter_mut().zip(other_motion).for_each(|(x, y)| *x -= coefficient * y);
+        }
+        let orthogonal_norm = mass.form(&motion, &motion).sqrt();
+        if orthogonal_norm > DEPENDENT_MOTION_FRACTION {
+            for displacement in &mut motion {
+                *displacement /= orthogonal_norm;
+            }
+            let mut momentum = vec![0.0; motion.len()];
+            mass.multiply_add(1.0, &motion, &mut momentum);
+            self.motions.push(motion);
+            self.momenta.push(momentum);
+        }
+    }
 }

@@ -1,8 +1,8 @@
-//! Rows of a section resultant over displacements, velocities and accelerations.
+//! Weights of a section resultant on displacements, velocities and accelerations.
 
 use super::DofCombination;
 
-/// Linear function of displacement, velocity and acceleration, as sparse rows.
+/// A force or moment as weighted sums of displacements, velocities and accelerations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionRows {
     /// Unit of the resultant: "N/m" for a force, "N·m/m" for a moment.
@@ -11,12 +11,12 @@ pub struct SectionRows {
     pub displacement: DofCombination,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
     pub velocity: DofCombination,
-    /// Weights of the accelerations: the part of the mass above that acts on the cut's nodes.
+    /// Weights of the accelerations: inertia of the part above the section.
     pub acceleration: DofCombination,
 }
 
 impl Default for SectionRows {
-    /// A force that is zero.
+    /// Zero force per metre.
     fn default() -> Self {
         Self {
             unit: "N/m",
@@ -28,9 +28,9 @@ impl Default for SectionRows {
 }
 
 impl SectionRows {
-    /// The resultant's value.
+    /// Value of the resultant, by the motion of all degrees of freedom.
     ///
-    /// The slices hold all degrees of freedom; indices beyond their ends count as zero.
+    /// Degrees of freedom beyond the end of a slice count as zero.
     pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {
         self.displacement.value(displacement)
             + self.velocity.value(velocity)

@@ -1,16 +1,16 @@
 //! Straight beam or column in the plane.
 
-use super::axial_force::AxialForce;
-use super::bar::{self, BarMatrix};
-use super::bending::{Bending, EndMatrix, put};
-use super::end_frame::EndFrame;
+use super::axes::EndFrame;
+use super::local_matrices::{
+    AxialForce, BarMatrix, Bending, BendingMatrix, bar_mass, bar_stiffness, copy_block,
+};
 use crate::error::{Result, finite, not_negative, positive};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::line::ElementLine;
-use crate::fem::vector::{add, cross, unit};
+use crate::fem::vector::{add_scaled, cross, unit_vector};
 use crate::geometry::{Direction, PLANE_DIRECTIONS};
 
-/// Straight prismatic beam of the plane between two nodes that rotate with it.
+/// Straight prismatic beam in the plane, rigidly connected to its two nodes.
 ///
 /// Meshes in space have a [`SpaceBeam`](super::SpaceBeam).
 ///
@@ -38,7 +38,7 @@ pub struct Beam {
     axial_stiffness: f64,
     bending: Bending,
     mass_per_length: f64,
-    force: AxialForce,
+    axial_force: AxialForce,
 }
 
 impl Beam {
@@ -71,7 +71,7 @@ impl Beam {
                 has_rotary_inertia: false,
             },
             mass_per_length: not_negative("mass per length of the beam", density * area)?,
-            force: AxialForce::default(),
+            axial_force: AxialForce::default(),
         })
     }
 
@@ -84,8 +84,9 @@ impl Beam {
         Ok(Self { bending: Bending { shear_stiffness, ..self.bending }, ..self })
     }
 
-    /// Adds the rotary inertia ρ I of the cross-section: with shear stiffness,
-    /// Timoshenko's beam in full.
+    /// Adds the rotary inertia ρ I of the cross-section.
+    ///
+    /// With shear stiffness the beam is then a complete Timoshenko beam.
     #[must_use]
     pub fn with_rotary_inertia(self) -> Self {
         Self { bending: Bending { has_rotary_inertia: true, ..self.bending }, ..self }
@@ -94,25 +95,24 @@ impl Beam {
     /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
     ///
     /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and
-    /// P–δ). It is the force of the static state, for example the weight above. A force given here stays when
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes the forces of the other
-    /// elements. The beam then resists a rigid rotation with the moment of its offset end forces, as a real
-    /// column does.
+    /// P–δ). It is the force of the static state, for example the weight above.
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from this method. In
+    /// a rigid rotation the end forces of the beam form a couple, as those of a real column do.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn with_compression(self, compression: f64) -> Result<Self> {
         let compression = finite("axial force of the beam", compression)?;
-        Ok(Self { force: AxialForce::prescribed(compression), ..self })
+        Ok(Self { axial_force: AxialForce::prescribed(compression), ..self })
     }
 
-    /// Axes of the beam; its ends lie at its nodes.
-    #[expect(clippy::unused_self, reason = "as for beams in space")]
+    /// Axes of the beam, whose ends are at its nodes.
+    #[expect(clippy::unused_self, reason = "the same signature as for beams in space")]
     pub(crate) fn end_frame(&self, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
         let &[first, second] = coordinates else { return None };
-        let along = unit(add(second, -1.0, first));
-        let to_reader = [0.0, 0.0, 1.0];
-        let axes = [along, cross(to_reader, along), to_reader];
+        let tangent = unit_vector(add_scaled(second, -1.0, first));
+        let out_of_plane = [0.0, 0.0, 1.0];
+        let axes = [tangent, cross(out_of_plane, tangent), out_of_plane];
         Some(EndFrame { axes, offsets: [[0.0; 3]; 2] })
     }
 }
@@ -134,17 +134,18 @@ impl Element for Beam {
         let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
-        let bar = bar::stiffness(self.axial_stiffness / line.length);
-        line.add_rotated(&local(&bar, &self.bending.stiffness(line.length)), matrix);
+        let axial = bar_stiffness(self.axial_stiffness / line.length);
+        let bending = self.bending.stiffness(line.length);
+        line.add_rotated(&local_matrix(&axial, &bending), matrix);
     }
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
-        if !self.force.is_zero() {
-            let block = self.bending.geometric_stiffness(&self.force, line.length);
-            line.add_rotated(&local(&[[0.0; 2]; 2], &block), matrix);
+        if !self.axial_force.is_zero() {
+            let bending = self.bending.geometric_stiffness(&self.axial_force, line.length);
+            line.add_rotated(&local_matrix(&[[0.0; 2]; 2], &bending), matrix);
         }
     }
 
@@ -156,47 +157,48 @@ impl Element for Beam {
     ) -> Option<Box<dyn Element>> {
         let line = ElementLine::between(coordinates)?;
         let &[x0, y0, _, x1, y1, _] = displacement else { return None };
-        if self.force.is_prescribed {
+        if self.axial_force.is_prescribed {
             return None;
         }
-        let lengthening = line.lengthening(&[x0, y0], &[x1, y1]);
-        // Displacements of the nodes are exact, so the compression is the mean over the length. It varies between
-        // the nodes because of the element's weight.
-        let rise = coordinates[1][1] - coordinates[0][1];
-        let force = AxialForce {
-            compression: -self.axial_stiffness / line.length * lengthening,
-            taper: self.mass_per_length * gravity * rise,
+        let elongation = line.elongation(&[x0, y0], &[x1, y1]);
+        // Displacements of the nodes are exact, so the compression by the elongation is the mean over the length. The
+        // compression varies between the nodes because of the element's weight.
+        let height_difference = coordinates[1][1] - coordinates[0][1];
+        let axial_force = AxialForce {
+            compression: -self.axial_stiffness / line.length * elongation,
+            taper: self.mass_per_length * gravity * height_difference,
             is_prescribed: false,
         };
-        Some(Box::new(Self { force, ..self.clone() }))
+        Some(Box::new(Self { axial_force, ..self.clone() }))
     }
 
     fn compression(&self) -> Option<f64> {
-        Some(self.force.compression)
+        Some(self.axial_force.compression)
     }
 
-    /// Lumped: half the mass at each node, with the rotary inertia m L²/78, which keeps the ratio of the
-    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the rotary inertia of the
-    /// sections.
+    /// Lumped: half the mass and the rotary inertia m L²/78 at each node.
+    ///
+    /// The rotary inertia has the ratio of the consistent diagonal (Hinton, Rock & Zienkiewicz 1976). With rotary inertia
+    /// of the sections, each node gets half of it.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
         let mass = self.mass_per_length * line.length;
         let bending = self.bending.mass(kind, mass, line.length);
-        line.add_rotated(&local(&bar::mass(kind, mass), &bending), matrix);
+        line.add_rotated(&local_matrix(&bar_mass(kind, mass), &bending), matrix);
     }
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
-        ElementLine::check("length of the beam", coordinates)
+        ElementLine::check_length("length of the beam", coordinates)
     }
 }
 
-/// Local matrix of displacements along and across the beam and the rotation, at both ends.
-fn local(bar: &BarMatrix, bending: &EndMatrix) -> [[f64; 6]; 6] {
+/// Local matrix: axial displacement, deflection and rotation, at both ends.
+fn local_matrix(axial: &BarMatrix, bending: &BendingMatrix) -> [[f64; 6]; 6] {
     let mut matrix = [[0.0; 6]; 6];
-    put(bar, [0, 3], &mut matrix);
-    put(bending, [1, 2, 4, 5], &mut matrix);
+    copy_block(axial, [0, 3], &mut matrix);
+    copy_block(bending, [1, 2, 4, 5], &mut matrix);
     matrix
 }

@@ -9,24 +9,30 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 pub(super) struct Releases([bool; 12]);
 
 impl Releases {
-    /// These releases and `directions` at an `end`; an error if they leave a mechanism.
-    pub(super) fn and(mut self, end: usize, directions: &[Direction]) -> Result<Self> {
+    /// Adds releases in `directions` at an `end`; returns an error for a mechanism.
+    pub(super) fn with_end_releases(
+        mut self,
+        end: usize,
+        directions: &[Direction],
+    ) -> Result<Self> {
         in_bounds("released end of the beam", end, 2)?;
         for &direction in directions {
-            let place = SPACE_DIRECTIONS.iter().position(|&candidate| candidate == direction);
+            let index = SPACE_DIRECTIONS.iter().position(|&candidate| candidate == direction);
             let needed = "x, y, z, and rotations about x, y, z, in the axes of the beam";
-            require_part("released direction of the beam", place.is_some(), needed)?;
-            self.0[6 * end + place.unwrap_or_default()] = true;
+            require_part("released direction of the beam", index.is_some(), needed)?;
+            self.0[6 * end + index.unwrap_or_default()] = true;
         }
         let quantity = "releases of the beam";
-        let at_both_ends = |place: usize| self.0[place] && self.0[place + 6];
-        let slides = at_both_ends(0);
-        require_part(quantity, !slides, "not both ends along x: the beam would slide off")?;
-        let spins = at_both_ends(3);
-        require_part(quantity, !spins, "not both ends about x: the beam would spin")?;
-        for [side, turn] in [[1, 5], [2, 4]] {
-            let released = [side, turn, side + 6, turn + 6].into_iter().filter(|&k| self.0[k]);
-            let is_stable = released.count() < 3 && !at_both_ends(side);
+        let at_both_ends = |dof: usize| self.0[dof] && self.0[dof + 6];
+        let can_slide = at_both_ends(0);
+        require_part(quantity, !can_slide, "not both ends along x: the beam would slide off")?;
+        let can_spin = at_both_ends(3);
+        require_part(quantity, !can_spin, "not both ends about x: the beam would spin")?;
+        // Deflection and rotation of bending along y and along z.
+        for [deflection, rotation] in [[1, 5], [2, 4]] {
+            let bending_dofs = [deflection, rotation, deflection + 6, rotation + 6];
+            let release_count = bending_dofs.into_iter().filter(|&dof| self.0[dof]).count();
+            let is_stable = release_count < 3 && !at_both_ends(deflection);
             let needed = "at most two of the displacements along and rotations across one axis of \
                           the section, not both displacements: the beam would be a mechanism";
             require_part(quantity, is_stable, needed)?;
@@ -45,32 +51,36 @@ impl Releases {
         }
     }
 
-    /// Expresses the released displacements in `to_local` by the others, such that their forces vanish.
+    /// Expresses released end displacements by the others, such that their forces vanish.
     ///
-    /// `stiffness`: local stiffness without releases.
+    /// `to_local`: transformation to local end displacements, which is changed. `stiffness`: local stiffness without
+    /// releases.
     pub(super) fn apply(&self, mut stiffness: EndsMatrix, to_local: &mut EndsMatrix) {
-        let released: Vec<usize> = (0..12).filter(|&place| self.0[place]).collect();
-        let mut rows = Vec::with_capacity(released.len());
-        for &place in &released {
-            let pivot = stiffness[place][place];
-            let mut row = stiffness[place].map(|k| -k / pivot);
-            row[place] = 0.0;
+        let released_dofs: Vec<usize> = (0..12).filter(|&dof| self.0[dof]).collect();
+        let mut release_rows = Vec::with_capacity(released_dofs.len());
+        for &dof in &released_dofs {
+            let pivot = stiffness[dof][dof];
+            let mut row = stiffness[dof].map(|k| -k / pivot);
+            row[dof] = 0.0;
             for i in 0..12 {
-                let factor = stiffness[i][place];
+                let factor = stiffness[i][dof];
                 for j in 0..12 {
                     stiffness[i][j] += factor * row[j];
                 }
             }
             for k in 0..12 {
-                stiffness[k][place] = 0.0;
-                stiffness[place][k] = 0.0;
+                stiffness[k][dof] = 0.0;
+                stiffness[dof][k] = 0.0;
             }
-            rows.push((place, row));
+            release_rows.push((dof, row));
         }
-        // Earlier rows may refer to displacements that were released later.
-        for (place, row) in rows.into_iter().rev() {
-            to_local[place] = std::array::from_fn(|j| {
-                row.iter().zip(to_local.iter()).map(|(factor, other)| factor * other[j]).sum()
+        // A row may contain displacements whose rows come later in the list.
+        for (dof, row) in release_rows.into_iter().rev() {
+            to_local[dof] = std::array::from_fn(|j| {
+                row.iter()
+                    .zip(to_local.iter())
+                    .map(|(factor, displacement_row)| factor * displacement_row[j])
+                    .sum()
             });
         }
     }

@@ -4,8 +4,8 @@ use crate::error::{Result, positive};
 
 /// Cross-section of a beam in space: area, second moments, torsion constant, shear areas.
 ///
-/// y and z are the principal axes of the section, through its centroid: y along the orientation of the
-/// beam, z across it.
+/// y and z are the principal axes of the section through its centroid: y along the orientation of the beam, z at a right
+/// angle to it.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};
@@ -25,8 +25,10 @@ use crate::error::{Result, positive};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSection {
     pub(super) area: f64,
+    /// About y and about z, m⁴.
     pub(super) second_moments: [f64; 2],
     pub(super) torsion_constant: f64,
+    /// For shear along y and along z, m²; `None` without shear deformation.
     pub(super) shear_areas: Option<[f64; 2]>,
 }
 

@@ -1,29 +1,29 @@
 //! Straight beam or column in space.
 
-use super::axes::{Axes, EndsMatrix};
-use super::axial_force::AxialForce;
-use super::bar::{self, BarMatrix};
-use super::bending::{Bending, EndMatrix, put};
-use super::end_frame::EndFrame;
+use super::axes::{BeamAxes, EndFrame, EndsMatrix};
+use super::local_matrices::{
+    AxialForce, BarMatrix, Bending, BendingMatrix, bar_mass, bar_stiffness, copy_block,
+};
 use super::releases::Releases;
 use super::section::BeamSection;
 use crate::error::{Error, Result, all_finite, finite, positive, same_length};
-use crate::fem::element::{Element, MassKind, add_transformed};
+use crate::fem::element::{Element, MassKind};
+use crate::fem::element_matrix::add_transformed;
 use crate::fem::material::Material;
-use crate::fem::vector::{add, dot, length};
+use crate::fem::vector::{add_scaled, dot, norm};
 use crate::geometry::{Direction, SPACE_DIRECTIONS};
 
-/// Straight prismatic beam in space between two nodes that rotate with it.
+/// Straight prismatic beam in space, rigidly connected to its two nodes.
 ///
 /// It stretches, twists (St Venant) and bends in two planes; shear areas of its
-/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the
-/// axis of the beam, y the part of its `orientation` across x, and z is across both, right-handed.
+/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the axis of the
+/// beam, y the component of its `orientation` normal to x, and z completes a right-handed system.
 ///
-/// Its lumped mass is diagonal in the axes of the beam; in other directions it couples the rotations of a
-/// node, and offsets couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending
-/// and the P–Δ effect of axial forces are options. Warping and the effect of axial forces on the torsion are
-/// left out. In the static state of [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) shear forces,
-/// moments and torque turn with the beam, so that several beams along a girder buckle sideways.
+/// Its lumped mass is diagonal in the axes of the beam. In other axes it couples the rotations of a node, and offsets
+/// couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending and the P–Δ effect of axial
+/// forces are options. Warping and the effect of axial forces on torsion are neglected. In the static state of
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) shear forces, moments and torque rotate with the
+/// beam, so that several beams along a girder can buckle laterally.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};
@@ -49,10 +49,10 @@ pub struct SpaceBeam {
     axial_stiffness: f64,
     /// G J, N m².
     torsional_stiffness: f64,
-    /// Along y, then along z.
+    /// Bending along y, then along z.
     bending: [Bending; 2],
     mass_per_length: f64,
-    force: AxialForce,
+    axial_force: AxialForce,
 }
 
 impl SpaceBeam {
@@ -60,8 +60,8 @@ impl SpaceBeam {
     ///
     /// The section's y axis lies in the plane of the beam and the `orientation`.
     ///
-    /// The orientation is a vector in x, y, z of any length. The axes of the section matter even if both second
-    /// moments are equal, for releases and forces.
+    /// The orientation is a vector [x, y, z] of any length. Releases and forces refer to the axes of the section even if
+    /// both second moments are equal.
     ///
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::Input`] for an orientation that is not finite or has no length, and for
@@ -73,18 +73,19 @@ impl SpaceBeam {
         section: BeamSection,
         orientation: [f64; 3],
     ) -> Result<Self> {
-        Self::unnamed(nodes, material, section, orientation).map_err(|fault| named(nodes, fault))
+        Self::without_context(nodes, material, section, orientation)
+            .map_err(|fault| within_beam(nodes, fault))
     }
 
     /// [`SpaceBeam::new`] with errors that do not name the nodes.
-    fn unnamed(
+    fn without_context(
         nodes: [usize; 2],
         material: Material,
         section: BeamSection,
         orientation: [f64; 3],
     ) -> Result<Self> {
         all_finite("orientation of the beam", &orientation)?;
-        positive("length of the beam's orientation", length(orientation))?;
+        positive("length of the beam's orientation", norm(orientation))?;
         let axial_stiffness = material.young_modulus() * section.area;
         let torsional_stiffness = material.shear_modulus() * section.torsion_constant;
         Ok(Self {
@@ -95,19 +96,19 @@ impl SpaceBeam {
             axial_stiffness: positive("axial stiffness of the beam", axial_stiffness)?,
             torsional_stiffness: positive("torsional stiffness of the beam", torsional_stiffness)?,
             bending: [
-                Self::bending(&material, &section, 0)?,
-                Self::bending(&material, &section, 1)?,
+                Self::bending_along(&material, &section, 0)?,
+                Self::bending_along(&material, &section, 1)?,
             ],
             mass_per_length: finite(
                 "mass per length of the beam",
                 material.density() * section.area,
             )?,
-            force: AxialForce::default(),
+            axial_force: AxialForce::default(),
         })
     }
 
     /// Bending along y (`axis` 0, about z) or along z (`axis` 1, about y).
-    fn bending(material: &Material, section: &BeamSection, axis: usize) -> Result<Bending> {
+    fn bending_along(material: &Material, section: &BeamSection, axis: usize) -> Result<Bending> {
         let second_moment = section.second_moments[1 - axis];
         let shear_stiffness =
             section.shear_areas.map(|areas| material.shear_modulus() * areas[axis]);
@@ -122,7 +123,7 @@ impl SpaceBeam {
         })
     }
 
-    /// Places the ends of the beam away from its nodes, by rigid arms.
+    /// Connects the ends of the beam to its nodes by rigid arms.
     ///
     /// `offsets`: from each node to its end along x, y and z, m.
     ///
@@ -130,22 +131,24 @@ impl SpaceBeam {
     /// [`Error::NotFinite`] unless all are finite.
     pub fn with_offsets(self, offsets: [[f64; 3]; 2]) -> Result<Self> {
         all_finite("offsets of the beam", offsets.as_flattened())
-            .map_err(|fault| named(self.nodes, fault))?;
+            .map_err(|fault| within_beam(self.nodes, fault))?;
         Ok(Self { offsets, ..self })
     }
 
     /// Releases an end (0 or 1) in `directions`, in the axes of the beam.
     ///
-    /// Nothing holds the end in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending
-    /// along y. Adds to earlier releases. A lumped mass loses the entries of released directions.
+    /// The beam exerts no force in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending along y.
+    /// The releases add to earlier ones. A lumped mass has no entries in released directions.
     ///
     /// # Errors
-    /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that leave
-    /// a mechanism: both ends along or about x, both ends along y or along z, and three of the four
+    /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that make
+    /// the beam a mechanism: both ends along or about x, both ends along y or along z, or three of the four
     /// displacements and rotations of bending along y or along z. All are in an [`Error::Item`] with the nodes.
     pub fn with_releases(self, end: usize, directions: &[Direction]) -> Result<Self> {
-        let releases =
-            self.releases.and(end, directions).map_err(|fault| named(self.nodes, fault))?;
+        let releases = self
+            .releases
+            .with_end_releases(end, directions)
+            .map_err(|fault| within_beam(self.nodes, fault))?;
         Ok(Self { releases, ..self })
     }
 
@@ -158,28 +161,28 @@ impl SpaceBeam {
 
     /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
     ///
-    /// As [`Beam::with_compression`](super::Beam::with_compression), in both planes. The rigid arms of offset
-    /// ends take part.
+    /// As [`Beam::with_compression`](super::Beam::with_compression), in both planes. The force also acts at the rigid
+    /// arms of offset ends.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is finite.
     pub fn with_compression(self, compression: f64) -> Result<Self> {
         let compression = finite("axial force of the beam", compression)
-            .map_err(|fault| named(self.nodes, fault))?;
-        Ok(Self { force: AxialForce::prescribed(compression), ..self })
+            .map_err(|fault| within_beam(self.nodes, fault))?;
+        Ok(Self { axial_force: AxialForce::prescribed(compression), ..self })
     }
 
-    /// Places of the ends in x, y and z, m; `None` unless there are two nodes.
+    /// Coordinates of the ends, m; `None` unless there are two nodes.
     fn ends(&self, coordinates: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
         let &[first, second] = coordinates else {
             return None;
         };
-        Some([add(first, 1.0, self.offsets[0]), add(second, 1.0, self.offsets[1])])
+        Some([add_scaled(first, 1.0, self.offsets[0]), add_scaled(second, 1.0, self.offsets[1])])
     }
 
     /// Axes of the beam; `None` for a beam that [`check`](Element::check) does not accept.
-    fn axes(&self, coordinates: &[[f64; 3]]) -> Option<Axes> {
-        Axes::new(self.ends(coordinates)?, self.orientation).ok()
+    fn axes(&self, coordinates: &[[f64; 3]]) -> Option<BeamAxes> {
+        BeamAxes::new(self.ends(coordinates)?, self.orientation).ok()
     }
 
     /// Axes and offsets of the ends.
@@ -187,41 +190,44 @@ impl SpaceBeam {
         Some(EndFrame { axes: self.axes(coordinates)?.axes, offsets: self.offsets })
     }
 
-    /// Stiffness without releases.
+    /// Local stiffness matrix without releases.
     fn local_stiffness(&self, length: f64) -> EndsMatrix {
+        let axial = bar_stiffness(self.axial_stiffness / length);
+        let torsion = bar_stiffness(self.torsional_stiffness / length);
         let bending = self.bending.map(|plane| plane.stiffness(length));
-        let axial = bar::stiffness(self.axial_stiffness / length);
-        local(&axial, &bar::stiffness(self.torsional_stiffness / length), &bending)
+        local_matrix(&axial, &torsion, &bending)
     }
 
-    /// Local displacements due to displacements of the nodes, with the releases.
-    fn to_local(&self, axes: &Axes) -> EndsMatrix {
+    /// Transformation of displacements of the nodes to local displacements of the ends, with releases.
+    fn to_local(&self, axes: &BeamAxes) -> EndsMatrix {
         let mut to_local = axes.to_local(&self.offsets);
         self.releases.apply(self.local_stiffness(axes.length), &mut to_local);
         to_local
     }
 
-    /// Mass without releases.
+    /// Local mass matrix without releases.
     fn local_mass(&self, kind: MassKind, length: f64) -> EndsMatrix {
         let mass = self.mass_per_length * length;
-        let polar = self.bending[0].section_inertia + self.bending[1].section_inertia;
+        let polar_inertia = self.bending[0].section_inertia + self.bending[1].section_inertia;
         let bending = self.bending.map(|plane| plane.mass(kind, mass, length));
-        local(&bar::mass(kind, mass), &bar::mass(kind, polar * length), &bending)
+        let torsion = bar_mass(kind, polar_inertia * length);
+        local_matrix(&bar_mass(kind, mass), &torsion, &bending)
     }
 
     /// Adds the geometric stiffness of the rigid arms between nodes and ends.
-    fn add_arms(&self, axes: &Axes, matrix: &mut [f64]) {
-        let along = axes.axes[0];
+    fn add_arm_stiffness(&self, axes: &BeamAxes, matrix: &mut [f64]) {
+        let tangent = axes.axes[0];
+        // Coordinate s = x/L of each end, and the sign of the beam's outward direction there.
         let ends = [(0.0, -1.0), (1.0, 1.0)];
-        for (end, (arm, (place, sign))) in self.offsets.iter().zip(ends).enumerate() {
-            let force = -self.force.at(place) * sign;
+        for (end, (arm, (s, sign))) in self.offsets.iter().zip(ends).enumerate() {
+            let end_force = -self.axial_force.at(s) * sign;
             for i in 0..3 {
                 for j in 0..3 {
-                    let trace = if i == j { dot(along, *arm) } else { 0.0 };
-                    let product = 0.5 * (along[i] * arm[j] + arm[i] * along[j]);
-                    let place = 12 * (6 * end + 3 + i) + 6 * end + 3 + j;
-                    if let Some(entry) = matrix.get_mut(place) {
-                        *entry += force * (product - trace);
+                    let trace = if i == j { dot(tangent, *arm) } else { 0.0 };
+                    let product = 0.5 * (tangent[i] * arm[j] + arm[i] * tangent[j]);
+                    let entry_index = 12 * (6 * end + 3 + i) + 6 * end + 3 + j;
+                    if let Some(entry) = matrix.get_mut(entry_index) {
+                        *entry += end_force * (product - trace);
                     }
                 }
             }
@@ -249,14 +255,15 @@ impl Element for SpaceBeam {
     }
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let Some(axes) = self.axes(coordinates).filter(|_| !self.force.is_zero()) else {
+        let Some(axes) = self.axes(coordinates).filter(|_| !self.axial_force.is_zero()) else {
             return;
         };
-        let zero = [[0.0; 2]; 2];
-        let bending = self.bending.map(|plane| plane.geometric_stiffness(&self.force, axes.length));
-        let local = local(&zero, &zero, &bending);
-        add_transformed(&local, &self.to_local(&axes), matrix);
-        self.add_arms(&axes, matrix);
+        let zero: BarMatrix = [[0.0; 2]; 2];
+        let bending =
+            self.bending.map(|plane| plane.geometric_stiffness(&self.axial_force, axes.length));
+        let local_stiffness = local_matrix(&zero, &zero, &bending);
+        add_transformed(&local_stiffness, &self.to_local(&axes), matrix);
+        self.add_arm_stiffness(&axes, matrix);
     }
 
     fn in_static_state(
@@ -267,66 +274,71 @@ impl Element for SpaceBeam {
     ) -> Option<Box<dyn Element>> {
         let axes = self.axes(coordinates)?;
         let ends = self.ends(coordinates)?;
-        if self.force.is_prescribed || displacement.len() != 12 {
+        if self.axial_force.is_prescribed || displacement.len() != 12 {
             return None;
         }
         let to_local = self.to_local(&axes);
-        let along_at = |end: usize| {
+        let axial_displacement = |end: usize| {
             let row = to_local[6 * end];
             row.iter().zip(displacement).map(|(a, b)| a * b).sum::<f64>()
         };
-        // Displacements of the nodes are exact, so the compression is the mean over the length. It varies between
-        // the ends because of the element's weight.
-        let force = AxialForce {
-            compression: -self.axial_stiffness / axes.length * (along_at(1) - along_at(0)),
+        // Displacements of the nodes are exact, so the compression by the elongation is the mean over the length. The
+        // compression varies between the ends because of the element's weight.
+        let axial_force = AxialForce {
+            compression: -self.axial_stiffness / axes.length
+                * (axial_displacement(1) - axial_displacement(0)),
             taper: self.mass_per_length * gravity * (ends[1][2] - ends[0][2]),
             is_prescribed: false,
         };
-        Some(Box::new(Self { force, ..self.clone() }))
+        Some(Box::new(Self { axial_force, ..self.clone() }))
     }
 
     fn compression(&self) -> Option<f64> {
-        Some(self.force.compression)
+        Some(self.axial_force.compression)
     }
 
-    /// Lumped: half the mass at each end, with the rotary inertia m L²/78, and half of the polar inertia.
+    /// Lumped: half the mass, half the polar inertia and the rotary inertia m L²/78 at each end.
     ///
-    /// It is diagonal in the axes of the beam at its ends.
+    /// The lumped matrix is diagonal at the ends, in the axes of the beam.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let Some(axes) = self.axes(coordinates) else {
             return;
         };
-        let mut local = self.local_mass(kind, axes.length);
+        let mut local_mass = self.local_mass(kind, axes.length);
         let to_local = match kind {
             MassKind::Consistent => self.to_local(&axes),
             MassKind::Lumped => {
-                self.releases.clear(&mut local);
+                self.releases.clear(&mut local_mass);
                 axes.to_local(&self.offsets)
             }
         };
-        add_transformed(&local, &to_local, matrix);
+        add_transformed(&local_mass, &to_local, matrix);
     }
 
     /// [`Error::Input`] in an [`Error::Item`] when the ends coincide or the orientation lies along the beam.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a beam", coordinates.len(), 2)?;
         let ends = self.ends(coordinates).unwrap_or_default();
-        let axes = Axes::new(ends, self.orientation);
-        axes.map(drop).map_err(|fault| named(self.nodes, fault))
+        let axes = BeamAxes::new(ends, self.orientation);
+        axes.map(drop).map_err(|fault| within_beam(self.nodes, fault))
     }
 }
 
-/// A fault of the beam between these nodes.
-fn named([first, second]: [usize; 2], fault: Error) -> Error {
+/// Adds the nodes of a beam to its error.
+fn within_beam([first, second]: [usize; 2], fault: Error) -> Error {
     fault.within(format!("beam between nodes {first} and {second}"))
 }
 
-/// Local matrix of displacements along x, rotations about x, and bending along y and along z.
-fn local(axial: &BarMatrix, torsion: &BarMatrix, bending: &[EndMatrix; 2]) -> EndsMatrix {
+/// Local matrix of axial displacements, torsion, and bending along y and along z.
+fn local_matrix(
+    axial: &BarMatrix,
+    torsion: &BarMatrix,
+    bending: &[BendingMatrix; 2],
+) -> EndsMatrix {
     let mut matrix = [[0.0; 12]; 12];
-    put(axial, [0, 6], &mut matrix);
-    put(torsion, [3, 9], &mut matrix);
-    put(&bending[0], [1, 5, 7, 11], &mut matrix);
+    copy_block(axial, [0, 6], &mut matrix);
+    copy_block(torsion, [3, 9], &mut matrix);
+    copy_block(&bending[0], [1, 5, 7, 11], &mut matrix);
     // The slope of a deflection along z is minus the rotation about y.
     let signs = [1.0, -1.0, 1.0, -1.0];
     let mut along_z = bending[1];
@@ -335,6 +347,6 @@ fn local(axial: &BarMatrix, torsion: &BarMatrix, bending: &[EndMatrix; 2]) -> En
             *value *= signs[i] * signs[j];
         }
     }
-    put(&along_z, [2, 4, 8, 10], &mut matrix);
+    copy_block(&along_z, [2, 4, 8, 10], &mut matrix);
     matrix
 }

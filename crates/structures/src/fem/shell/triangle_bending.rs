@@ -1,17 +1,17 @@
-//! Bending of the triangle: MITC3+ with a bound on the rotation about the normal of its shear strains.
+//! Bending of the triangle: MITC3+ with a bounded linear part of the shear strains.
 
 use super::section::ShellSection;
-use crate::fem::condensation::{complete, condense};
+use crate::fem::element_matrix::{condense, recover_inner};
 use crate::fem::quad4::integrate_stiffness;
 
-/// Degrees of freedom of the nodes: w, θ1, θ2 each.
+/// Number of degrees of freedom of the nodes: w, θ1, θ2 of each node.
 const NODAL_DOF_COUNT: usize = 9;
 
-/// Degrees of freedom with the two rotations of the bubble.
+/// Number of degrees of freedom with the two rotations of the bubble.
 const FULL_DOF_COUNT: usize = 11;
 
-/// Slopes (∂/∂r, ∂/∂s) of the area coordinates 1 − r − s, r, s.
-const SHAPE_SLOPES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
+/// Derivatives (∂/∂r, ∂/∂s) of the area coordinates 1 − r − s, r, s.
+const SHAPE_DERIVATIVES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
 
 /// Middles of the sides 1–2, 1–3 and 2–3.
 const SIDE_MIDPOINTS: [[f64; 2]; 3] = [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5]];
@@ -20,14 +20,14 @@ const SIDE_MIDPOINTS: [[f64; 2]; 3] = [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5]];
 const TYING_POINTS: [[f64; 2]; 3] =
     [[1.0 / 6.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 6.0], [1.0 / 6.0, 1.0 / 6.0]];
 
-/// Places (r, s) of the nodes.
+/// Coordinates (r, s) of the nodes.
 const NODE_COORDINATES: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 
 /// Plate of a triangle in its plane (Lee, Lee & Bathe 2014, with one change).
 ///
-/// The published element takes the linear part ĉ of its shear strains close to the centroid, where it nearly
-/// vanishes: the element is then almost a mechanism, or locks. Here ĉ belongs to the middles of the sides and is
-/// multiplied by t/√(t² + l²), l the longest side.
+/// The published element evaluates the linear part ĉ of its shear strains close to the centroid, where ĉ nearly vanishes:
+/// the element is then almost a mechanism, or locks. Here ĉ is evaluated at the middles of the sides and multiplied by
+/// t/√(t² + l²), with the longest side l.
 pub(super) struct TriangleBending<'a> {
     pub(super) points: &'a [[f64; 2]; 3],
     pub(super) section: &'a ShellSection,
@@ -38,10 +38,10 @@ impl TriangleBending<'_> {
     ///
     /// The degrees of freedom are w, θ1, θ2 of the nodes.
     pub(super) fn stiffness(&self) -> [[f64; FULL_DOF_COUNT]; FULL_DOF_COUNT] {
-        let shears = self.shears();
-        let moduli = self.section.bending_and_shear();
-        let mut matrix = integrate_stiffness(&moduli, radon_rule().into_iter(), |point| {
-            self.strains(point, &shears)
+        let shear_fields = self.shear_fields();
+        let plate_stiffness = self.section.plate_stiffness();
+        let mut matrix = integrate_stiffness(&plate_stiffness, radon_rule().into_iter(), |point| {
+            self.strains(point, &shear_fields)
         });
         condense(&mut matrix, NODAL_DOF_COUNT);
         matrix
@@ -49,106 +49,109 @@ impl TriangleBending<'_> {
 
     /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners by w, θ1, θ2 of the nodes.
     pub(super) fn corner_strains(&self, displacement: &[f64; NODAL_DOF_COUNT]) -> [[f64; 5]; 3] {
-        let mut values = [0.0; FULL_DOF_COUNT];
-        values[..NODAL_DOF_COUNT].copy_from_slice(displacement);
-        complete(&self.stiffness(), NODAL_DOF_COUNT, &mut values);
-        let shears = self.shears();
+        let mut full_displacement = [0.0; FULL_DOF_COUNT];
+        full_displacement[..NODAL_DOF_COUNT].copy_from_slice(displacement);
+        recover_inner(&self.stiffness(), NODAL_DOF_COUNT, &mut full_displacement);
+        let shear_fields = self.shear_fields();
         NODE_COORDINATES.map(|corner| {
-            let columns = self.strains(corner, &shears).0;
-            std::array::from_fn(|k| columns.iter().zip(&values).map(|(e, u)| e[k] * u).sum())
+            let columns = self.strains(corner, &shear_fields).0;
+            std::array::from_fn(|k| {
+                columns.iter().zip(&full_displacement).map(|(e, u)| e[k] * u).sum()
+            })
         })
     }
 
-    /// Strains at a point due to each degree of freedom, and the determinant of the Jacobian.
+    /// Strains at a point by each degree of freedom, and the Jacobian determinant.
     ///
-    /// Columns `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
+    /// Each entry holds `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
     fn strains(
         &self,
         [r, s]: [f64; 2],
-        shears: &[ShearField; FULL_DOF_COUNT],
+        shear_fields: &[ShearField; FULL_DOF_COUNT],
     ) -> ([[f64; 5]; FULL_DOF_COUNT], f64) {
         let tangents = self.tangents();
         let determinant = tangents[0][0] * tangents[1][1] - tangents[1][0] * tangents[0][1];
-        // Slopes (∂/∂x, ∂/∂y) from slopes (∂/∂r, ∂/∂s).
-        let global = |[dr, ds]: [f64; 2]| {
+        // Derivatives (∂/∂x, ∂/∂y) by derivatives (∂/∂r, ∂/∂s).
+        let global_derivatives = |[dr, ds]: [f64; 2]| {
             [
                 (tangents[1][1] * dr - tangents[0][1] * ds) / determinant,
                 (tangents[0][0] * ds - tangents[1][0] * dr) / determinant,
             ]
         };
         let mut columns = [[0.0; 5]; FULL_DOF_COUNT];
-        for (pattern, slopes) in rotation_slopes([r, s]).into_iter().enumerate() {
-            let [dx, dy] = global(slopes);
+        for (pattern, derivatives) in rotation_derivatives([r, s]).into_iter().enumerate() {
+            let [dx, dy] = global_derivatives(derivatives);
             let dofs = rotation_dofs(pattern);
             columns[dofs[0]] = [0.0, -dy, -dx, 0.0, 0.0];
             columns[dofs[1]] = [dx, 0.0, dy, 0.0, 0.0];
         }
-        for (column, shear) in columns.iter_mut().zip(shears) {
-            let along_r = shear.constant[0] + shear.twist * (3.0 * s - 1.0) / 3.0;
-            let along_s = shear.constant[1] + shear.twist * (1.0 - 3.0 * r) / 3.0;
-            column[3..].copy_from_slice(&global([along_r, along_s]));
+        for (column, shear) in columns.iter_mut().zip(shear_fields) {
+            let shear_r = shear.constant[0] + shear.twist * (3.0 * s - 1.0) / 3.0;
+            let shear_s = shear.constant[1] + shear.twist * (1.0 - 3.0 * r) / 3.0;
+            column[3..].copy_from_slice(&global_derivatives([shear_r, shear_s]));
         }
         (columns, determinant)
     }
 
-    /// Constant and linear part of the covariant shear strains, by each degree of freedom.
-    fn shears(&self) -> [ShearField; FULL_DOF_COUNT] {
-        let tying = TYING_POINTS.map(|point| self.displacement_shears(point));
-        let sides = SIDE_MIDPOINTS.map(|point| self.displacement_shears(point));
+    /// Covariant shear strains by each degree of freedom.
+    fn shear_fields(&self) -> [ShearField; FULL_DOF_COUNT] {
+        let tying_strains = TYING_POINTS.map(|point| self.displacement_shears(point));
+        let side_strains = SIDE_MIDPOINTS.map(|point| self.displacement_shears(point));
         let thickness = self.section.thickness;
-        let factor = thickness / thickness.hypot(self.longest_side());
+        let twist_factor = thickness / thickness.hypot(self.longest_side());
         std::array::from_fn(|k| {
             // Strains at the tying points near the nodes 3, 2 and 1.
-            let [near_3, near_2, near_1] = tying.map(|strains| strains[k]);
-            let [side_12, side_13, side_23] = sides.map(|strains| strains[k]);
+            let [near_3, near_2, near_1] = tying_strains.map(|strains| strains[k]);
+            let [side_12, side_13, side_23] = side_strains.map(|strains| strains[k]);
             ShearField {
                 constant: [
                     2.0 / 3.0 * (near_2[0] - 0.5 * near_2[1]) + (near_1[0] + near_1[1]) / 3.0,
                     2.0 / 3.0 * (near_3[1] - 0.5 * near_3[0]) + (near_1[0] + near_1[1]) / 3.0,
                 ],
-                twist: factor * (side_23[0] - side_12[0] - side_23[1] + side_13[1]),
+                twist: twist_factor * (side_23[0] - side_12[0] - side_23[1] + side_13[1]),
             }
         })
     }
 
-    /// Covariant shear strains of the displacements due to each degree of freedom.
+    /// Covariant shear strains of the displacement field, by each degree of freedom.
     ///
     /// They are w,r + x,r θ2 − y,r θ1 and w,s + x,s θ2 − y,s θ1.
     fn displacement_shears(&self, [r, s]: [f64; 2]) -> [[f64; 2]; FULL_DOF_COUNT] {
         let tangents = self.tangents();
         let mut columns = [[0.0; 2]; FULL_DOF_COUNT];
-        for (node, slopes) in SHAPE_SLOPES.into_iter().enumerate() {
-            columns[3 * node] = slopes;
+        for (node, derivatives) in SHAPE_DERIVATIVES.into_iter().enumerate() {
+            columns[3 * node] = derivatives;
         }
-        for (pattern, weight) in rotation_shapes([r, s]).into_iter().enumerate() {
+        for (pattern, shape_value) in rotation_shapes([r, s]).into_iter().enumerate() {
             let dofs = rotation_dofs(pattern);
-            columns[dofs[0]] = tangents.map(|tangent| -tangent[1] * weight);
-            columns[dofs[1]] = tangents.map(|tangent| tangent[0] * weight);
+            columns[dofs[0]] = tangents.map(|tangent| -tangent[1] * shape_value);
+            columns[dofs[1]] = tangents.map(|tangent| tangent[0] * shape_value);
         }
         columns
     }
 
-    /// ∂(x, y)/∂r and ∂(x, y)/∂s.
+    /// Tangent vectors ∂(x, y)/∂r and ∂(x, y)/∂s.
     fn tangents(&self) -> [[f64; 2]; 2] {
         let origin = self.points[0];
         [1, 2].map(|node| [0, 1].map(|axis| self.points[node][axis] - origin[axis]))
     }
 
+    /// Length of the longest side, m.
     fn longest_side(&self) -> f64 {
-        let mut longest = 0.0_f64;
-        for (i, from) in self.points.iter().enumerate() {
-            let to = self.points[(i + 1) % 3];
-            longest = longest.max((to[0] - from[0]).hypot(to[1] - from[1]));
+        let mut max_length = 0.0_f64;
+        for (side, start) in self.points.iter().enumerate() {
+            let end = self.points[(side + 1) % 3];
+            max_length = max_length.max((end[0] - start[0]).hypot(end[1] - start[1]));
         }
-        longest
+        max_length
     }
 }
 
 /// Covariant shear strains of a degree of freedom, linear over the element.
 struct ShearField {
-    /// Values along r and s at the centroid.
+    /// Strains along r and along s at the centroid.
     constant: [f64; 2],
-    /// Slope of the strain along r with s, which is minus the slope of the other with r.
+    /// Derivative by s of the strain along r, and minus the derivative by r of the strain along s.
     twist: f64,
 }
 
@@ -161,25 +164,28 @@ fn rotation_dofs(pattern: usize) -> [usize; 2] {
     }
 }
 
-/// Shape functions of the rotations: of the three nodes, and the bubble.
+/// Shape functions of the rotations of the three nodes and of the bubble.
 ///
-/// Of the nodes L_i less a third of the bubble 27 L_1 L_2 L_3.
+/// The bubble is 27 L_1 L_2 L_3 with the area coordinates L_i. The function of a node is L_i less a third of the bubble.
 fn rotation_shapes([r, s]: [f64; 2]) -> [f64; 4] {
     let bubble = 27.0 * r * s * (1.0 - r - s);
     [1.0 - r - s - bubble / 3.0, r - bubble / 3.0, s - bubble / 3.0, bubble]
 }
 
-/// Slopes (∂/∂r, ∂/∂s) of the shape functions of the rotations.
-fn rotation_slopes([r, s]: [f64; 2]) -> [[f64; 2]; 4] {
+/// Derivatives (∂/∂r, ∂/∂s) of the shape functions of the rotations.
+fn rotation_derivatives([r, s]: [f64; 2]) -> [[f64; 2]; 4] {
     let bubble = [27.0 * s * (1.0 - 2.0 * r - s), 27.0 * r * (1.0 - r - 2.0 * s)];
-    let mut slopes = [bubble; 4];
-    for (nodal, linear) in slopes.iter_mut().zip(SHAPE_SLOPES) {
-        *nodal = [linear[0] - bubble[0] / 3.0, linear[1] - bubble[1] / 3.0];
+    let mut derivatives = [bubble; 4];
+    for (node_derivatives, area_derivatives) in derivatives.iter_mut().zip(SHAPE_DERIVATIVES) {
+        *node_derivatives =
+            [area_derivatives[0] - bubble[0] / 3.0, area_derivatives[1] - bubble[1] / 3.0];
     }
-    slopes
+    derivatives
 }
 
-/// Radon's rule of seven points in (r, s), exact to degree 5; the weights sum to 1/2.
+/// Radon's integration rule of seven points in (r, s), exact for polynomials of degree 5.
+///
+/// The sum of the weights is the area 1/2.
 fn radon_rule() -> [([f64; 2], f64); 7] {
     let mut points = [([1.0 / 3.0, 1.0 / 3.0], 9.0 / 80.0); 7];
     for (orbit, sign) in points[1..].chunks_exact_mut(3).zip([-1.0, 1.0]) {

@@ -1,17 +1,18 @@
 //! Membrane of the triangle: Felippa's optimal triangle with rotations about the normal.
 
 use super::section::ShellSection;
-use crate::fem::quad4::add_energy;
+use crate::fem::quad4::add_point_stiffness;
 
-/// Degrees of freedom: u, v, ω of each node.
+/// Number of degrees of freedom: u, v, ω of each node.
 const DOF_COUNT: usize = 9;
 
-/// Bulge of a side relative to the bulge of a quadrilateral's side: α_b.
+/// Parameter α_b: bulge of a side relative to the bulge of a quadrilateral's side.
 const SIDE_BULGE_RATIO: f64 = 1.5;
 
-/// Parameters β₁ to β₉ of the strains due to the rotations.
-///
-/// In rows: at node 1, 2 and 3.
+/// Smallest factor β₀ of the deviatoric stiffness, which would vanish as ν → 1/2 (Felippa 2003).
+const MIN_DEVIATORIC_FACTOR: f64 = 0.01;
+
+/// Factors β₁ to β₉ of the natural strains by the rotations, with signs: by node, side and rotation.
 const ROTATION_STRAIN_PARAMETERS: [[[f64; 3]; 3]; 3] = [
     [[1.0, 2.0, 1.0], [0.0, 1.0, -1.0], [-1.0, -1.0, -2.0]],
     [[-2.0, -1.0, -1.0], [1.0, 1.0, 2.0], [-1.0, 0.0, 1.0]],
@@ -27,57 +28,59 @@ pub(super) struct TriangleMembrane<'a> {
 }
 
 impl TriangleMembrane<'_> {
-    /// Stiffness by u, v, ω of the nodes.
+    /// Stiffness matrix for u, v, ω of the nodes.
     pub(super) fn stiffness(&self) -> [[f64; DOF_COUNT]; DOF_COUNT] {
-        let moduli = self.section.membrane();
+        let membrane_stiffness = self.section.membrane_stiffness();
         let area = self.area();
         let mut matrix = [[0.0; DOF_COUNT]; DOF_COUNT];
-        add_energy(&mut matrix, &self.mean_strains(), &moduli, area);
-        let strains = [0, 1, 2].map(|node| self.deviatoric_strains(node));
+        add_point_stiffness(&mut matrix, &self.mean_strains(), &membrane_stiffness, area);
+        let nodal_strains = [0, 1, 2].map(|node| self.deviatoric_strains(node));
         for side in 0..3 {
-            let first = strains[side];
-            let second = strains[(side + 1) % 3];
-            let middle = std::array::from_fn(|k| mean(first[k], second[k]));
-            add_energy(&mut matrix, &middle, &moduli, 0.75 * self.deviatoric_factor() * area);
+            let first_strains = nodal_strains[side];
+            let second_strains = nodal_strains[(side + 1) % 3];
+            let side_strains = std::array::from_fn(|k| mean(first_strains[k], second_strains[k]));
+            let weighted_area = 0.75 * self.deviatoric_factor() * area;
+            add_point_stiffness(&mut matrix, &side_strains, &membrane_stiffness, weighted_area);
         }
         matrix
     }
 
     /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners by u, v, ω of the nodes.
     pub(super) fn corner_strains(&self, displacement: &[f64; DOF_COUNT]) -> [[f64; 3]; 3] {
-        let constant = self.mean_strains();
+        let mean_strains = self.mean_strains();
         [0, 1, 2].map(|node| {
-            let linear = self.deviatoric_strains(node);
+            let deviatoric_strains = self.deviatoric_strains(node);
             std::array::from_fn(|k| {
-                let columns = constant.iter().zip(&linear).zip(displacement);
-                columns.map(|((mean, deviation), u)| (mean[k] + deviation[k]) * u).sum()
+                let columns = mean_strains.iter().zip(&deviatoric_strains).zip(displacement);
+                columns.map(|((mean, deviatoric), u)| (mean[k] + deviatoric[k]) * u).sum()
             })
         })
     }
 
-    /// β₀: factor of the stiffness of the deviatoric strains.
+    /// Factor β₀ of the stiffness of the deviatoric strains.
     fn deviatoric_factor(&self) -> f64 {
-        (0.5 * (1.0 - 4.0 * self.section.poisson.powi(2))).max(0.01)
+        (0.5 * (1.0 - 4.0 * self.section.poisson.powi(2))).max(MIN_DEVIATORIC_FACTOR)
     }
 
-    /// x_i − x_j, m.
+    /// Difference x_i − x_j of node coordinates, m.
     fn x(&self, i: usize, j: usize) -> f64 {
         self.points[i][0] - self.points[j][0]
     }
 
-    /// y_i − y_j, m.
+    /// Difference y_i − y_j of node coordinates, m.
     fn y(&self, i: usize, j: usize) -> f64 {
         self.points[i][1] - self.points[j][1]
     }
 
+    /// Area, m².
     fn area(&self) -> f64 {
         0.5 * (self.x(1, 0) * self.y(2, 0) - self.x(2, 0) * self.y(1, 0))
     }
 
-    /// Mean strains, constant over the element, by each degree of freedom: Lᵀ/A.
+    /// Mean strains Lᵀ/A by each degree of freedom, constant over the element.
     fn mean_strains(&self) -> [[f64; 3]; DOF_COUNT] {
         let area = self.area();
-        let bulges = self
+        let side_bulges = self
             .shared_sides
             .map(|is_shared| if is_shared { 1.0 } else { SIDE_BULGE_RATIO } / 12.0);
         let mut columns = [[0.0; 3]; DOF_COUNT];
@@ -86,42 +89,44 @@ impl TriangleMembrane<'_> {
             let k = (i + 2) % 3;
             columns[3 * i] = [0.5 * self.y(j, k), 0.0, 0.5 * self.x(k, j)];
             columns[3 * i + 1] = [0.0, 0.5 * self.x(k, j), 0.5 * self.y(j, k)];
-            // A constant stress does work on the bulges of the side before the node and of the side after it.
-            let before = bulges[k];
-            let after = bulges[i];
+            // A constant stress does work on the bulges of the two sides at the node.
+            let previous_bulge = side_bulges[k];
+            let next_bulge = side_bulges[i];
             let x_ij = self.x(i, j);
             let y_ij = self.y(i, j);
             let x_ik = self.x(i, k);
             let y_ik = self.y(i, k);
             columns[3 * i + 2] = [
-                before * y_ik.powi(2) - after * y_ij.powi(2),
-                before * x_ik.powi(2) - after * x_ij.powi(2),
-                2.0 * (after * x_ij * y_ij - before * x_ik * y_ik),
+                previous_bulge * y_ik.powi(2) - next_bulge * y_ij.powi(2),
+                previous_bulge * x_ik.powi(2) - next_bulge * x_ij.powi(2),
+                2.0 * (next_bulge * x_ij * y_ij - previous_bulge * x_ik * y_ik),
             ];
         }
         columns.map(|column| column.map(|value| value / area))
     }
 
-    /// Strains at a node beyond the mean ones, T_e Q T_θu, by each degree of freedom.
+    /// Strains at a node less the mean strains, T_e Q T_θu, by each degree of freedom.
     fn deviatoric_strains(&self, node: usize) -> [[f64; 3]; DOF_COUNT] {
         let area = self.area();
-        let natural = self.natural_to_plane();
-        let mut by_rotation = [[0.0; 3]; 3];
+        let natural_to_plane = self.natural_to_plane();
+        let mut rotation_strains = [[0.0; 3]; 3];
         for side in 0..3 {
             let factor = 2.0 * area / (3.0 * self.squared_side(side));
             for rotation in 0..3 {
                 for k in 0..3 {
-                    by_rotation[rotation][k] += natural[k][side]
+                    rotation_strains[rotation][k] += natural_to_plane[k][side]
                         * factor
                         * ROTATION_STRAIN_PARAMETERS[node][side][rotation];
                 }
             }
         }
         let mut columns = [[0.0; 3]; DOF_COUNT];
-        for (rotation, strain) in by_rotation.iter().enumerate() {
-            for (column, weight) in columns.iter_mut().zip(self.hierarchical_rotation(rotation)) {
+        for (rotation, strain) in rotation_strains.iter().enumerate() {
+            for (column, rotation_weight) in
+                columns.iter_mut().zip(self.hierarchical_rotation(rotation))
+            {
                 for k in 0..3 {
-                    column[k] += weight * strain[k];
+                    column[k] += rotation_weight * strain[k];
                 }
             }
         }
@@ -148,7 +153,7 @@ impl TriangleMembrane<'_> {
         self.x(next, side).powi(2) + self.y(next, side).powi(2)
     }
 
-    /// Strains `[ε_xx, ε_yy, γ_xy]` in rows, by the strains along the three sides.
+    /// Transformation of the strains along the three sides to `[ε_xx, ε_yy, γ_xy]`.
     fn natural_to_plane(&self) -> [[f64; 3]; 3] {
         let mut rows = [[0.0; 3]; 3];
         let area = self.area();

@@ -2,7 +2,7 @@
 
 use super::biaxial::BiaxialSpring;
 use super::coupled_slider::CoupledSlider;
-use super::slider::{Slider, elastic_share, slider_law};
+use super::slider::{Slider, elastic_fraction, slider_law};
 use crate::error::{Result, positive};
 
 /// Bilinear force with kinematic hardening: yielding columns, braces, dampers of mild steel.
@@ -25,19 +25,18 @@ impl Bilinear {
     pub fn new(stiffness: f64, yield_force: f64, hardening: f64) -> Result<Self> {
         positive("stiffness of the bilinear spring", stiffness)?;
         positive("yield force of the bilinear spring", yield_force)?;
-        let share = elastic_share(hardening)?;
+        let elastic_ratio = elastic_fraction(hardening)?;
         let slider = Slider::new(
             hardening * stiffness,
-            positive("stiffness of the bilinear spring", share * stiffness)?,
-            positive("yield force of the bilinear spring", share * yield_force)?,
+            positive("stiffness of the bilinear spring", elastic_ratio * stiffness)?,
+            positive("yield force of the bilinear spring", elastic_ratio * yield_force)?,
         );
         Ok(Self { slider })
     }
 
-    /// A new spring with these numbers in two directions.
+    /// A new spring with these parameters for two directions.
     ///
-    /// F − α k d yields on a circle of the radius (1 − α) F_y and follows the deformation by radial return, with
-    /// kinematic hardening.
+    /// The force F − α k d yields on a circle of the radius (1 − α) F_y, with radial return and kinematic hardening.
     pub fn coupled(&self) -> BiaxialSpring {
         CoupledSlider::new(&self.slider).into()
     }

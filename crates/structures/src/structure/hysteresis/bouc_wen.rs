@@ -1,12 +1,17 @@
-//! Bouc–Wen spring.
+//! Bouc–Wen spring with one deformation.
 
 use super::biaxial::BiaxialSpring;
 use super::coupled_bouc_wen::CoupledBoucWen;
-use super::slider::elastic_share;
-use super::{Hysteresis, SpringResponse, corrupt};
+use super::slider::elastic_fraction;
+use super::{Hysteresis, SpringResponse, corrupt_state};
 use crate::error::{Result, positive, require};
 use crate::linalg::gauss;
 use crate::structure::InternalEnergy;
+
+/// Exponent n without [`BoucWen::with_shape`]: that of the coupled law, whose loops are elementary functions.
+const DEFAULT_EXPONENT: f64 = 2.0;
+/// β without [`BoucWen::with_shape`]: unloading is straight.
+const DEFAULT_BETA: f64 = 0.5;
 
 /// Bouc–Wen hysteresis (Bouc 1967, Wen 1976) with a smooth transition to yield.
 ///
@@ -14,9 +19,8 @@ use crate::structure::InternalEnergy;
 /// F = α k d + (1 − α) F_y z,      ż = (1 − (β sgn(ḋ z) + γ)|z|ⁿ) ḋ/d_y,      β + γ = 1,  d_y = F_y/k
 /// ```
 ///
-/// Steps follow this equation exactly on straight paths, however long they are. With β ≥ ½ the spring never
-/// releases more energy than it has stored (Erlicher & Point 2004). Stored energy is ½ α k d² + ½ (1−α) F_y d_y
-/// z².
+/// Steps follow this equation exactly on straight paths of any length. With β ≥ ½ the spring never releases more energy
+/// than it has stored (Erlicher & Point 2004). The stored energy is ½ α k d² + ½ (1−α) F_y d_y z².
 ///
 /// ```
 /// use basemat::structure::{BoucWen, Hysteresis};
@@ -31,17 +35,20 @@ pub struct BoucWen {
     stiffness: f64,
     yield_force: f64,
     hardening: f64,
-    curve: LoopShape,
+    loop_shape: LoopShape,
+    /// Deformation at the end of the last committed step, m.
     deformation: f64,
+    /// Hysteretic variable there.
     z: f64,
+    /// Dissipated energy there, J.
     dissipated: f64,
 }
 
 impl BoucWen {
-    /// Spring with first stiffness k, yield force F_y and hardening α.
+    /// Spring with initial stiffness k, yield force F_y and hardening α.
     ///
-    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the last slope to the first. All per metre of
-    /// thickness. The exponent n is 2 and β is ½ unless set otherwise.
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the final to the initial stiffness. Stiffness and force are
+    /// per metre of thickness. The exponent n is 2 and β is ½ unless set otherwise.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
@@ -49,12 +56,12 @@ impl BoucWen {
         positive("stiffness of the Bouc–Wen spring", stiffness)?;
         positive("yield force of the Bouc–Wen spring", yield_force)?;
         positive("yield displacement of the Bouc–Wen spring", yield_force / stiffness)?;
-        elastic_share(hardening)?;
+        elastic_fraction(hardening)?;
         Ok(Self {
             stiffness,
             yield_force,
             hardening,
-            curve: LoopShape::new(2.0, 0.5),
+            loop_shape: LoopShape::new(DEFAULT_EXPONENT, DEFAULT_BETA),
             deformation: 0.0,
             z: 0.0,
             dissipated: 0.0,
@@ -63,8 +70,8 @@ impl BoucWen {
 
     /// Sets the exponent n and β.
     ///
-    /// The larger n, the sharper the spring yields. With β = ½ it unloads straight, above ½ along a curve that
-    /// bulges.
+    /// A larger n makes the transition to yield sharper. With β = ½ unloading is straight; with β above ½ the unloading
+    /// curve bulges.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 1 ≤ n ≤ 10 and ½ ≤ β ≤ 1.
@@ -75,74 +82,77 @@ impl BoucWen {
         ] {
             require(quantity, value, range.contains(&value), needed)?;
         }
-        self.curve = LoopShape::new(exponent, beta);
+        self.loop_shape = LoopShape::new(exponent, beta);
         Ok(self)
     }
 
-    /// A new spring with these numbers in two directions: the law of Park, Wen & Ang (1986).
+    /// A new spring with these parameters for two directions.
+    ///
+    /// Its law is that of Park, Wen & Ang (1986),
     ///
     /// ```text
     /// F = α k d + (1 − α) F_y z,      ż = (ḋ − (β |ḋ·z| + γ ḋ·z) z)/d_y
     /// ```
     ///
-    /// with vectors F, d and z. Steps follow this equation exactly on straight paths, however long they are. |ḋ·z|
-    /// replaces the sum |ḋ_x z_x| + |ḋ_y z_y| of the paper, which depends on the axes: on an ellipse of 3 by 1.5 d_y
-    /// its force changes by 0.11 F_y if the axes turn by 45°. Both agree along straight lines.
+    /// with vectors F, d and z. Steps follow this equation exactly on straight paths of any length. |ḋ·z| replaces the sum
+    /// |ḋ_x z_x| + |ḋ_y z_y| of the paper, with which the force depends on the axes: on an ellipse of 3 by 1.5 d_y it
+    /// changes by 0.11 F_y if the axes are rotated by 45°. Both laws agree along straight lines.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the exponent is 2, as in the paper.
     pub fn coupled(&self) -> Result<BiaxialSpring> {
-        let exponent = self.curve.exponent;
+        let exponent = self.loop_shape.exponent;
         let quantity = "exponent of the coupled Bouc–Wen spring";
         require(quantity, exponent, exponent == 2.0, "2")?;
-        let unloading = self.curve.unloading;
+        let unloading = self.loop_shape.unloading;
         let law = CoupledBoucWen::new(self.stiffness, self.yield_force, self.hardening, unloading);
         Ok(law.into())
     }
 
-    /// The straight path to a deformation.
-    fn follow(&self, deformation: f64) -> PathEnd {
+    /// State at the end of a straight path to a deformation.
+    fn path_end(&self, deformation: f64) -> PathEnd {
         let change = deformation - self.deformation;
-        let side = if change == 0.0 { -self.z.signum() } else { change.signum() };
-        let way = change.abs() * self.stiffness / self.yield_force;
-        let (y, lost) = self.curve.advance(side * self.z, way);
-        PathEnd { z: side * y, slope: self.curve.slope(y), lost }
+        let direction = if change == 0.0 { -self.z.signum() } else { change.signum() };
+        let path_length = change.abs() * self.stiffness / self.yield_force;
+        let LoopEnd { y, lost_energy } = self.loop_shape.advance(direction * self.z, path_length);
+        PathEnd { z: direction * y, slope: self.loop_shape.slope(y), lost_energy }
     }
 }
 
 /// End of a straight path.
 struct PathEnd {
     z: f64,
-    /// dz/d(d/d_y).
+    /// Derivative dz/d(d/d_y).
     slope: f64,
     /// Energy dissipated on the path, in units of (1 − α) F_y d_y.
-    lost: f64,
+    lost_energy: f64,
 }
 
 impl Hysteresis for BoucWen {
     fn response(&self, deformation: f64) -> SpringResponse {
-        let PathEnd { z, slope, .. } = self.follow(deformation);
+        let PathEnd { z, slope, .. } = self.path_end(deformation);
         let k = self.stiffness;
-        let hysteretic = 1.0 - self.hardening;
+        let hysteretic_fraction = 1.0 - self.hardening;
         SpringResponse {
-            force: self.hardening * k * deformation + hysteretic * self.yield_force * z,
-            tangent: (self.hardening + hysteretic * slope) * k,
+            force: self.hardening * k * deformation + hysteretic_fraction * self.yield_force * z,
+            tangent: (self.hardening + hysteretic_fraction * slope) * k,
         }
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        let PathEnd { z, lost, .. } = self.follow(deformation);
-        let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
-        let elastic = self.hardening * self.stiffness * deformation * deformation;
+        let PathEnd { z, lost_energy, .. } = self.path_end(deformation);
+        let energy_scale =
+            (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
+        let parallel_energy = self.hardening * self.stiffness * deformation * deformation;
         InternalEnergy {
-            stored: 0.5 * (elastic + unit * z * z),
-            dissipated: self.dissipated + unit * lost,
+            stored: 0.5 * (parallel_energy + energy_scale * z * z),
+            dissipated: self.dissipated + energy_scale * lost_energy,
         }
     }
 
     fn commit(&mut self, deformation: f64) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.z = self.follow(deformation).z;
+        self.z = self.path_end(deformation).z;
         self.deformation = deformation;
     }
 
@@ -161,7 +171,7 @@ impl Hysteresis for BoucWen {
                 (self.deformation, self.z, self.dissipated) = (deformation, z, dissipated);
                 Ok(())
             }
-            _ => Err(corrupt()),
+            _ => Err(corrupt_state()),
         }
     }
 
@@ -170,119 +180,147 @@ impl Hysteresis for BoucWen {
     }
 }
 
-/// Exponent and shape of z, with the integrals of its equation.
+/// Shape of the hysteresis loop: y = ±z in the direction of a path, over the path length ξ = |d|/d_y.
+///
+/// dy/dξ = 1 − yⁿ while the spring loads (y > 0), and 1 + b |y|ⁿ while it unloads (y < 0).
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct LoopShape {
+struct LoopShape {
+    /// Exponent n.
     exponent: f64,
-    /// b = β − γ.
+    /// Factor b = β − γ.
     unloading: f64,
 }
 
-/// Limit of Newton's iterations, which converge from one side and finally quadratically.
+/// End of a path along the loop.
+struct LoopEnd {
+    y: f64,
+    /// Energy ∫ y (1 − dy/dξ) dξ dissipated on the path.
+    lost_energy: f64,
+}
+
+/// Largest number of Newton iterations, which converge from one side and finally quadratically.
 const MAX_NEWTON_ITERATIONS: usize = 60;
+/// Change of y ≤ 1 at which Newton's method has converged: rounding.
+const UNLOADING_TOLERANCE: f64 = 1e-16;
+/// Relative change of v at which Newton's method has converged: a few roundings.
+const LOADING_TOLERANCE: f64 = 1e-15;
+/// Relative size of a term that no longer changes the sum of a series.
+const NEGLIGIBLE_TERM_RATIO: f64 = 1e-18;
+/// Argument up to which integrals are evaluated by series, whose terms then at least halve.
+const MAX_SERIES_ARGUMENT: f64 = 0.5;
 
 impl LoopShape {
-    pub(super) fn new(exponent: f64, beta: f64) -> Self {
+    fn new(exponent: f64, beta: f64) -> Self {
         Self { exponent, unloading: 2.0 * beta - 1.0 }
     }
 
-    /// dy/dξ.
-    pub(super) fn slope(&self, y: f64) -> f64 {
+    /// Derivative dy/dξ.
+    fn slope(&self, y: f64) -> f64 {
         let power = y.abs().powf(self.exponent);
         if y > 0.0 { 1.0 - power } else { 1.0 + self.unloading * power }
     }
 
-    /// y after a path ξ ≥ 0 from y₀, and the energy ∫ y (1 − dy/dξ) dξ dissipated on it.
-    pub(super) fn advance(&self, start: f64, way: f64) -> (f64, f64) {
-        if !(start.abs() <= 1.0 && way.is_finite()) {
-            return (f64::NAN, f64::NAN);
+    /// End of a path of the length ξ = `path_length` from y = `start`; NaN for invalid arguments.
+    fn advance(&self, start: f64, path_length: f64) -> LoopEnd {
+        if !(start.abs() <= 1.0 && path_length.is_finite()) {
+            return LoopEnd { y: f64::NAN, lost_energy: f64::NAN };
         }
-        let mut start = start;
-        let mut way = way;
-        let mut dissipated = 0.0;
-        if start < 0.0 {
-            let turn = self.unloaded(-start, 0);
-            if turn >= way {
-                let end = self.find_unloaded(turn - way);
-                return (-end, self.unloading_loss(-start, end));
-            }
-            dissipated = self.unloading_loss(-start, 0.0);
-            way -= turn;
-            start = 0.0;
+        if start >= 0.0 {
+            return self.load(start, path_length);
         }
-        let end = self.find_loaded(start, way);
-        let stored = 0.5 * (end - start) * (end + start);
-        let loss = way - (self.lagging(end) - self.lagging(start)) - stored;
-        (end, dissipated + loss.max(0.0))
+        let unloading_length = self.unloading_integral(-start, 0);
+        if unloading_length >= path_length {
+            let end = self.find_unloaded(unloading_length - path_length);
+            return LoopEnd { y: -end, lost_energy: self.unloading_loss(-start, end) };
+        }
+        let unloading_loss = self.unloading_loss(-start, 0.0);
+        let LoopEnd { y, lost_energy } = self.load(0.0, path_length - unloading_length);
+        LoopEnd { y, lost_energy: unloading_loss + lost_energy }
     }
 
-    /// ∫ s/(…) · b sⁿ/(1 + b sⁿ) over an unloading from `from` to `to`.
-    fn unloading_loss(&self, from: f64, to: f64) -> f64 {
-        let stored = 0.5 * (from - to) * (from + to);
-        (stored - (self.unloaded(from, 1) - self.unloaded(to, 1))).max(0.0)
+    /// End of a loading path from y = `start` ≥ 0.
+    fn load(&self, start: f64, path_length: f64) -> LoopEnd {
+        let end = self.find_loaded(start, path_length);
+        let stored_energy = 0.5 * (end - start) * (end + start);
+        let elastic_length = self.elastic_integral(end) - self.elastic_integral(start);
+        let lost_energy = path_length - elastic_length - stored_energy;
+        LoopEnd { y: end, lost_energy: lost_energy.max(0.0) }
     }
 
-    /// ∫₀^w sᵖ ds/(1 + b sⁿ).
-    fn unloaded(&self, w: f64, p: i32) -> f64 {
+    /// Energy lost in an unloading from |y| = `start` to `end`: ∫ s · b sⁿ/(1 + b sⁿ) ds.
+    fn unloading_loss(&self, start: f64, end: f64) -> f64 {
+        let stored_energy = 0.5 * (start - end) * (start + end);
+        let released_work = self.unloading_integral(start, 1) - self.unloading_integral(end, 1);
+        (stored_energy - released_work).max(0.0)
+    }
+
+    /// ∫₀^w sᵖ ds/(1 + b sⁿ): for p = 0 the path length of an unloading, for p = 1 its work.
+    fn unloading_integral(&self, w: f64, p: i32) -> f64 {
         let n = self.exponent;
         let b = self.unloading;
-        let low = w.min(0.5);
-        self.series(-b, low, p) + integral(low, w, |s| s.powi(p) / (1.0 + b * s.powf(n)))
+        let series_end = w.min(MAX_SERIES_ARGUMENT);
+        self.series(-b, series_end, p)
+            + integral(series_end, w, |s| s.powi(p) / (1.0 + b * s.powf(n)))
     }
 
-    /// ∫₀^y (1 − s)/(1 − sⁿ) ds.
-    fn lagging(&self, y: f64) -> f64 {
-        let low = y.min(0.5);
-        self.series(1.0, low, 0) - self.series(1.0, low, 1)
-            + integral(low, y, |s| (1.0 - s) / (1.0 - s.powf(self.exponent)))
+    /// ∫₀^y (1 − s)/(1 − sⁿ) ds: path length of a loading less its work.
+    fn elastic_integral(&self, y: f64) -> f64 {
+        let series_end = y.min(MAX_SERIES_ARGUMENT);
+        self.series(1.0, series_end, 0) - self.series(1.0, series_end, 1)
+            + integral(series_end, y, |s| (1.0 - s) / (1.0 - s.powf(self.exponent)))
     }
 
     /// Σ cᵏ x^(nk+p+1)/(nk+p+1) = ∫₀^x sᵖ ds/(1 − c sⁿ) for x ≤ ½ and |c| ≤ 1.
     fn series(&self, c: f64, x: f64, p: i32) -> f64 {
         let ratio = x.powf(self.exponent);
         let mut power = x.powi(p + 1);
-        let mut order = f64::from(p + 1);
+        let mut denominator = f64::from(p + 1);
         let mut sum = 0.0;
         loop {
-            let term = power / order;
+            let term = power / denominator;
             sum += term;
-            // Also ends on NaN.
-            let matters = term.abs() > 1e-18 * sum.abs();
-            if !matters {
+            // The comparison is also false for NaN, which ends the loop.
+            let is_significant = term.abs() > NEGLIGIBLE_TERM_RATIO * sum.abs();
+            if !is_significant {
                 return sum;
             }
             power *= c * ratio;
-            order += self.exponent;
+            denominator += self.exponent;
         }
     }
 
-    /// w with ∫₀^w ds/(1 + b sⁿ) = `way`: Newton from the left on a concave function.
-    fn find_unloaded(&self, way: f64) -> f64 {
-        let mut w = way.min(1.0);
+    /// w = |y| at which the spring is unloaded after the further path `remaining_length`.
+    ///
+    /// Solves ∫₀^w ds/(1 + b sⁿ) = `remaining_length` by Newton's method, which converges from the left: the integral is
+    /// concave.
+    fn find_unloaded(&self, remaining_length: f64) -> f64 {
+        let mut w = remaining_length.min(1.0);
         for _ in 0..MAX_NEWTON_ITERATIONS {
-            let step = (way - self.unloaded(w, 0)) * self.slope(-w);
+            let step = (remaining_length - self.unloading_integral(w, 0)) * self.slope(-w);
             w = (w + step).min(1.0);
-            if step.abs() <= 1e-16 {
+            if step.abs() <= UNLOADING_TOLERANCE {
                 break;
             }
         }
         w
     }
 
-    /// y after `way` from `start` ≥ 0, in v = −ln(1 − y): X is concave in v, with slopes from 1 to 1/n.
-    fn find_loaded(&self, start: f64, way: f64) -> f64 {
-        if start >= 1.0 || way == 0.0 {
+    /// y after a loading path of the length `path_length` from `start` ≥ 0.
+    ///
+    /// Newton's method in v = −ln(1 − y), in which the loading length is concave, with slopes from 1 to 1/n.
+    fn find_loaded(&self, start: f64, path_length: f64) -> f64 {
+        if start >= 1.0 || path_length == 0.0 {
             return start;
         }
-        let target = self.loaded(-(-start).ln_1p()) + way;
+        let target = self.loading_length(-(-start).ln_1p()) + path_length;
         let mut v = target;
         for _ in 0..MAX_NEWTON_ITERATIONS {
-            // (1 − yⁿ)/(1 − y)
-            let slope = -f64::exp_m1(self.exponent * (-(-v).exp()).ln_1p()) / (-v).exp();
-            let slope = if slope.is_finite() { slope } else { self.exponent };
-            let step = (target - self.loaded(v)) * slope;
+            // (1 − yⁿ)/(1 − y), which tends to n for large v.
+            let quotient = -f64::exp_m1(self.exponent * (-(-v).exp()).ln_1p()) / (-v).exp();
+            let inverse_slope = if quotient.is_finite() { quotient } else { self.exponent };
+            let step = (target - self.loading_length(v)) * inverse_slope;
             v += step;
-            if step.abs() <= 1e-15 * v.abs() {
+            if step.abs() <= LOADING_TOLERANCE * v.abs() {
                 break;
             }
         }
@@ -290,27 +328,28 @@ impl LoopShape {
         (-f64::exp_m1(-v)).clamp(start, 1.0)
     }
 
-    /// X at y = 1 − exp(−v).
-    fn loaded(&self, v: f64) -> f64 {
+    /// Path length ∫₀^y ds/(1 − sⁿ) of a loading from zero to y = 1 − exp(−v).
+    fn loading_length(&self, v: f64) -> f64 {
         let n = self.exponent;
         let y = -f64::exp_m1(-v);
-        if y <= 0.5 {
+        if y <= MAX_SERIES_ARGUMENT {
             return self.series(1.0, y, 0);
         }
-        // The integrand less its singular part 1/(n (1 − s)).
-        let regular = integral(0.5, y, |s| 1.0 / (1.0 - s.powf(n)) - 1.0 / (n * (1.0 - s)));
-        self.series(1.0, 0.5, 0) + (v - std::f64::consts::LN_2) / n + regular
+        // Integral of 1/(1 − sⁿ) less its singular part 1/(n (1 − s)).
+        let regular_part =
+            integral(MAX_SERIES_ARGUMENT, y, |s| 1.0 / (1.0 - s.powf(n)) - 1.0 / (n * (1.0 - s)));
+        self.series(1.0, MAX_SERIES_ARGUMENT, 0) + (v - std::f64::consts::LN_2) / n + regular_part
     }
 }
 
-/// ∫ of a smooth function; zero for an empty range.
+/// Integral of a smooth function from `low` to `high`; zero for an empty range.
 fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     if high <= low {
         return 0.0;
     }
     let middle = 0.5 * (low + high);
-    let half = 0.5 * (high - low);
+    let half_width = 0.5 * (high - low);
     let rule = gauss::largest();
     let points = rule.nodes.iter().zip(&rule.weights);
-    half * points.map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>()
+    half_width * points.map(|(x, weight)| weight * f(middle + half_width * x)).sum::<f64>()
 }

@@ -1,6 +1,6 @@
-//! Bouc–Wen spring in a plane.
+//! Bouc–Wen spring with two deformations.
 
-use super::{BiaxialResponse, corrupt};
+use super::{BiaxialResponse, corrupt_state};
 use crate::error::Result;
 use crate::structure::InternalEnergy;
 
@@ -14,15 +14,20 @@ pub(super) struct CoupledBoucWen {
     stiffness: f64,
     yield_force: f64,
     hardening: f64,
-    /// b = β − γ.
+    /// Factor b = β − γ.
     unloading: f64,
+    /// Deformation at the end of the last committed step, m.
     deformation: [f64; 2],
+    /// Hysteretic vector there.
     z: [f64; 2],
+    /// Dissipated energy there, J.
     dissipated: f64,
 }
 
-/// Largest |z| of a saved state: the circle of yield, and rounding.
-const MAX_SAVED_Z: f64 = 1.0 + 1e-12;
+/// Largest |z| of a saved state: the radius of the yield circle, and rounding.
+const MAX_SAVED_NORM: f64 = 1.0 + 1e-12;
+/// Path length ξ up to which ln q follows from 1 − q without loss of digits: q is at least 1/cosh² 1.
+const MAX_SHORT_PATH: f64 = 1.0;
 
 impl CoupledBoucWen {
     pub(super) fn new(stiffness: f64, yield_force: f64, hardening: f64, unloading: f64) -> Self {
@@ -37,59 +42,63 @@ impl CoupledBoucWen {
         }
     }
 
-    /// The straight path to a deformation.
-    fn follow(&self, deformation: [f64; 2]) -> PlanePath {
-        let x = deformation[0] - self.deformation[0];
-        let y = deformation[1] - self.deformation[1];
-        let length = x.hypot(y);
-        let size = self.z[0].hypot(self.z[1]);
-        let along = if length > 0.0 {
-            [x / length, y / length]
-        } else if length == 0.0 && size > 0.0 {
-            self.z.map(|z| -z / size)
+    /// Straight path to a deformation.
+    fn path_to(&self, deformation: [f64; 2]) -> PlanePath {
+        let dx = deformation[0] - self.deformation[0];
+        let dy = deformation[1] - self.deformation[1];
+        let change_norm = dx.hypot(dy);
+        let z_norm = self.z[0].hypot(self.z[1]);
+        let direction = if change_norm > 0.0 {
+            [dx / change_norm, dy / change_norm]
+        } else if change_norm == 0.0 && z_norm > 0.0 {
+            self.z.map(|z| -z / z_norm)
         } else {
-            // A deformation that is not a number stays none.
-            [1.0 + length, length]
+            // [1, 0] for z = 0 and no change; NaN for a deformation that is NaN.
+            [1.0 + change_norm, change_norm]
         };
-        let way = length * self.stiffness / self.yield_force;
+        let path_length = change_norm * self.stiffness / self.yield_force;
         let start = [
-            self.z[0] * along[0] + self.z[1] * along[1],
-            self.z[1] * along[0] - self.z[0] * along[1],
+            self.z[0] * direction[0] + self.z[1] * direction[1],
+            self.z[1] * direction[0] - self.z[0] * direction[1],
         ];
-        PlanePath { along, glide: Glide::along(self.unloading, start, way) }
+        PlanePath { direction, end: GlideEnd::of_path(self.unloading, start, path_length) }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
-        let path = self.follow(deformation);
-        let z = path.end();
-        let slope = path.slope();
+        let path = self.path_to(deformation);
+        let z = path.end_z();
+        let z_derivative = path.z_derivative();
         let k = self.stiffness;
-        let hysteretic = 1.0 - self.hardening;
+        let hysteretic_fraction = 1.0 - self.hardening;
         let mut tangent = [[0.0; 2]; 2];
         for (i, row) in tangent.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 let elastic = if i == j { self.hardening } else { 0.0 };
-                *entry = k * (elastic + hysteretic * 0.5 * (slope[i][j] + slope[j][i]));
+                *entry = k
+                    * (elastic
+                        + hysteretic_fraction * 0.5 * (z_derivative[i][j] + z_derivative[j][i]));
             }
         }
-        let force = [0, 1]
-            .map(|i| self.hardening * k * deformation[i] + hysteretic * self.yield_force * z[i]);
+        let force = [0, 1].map(|i| {
+            self.hardening * k * deformation[i] + hysteretic_fraction * self.yield_force * z[i]
+        });
         BiaxialResponse { force, tangent }
     }
 
     pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
-        let path = self.follow(deformation);
-        let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
-        let elastic = self.hardening * self.stiffness * squared_length(deformation);
+        let path = self.path_to(deformation);
+        let energy_scale =
+            (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
+        let parallel_energy = self.hardening * self.stiffness * squared_norm(deformation);
         InternalEnergy {
-            stored: 0.5 * (elastic + unit * squared_length(path.end())),
-            dissipated: self.dissipated + unit * path.glide.lost,
+            stored: 0.5 * (parallel_energy + energy_scale * squared_norm(path.end_z())),
+            dissipated: self.dissipated + energy_scale * path.end.lost_energy,
         }
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.z = self.follow(deformation).end();
+        self.z = self.path_to(deformation).end_z();
         self.deformation = deformation;
     }
 
@@ -101,49 +110,50 @@ impl CoupledBoucWen {
         match values {
             &[x, y, z_x, z_y, dissipated]
                 if values.iter().all(|value| value.is_finite())
-                    && z_x.hypot(z_y) <= MAX_SAVED_Z
+                    && z_x.hypot(z_y) <= MAX_SAVED_NORM
                     && dissipated >= 0.0 =>
             {
                 (self.deformation, self.z, self.dissipated) = ([x, y], [z_x, z_y], dissipated);
                 Ok(())
             }
-            _ => Err(corrupt()),
+            _ => Err(corrupt_state()),
         }
     }
 }
 
-fn squared_length([x, y]: [f64; 2]) -> f64 {
+fn squared_norm([x, y]: [f64; 2]) -> f64 {
     x * x + y * y
 }
 
-/// A straight path in the direction `along`.
+/// A straight path in a direction (unit vector), and z at its end.
 struct PlanePath {
-    along: [f64; 2],
-    glide: Glide,
+    direction: [f64; 2],
+    end: GlideEnd,
 }
 
 impl PlanePath {
-    /// Vector of components along and across the path, in the axes of the spring.
-    fn turned(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let direction = self.along;
-        [direction[0] * along - direction[1] * across, direction[1] * along + direction[0] * across]
+    /// Vector in the axes of the spring, by its components along and normal to the path.
+    fn in_spring_axes(&self, [tangential, normal]: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.direction;
+        [x * tangential - y * normal, y * tangential + x * normal]
     }
 
-    fn end(&self) -> [f64; 2] {
-        self.turned(self.glide.end)
+    /// z at the end of the path.
+    fn end_z(&self) -> [f64; 2] {
+        self.in_spring_axes(self.end.z)
     }
 
-    /// ∂z/∂(d/d_y).
-    fn slope(&self) -> [[f64; 2]; 2] {
-        let x = self.along[0];
-        let y = self.along[1];
-        let longer = self.turned(self.glide.longer);
-        let turned = self.turned(self.glide.turned);
-        [0, 1].map(|i| [longer[i] * x - turned[i] * y, longer[i] * y + turned[i] * x])
+    /// Derivatives ∂z/∂(d/d_y) at the end of the path.
+    fn z_derivative(&self) -> [[f64; 2]; 2] {
+        let [x, y] = self.direction;
+        let by_length = self.in_spring_axes(self.end.length_derivative);
+        let by_rotation = self.in_spring_axes(self.end.rotation_derivative);
+        [0, 1]
+            .map(|i| [by_length[i] * x - by_rotation[i] * y, by_length[i] * y + by_rotation[i] * x])
     }
 }
 
-/// z at the end of a straight path, in components (c, w) along and across it.
+/// z at the end of a straight path, in components (c, w) along and normal to it.
 ///
 /// With κ = 1 while z loads (c > 0) and κ = −b while it unloads,
 ///
@@ -153,38 +163,42 @@ impl PlanePath {
 ///
 /// has elementary solutions by the addition theorems of tanh and tan, exact for any ξ.
 #[derive(Clone, Copy)]
-struct Glide {
-    end: [f64; 2],
-    /// ∂z/∂ξ at the end.
-    longer: [f64; 2],
-    /// ∂z/∂φ/ξ, with the angle φ by which the path turns about its start.
-    turned: [f64; 2],
+struct GlideEnd {
+    z: [f64; 2],
+    /// ∂z/∂ξ.
+    length_derivative: [f64; 2],
+    /// ∂z/∂φ/ξ, with the angle φ by which the path rotates about its start.
+    rotation_derivative: [f64; 2],
     /// Energy ∫ (c − z·dz/dξ) dξ dissipated on the path.
-    lost: f64,
+    lost_energy: f64,
 }
 
-impl Glide {
-    /// Path of the length `way` from z = `start`; b = `unloading`.
-    fn along(unloading: f64, start: [f64; 2], way: f64) -> Self {
+impl GlideEnd {
+    /// End of a path of the length ξ = `path_length` from z = `start`; b = `unloading`.
+    fn of_path(unloading: f64, start: [f64; 2], path_length: f64) -> Self {
         if start[0] >= 0.0 {
-            return Phase::loading(way).glide(start);
+            return Phase::loading(path_length).end(start);
         }
         let root = unloading.sqrt();
-        // Way until c = 0.
-        let turn = if root > 0.0 { (-root * start[0]).atan() / root } else { -start[0] };
-        if way <= turn {
-            return Phase::unloading(unloading, way).glide(start);
+        // Length of the unloading, until c = 0.
+        let unloading_length =
+            if root > 0.0 { (-root * start[0]).atan() / root } else { -start[0] };
+        if path_length <= unloading_length {
+            return Phase::unloading(unloading, path_length).end(start);
         }
-        let first = Phase::unloading(unloading, turn).glide(start);
-        let rest = Phase::loading(way - turn);
-        let begin = [0.0, first.end[1]];
-        let second = rest.glide(begin);
-        let carried = rest.carry(begin, first.turned);
-        let part = turn / way;
+        let unloaded = Phase::unloading(unloading, unloading_length).end(start);
+        let loading_phase = Phase::loading(path_length - unloading_length);
+        let loading_start = [0.0, unloaded.z[1]];
+        let loaded = loading_phase.end(loading_start);
+        let carried = loading_phase.carry(loading_start, unloaded.rotation_derivative);
+        let unloading_fraction = unloading_length / path_length;
         Self {
-            turned: [0, 1].map(|i| part * carried[i] + (1.0 - part) * second.turned[i]),
-            lost: first.lost + second.lost,
-            ..second
+            rotation_derivative: [0, 1].map(|i| {
+                unloading_fraction * carried[i]
+                    + (1.0 - unloading_fraction) * loaded.rotation_derivative[i]
+            }),
+            lost_energy: unloaded.lost_energy + loaded.lost_energy,
+            ..loaded
         }
     }
 }
@@ -192,79 +206,85 @@ impl Glide {
 /// A path on which κ is constant.
 struct Phase {
     kappa: f64,
-    way: f64,
-    /// tanh ξ, 1/cosh ξ and tanh ½ξ of the curvature κ: for κ < 0 with x = ξ√−κ, tan x/√−κ, 1/cos x, tan ½x/√−κ.
+    path_length: f64,
+    /// tanh ξ for κ = 1; tan(x)/√−κ with x = ξ√−κ for κ < 0.
     tangent: f64,
+    /// 1/cosh ξ for κ = 1; 1/cos x for κ < 0.
     secant: f64,
-    half: f64,
+    /// tanh ½ξ for κ = 1; tan(½x)/√−κ for κ < 0.
+    half_tangent: f64,
 }
 
 impl Phase {
-    fn loading(way: f64) -> Self {
+    /// Path on which z loads.
+    fn loading(path_length: f64) -> Self {
         Self {
             kappa: 1.0,
-            way,
-            tangent: way.tanh(),
-            secant: 1.0 / way.cosh(),
-            half: (0.5 * way).tanh(),
+            path_length,
+            tangent: path_length.tanh(),
+            secant: 1.0 / path_length.cosh(),
+            half_tangent: (0.5 * path_length).tanh(),
         }
     }
 
-    fn unloading(b: f64, way: f64) -> Self {
+    /// Path on which z unloads, with the factor b.
+    fn unloading(b: f64, path_length: f64) -> Self {
         let root = b.sqrt();
-        let x = root * way;
-        let has_curvature = b > 0.0;
-        let tangent = if has_curvature { x.tan() / root } else { way };
-        let half = if has_curvature { (0.5 * x).tan() / root } else { 0.5 * way };
-        Self { kappa: -b, way, tangent, secant: 1.0 / x.cos(), half }
+        let x = root * path_length;
+        let is_curved = b > 0.0;
+        let tangent = if is_curved { x.tan() / root } else { path_length };
+        let half_tangent = if is_curved { (0.5 * x).tan() / root } else { 0.5 * path_length };
+        Self { kappa: -b, path_length, tangent, secant: 1.0 / x.cos(), half_tangent }
     }
 
-    /// The path from z = (c, w).
-    fn glide(&self, [c, w]: [f64; 2]) -> Glide {
-        let Self { kappa, tangent, secant, half, .. } = *self;
-        let d = 1.0 + kappa * c * tangent;
-        let end = [(c + tangent) / d, w * secant / d];
+    /// End of the path from z = (c, w).
+    fn end(&self, [c, w]: [f64; 2]) -> GlideEnd {
+        let Self { kappa, tangent, secant, half_tangent, .. } = *self;
+        let denominator = 1.0 + kappa * c * tangent;
+        let z = [(c + tangent) / denominator, w * secant / denominator];
         // tangent/ξ
-        let ratio = if self.way > 0.0 { tangent / self.way } else { 1.0 };
-        let across = kappa * w * secant / (d * d);
-        Glide {
-            end,
-            longer: [1.0 - kappa * end[0] * end[0], -kappa * end[0] * end[1]],
-            turned: [
-                -ratio * across * (c + half),
-                ratio * ((1.0 + kappa * c * half) / d - across * w),
+        let tangent_ratio = if self.path_length > 0.0 { tangent / self.path_length } else { 1.0 };
+        let coupling = kappa * w * secant / (denominator * denominator);
+        GlideEnd {
+            z,
+            length_derivative: [1.0 - kappa * z[0] * z[0], -kappa * z[0] * z[1]],
+            rotation_derivative: [
+                -tangent_ratio * coupling * (c + half_tangent),
+                tangent_ratio * ((1.0 + kappa * c * half_tangent) / denominator - coupling * w),
             ],
-            lost: self.lost([c, w], end),
+            lost_energy: self.lost_energy([c, w], z),
         }
     }
 
-    /// A small change of z at the start of the path, at its end.
+    /// Change of z at the end of the path by a small change at its start (c, w).
     fn carry(&self, [c, w]: [f64; 2], change: [f64; 2]) -> [f64; 2] {
         let Self { kappa, tangent, secant, .. } = *self;
-        let d = 1.0 + kappa * c * tangent;
-        let along = secant / (d * d) * change[0];
-        [secant * along, secant / d * change[1] - kappa * w * tangent * along]
+        let denominator = 1.0 + kappa * c * tangent;
+        let tangential = secant / (denominator * denominator) * change[0];
+        [secant * tangential, secant / denominator * change[1] - kappa * w * tangent * tangential]
     }
 
     /// Energy dissipated from `start` to `end`: ∫ κ c |z|² dξ.
-    fn lost(&self, start: [f64; 2], end: [f64; 2]) -> f64 {
-        let from = squared_length(start);
-        let to = squared_length(end);
+    fn lost_energy(&self, start: [f64; 2], end: [f64; 2]) -> f64 {
+        let start_square = squared_norm(start);
+        let end_square = squared_norm(end);
         if self.kappa <= 0.0 {
             let b = -self.kappa;
-            let released = (from - to).max(0.0);
-            let lost = (-b * released / (1.0 + b * from)).ln_1p();
-            return if b > 0.0 { 0.5 * (released + lost / b).max(0.0) } else { 0.0 };
+            let released = (start_square - end_square).max(0.0);
+            let log = (-b * released / (1.0 + b * start_square)).ln_1p();
+            return if b > 0.0 { 0.5 * (released + log / b).max(0.0) } else { 0.0 };
         }
         // q = (1 − |z₁|²)/(1 − |z₀|²), h = 1 − q
         let c = start[0];
         let d = 1.0 + c * self.tangent;
         let h = self.tangent * (2.0 * c + (c * c + 1.0) * self.tangent) / (d * d);
-        let log = if self.way < 1.0 {
+        // −ln q; for long paths q is too small for 1 − h.
+        let log = if self.path_length < MAX_SHORT_PATH {
             -(-h).ln_1p()
         } else {
-            2.0 * (d.ln() + self.way + (-2.0 * self.way).exp().ln_1p() - std::f64::consts::LN_2)
+            let length = self.path_length;
+            2.0 * (d.ln() + length + (-2.0 * length).exp().ln_1p() - std::f64::consts::LN_2)
         };
-        0.5 * ((log - h).max(0.0) + from * h)
+        0.5 * ((log - h).max(0.0) + start_square * h)
     }
 }

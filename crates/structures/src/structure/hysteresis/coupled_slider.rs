@@ -1,96 +1,105 @@
-//! Elastic slider parallel to a spring, in a plane.
+//! Elastic slider parallel to a spring, with two deformations.
 
 use super::slider::Slider;
-use super::{BiaxialResponse, corrupt};
+use super::{BiaxialResponse, corrupt_state};
 use crate::error::Result;
 use crate::structure::InternalEnergy;
 
-/// Spring `parallel` to a spring `series` with a slider that yields at the force `limit`, in any direction.
+/// A [`Slider`] that yields in any direction of a plane.
 ///
-/// The slider follows the deformation by the shortest way to the circle of its limit (radial return). Along a step
-/// the force is the gradient of a convex energy, which is the sum of the stored and the dissipated energy.
+/// The slider follows the deformation by the shortest path to the circle of its limit (radial return). In a step the force
+/// is the gradient of a convex energy, the sum of the stored and the dissipated energy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CoupledSlider {
+    /// Stiffness of the parallel spring, N/m.
     parallel: f64,
+    /// Stiffness of the spring in series with the slider, N/m.
     series: f64,
+    /// Force at which the slider yields, N.
     pub(super) limit: f64,
-    /// Displacement of the slider.
+    /// Displacement of the slider, m.
     slip: [f64; 2],
+    /// Energy dissipated by the slider, J.
     dissipated: f64,
 }
 
 /// Motion of the slider in a step.
 struct SliderMotion {
-    /// Direction from the slider to the deformation.
+    /// Unit vector from the displacement of the slider to the deformation.
     direction: [f64; 2],
-    /// Force of the slider.
+    /// Force of the slider, N.
     force: f64,
-    /// Distance by which it slides, m.
-    way: f64,
+    /// Distance by which the slider slides, m.
+    distance: f64,
 }
 
 impl CoupledSlider {
-    /// A new spring with the numbers of `slider`.
+    /// A new spring with the parameters of `slider`.
     pub(super) fn new(slider: &Slider) -> Self {
         let Slider { parallel, series, limit, .. } = *slider;
         Self { parallel, series, limit, slip: [0.0; 2], dissipated: 0.0 }
     }
 
-    /// Motion of the slider that the deformation causes.
-    fn slide(&self, deformation: [f64; 2]) -> SliderMotion {
-        let offset = [deformation[0] - self.slip[0], deformation[1] - self.slip[1]];
-        let distance = offset[0].hypot(offset[1]);
-        if distance == 0.0 {
-            return SliderMotion { direction: [0.0; 2], force: 0.0, way: 0.0 };
+    /// Motion of the slider to a deformation.
+    fn motion_to(&self, deformation: [f64; 2]) -> SliderMotion {
+        let elongation = [deformation[0] - self.slip[0], deformation[1] - self.slip[1]];
+        let length = elongation[0].hypot(elongation[1]);
+        if length == 0.0 {
+            return SliderMotion { direction: [0.0; 2], force: 0.0, distance: 0.0 };
         }
-        let direction = offset.map(|part| part / distance);
-        let trial = self.series * distance;
-        if trial <= self.limit {
-            return SliderMotion { direction, force: trial, way: 0.0 };
+        let direction = elongation.map(|component| component / length);
+        let trial_force = self.series * length;
+        if trial_force <= self.limit {
+            return SliderMotion { direction, force: trial_force, distance: 0.0 };
         }
-        let way = distance - self.limit / self.series;
-        SliderMotion { direction, force: self.limit, way }
+        let distance = length - self.limit / self.series;
+        SliderMotion { direction, force: self.limit, distance }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
-        let SliderMotion { direction, force, way } = self.slide(deformation);
-        // Across its direction the force turns with the deformation about the slider.
-        let across = if way > 0.0 { force / (force / self.series + way) } else { self.series };
-        let along = if way > 0.0 { 0.0 } else { self.series };
+        let SliderMotion { direction, force, distance } = self.motion_to(deformation);
+        // For a deformation at a right angle, the force rotates about the displacement of the slider.
+        let normal_stiffness =
+            if distance > 0.0 { force / (force / self.series + distance) } else { self.series };
+        let tangent_stiffness = if distance > 0.0 { 0.0 } else { self.series };
         let mut tangent = [[0.0; 2]; 2];
         for (i, row) in tangent.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                let isotropic = if i == j { self.parallel + across } else { 0.0 };
-                *entry = isotropic + (along - across) * (direction[i] * direction[j]);
+                let isotropic = if i == j { self.parallel + normal_stiffness } else { 0.0 };
+                *entry = isotropic
+                    + (tangent_stiffness - normal_stiffness) * (direction[i] * direction[j]);
             }
         }
-        let force = [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]);
-        BiaxialResponse { force, tangent }
+        let total_force = [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]);
+        BiaxialResponse { force: total_force, tangent }
     }
 
     pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
-        let SliderMotion { force, way, .. } = self.slide(deformation);
-        let square: f64 = deformation.iter().map(|d| d * d).sum();
+        let SliderMotion { force, distance, .. } = self.motion_to(deformation);
+        let squared_deformation: f64 = deformation.iter().map(|d| d * d).sum();
         InternalEnergy {
-            stored: 0.5 * (self.parallel * square + force * force / self.series),
-            dissipated: self.dissipated + self.limit * way,
+            stored: 0.5 * (self.parallel * squared_deformation + force * force / self.series),
+            dissipated: self.dissipated + self.limit * distance,
         }
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
-        let SliderMotion { direction, way, .. } = self.slide(deformation);
-        self.dissipated += self.limit * way;
-        self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
+        let SliderMotion { direction, distance, .. } = self.motion_to(deformation);
+        self.dissipated += self.limit * distance;
+        self.slip = [0, 1].map(|k| self.slip[k] + distance * direction[k]);
     }
 
-    /// Sets the limit after a commit of `deformation`. A force above it falls to it, and its energy becomes heat.
+    /// Sets the limit after a commit of `deformation`.
+    ///
+    /// A force above the new limit is reduced to it; the stored energy that this releases is dissipated.
     pub(super) fn set_limit(&mut self, limit: f64, deformation: [f64; 2]) {
-        let before = self.slide(deformation);
+        let old_motion = self.motion_to(deformation);
         self.limit = limit;
-        let after = self.slide(deformation);
-        let released = before.force * before.force - after.force * after.force;
-        self.dissipated += 0.5 * released / self.series;
-        self.slip = [0, 1].map(|k| self.slip[k] + after.way * before.direction[k]);
+        let new_motion = self.motion_to(deformation);
+        let released_square =
+            old_motion.force * old_motion.force - new_motion.force * new_motion.force;
+        self.dissipated += 0.5 * released_square / self.series;
+        self.slip = [0, 1].map(|k| self.slip[k] + new_motion.distance * old_motion.direction[k]);
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
@@ -105,7 +114,7 @@ impl CoupledSlider {
                 (self.slip, self.dissipated) = ([x, y], dissipated);
                 Ok(())
             }
-            _ => Err(corrupt()),
+            _ => Err(corrupt_state()),
         }
     }
 }

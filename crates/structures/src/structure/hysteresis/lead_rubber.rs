@@ -7,7 +7,7 @@ use crate::error::{Result, finite, positive, require};
 
 /// Lead–rubber bearing: a bilinear spring from engineering parameters.
 ///
-/// The rubber has the stiffness after yield K₂ = G A/t, the lead core the characteristic strength Q = τ_y A_lead
+/// The stiffness after yield is that of the rubber, K₂ = G A/t. The characteristic strength is Q = τ_y A_lead of the lead core
 /// (the force at zero displacement of a wide loop). The initial stiffness of both is K₁ = r K₂ (Skinner, Robinson
 /// & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
 ///
@@ -29,10 +29,10 @@ pub struct LeadRubber {
 impl LeadRubber {
     /// Shear stress at which lead yields by default, Pa.
     pub(crate) const LEAD_YIELD_STRESS: f64 = 10.0e6;
-    /// Default ratio of the first stiffness to the stiffness after yield.
+    /// Default ratio of the initial stiffness to the stiffness after yield.
     pub const STIFFNESS_RATIO: f64 = 10.0;
 
-    /// Bearings of rubber with lead cores.
+    /// Bearings by the dimensions of their rubber and lead cores.
     ///
     /// `shear_modulus` G of the rubber: Pa. `rubber_area` A: m². `rubber_thickness` t: total, m. `lead_area` of
     /// the cores: m². Areas are per metre of thickness.
@@ -49,8 +49,8 @@ impl LeadRubber {
         positive("area of the rubber", rubber_area)?;
         positive("thickness of the rubber", rubber_thickness)?;
         positive("area of the lead cores", lead_area)?;
-        let rubber = shear_modulus * rubber_area / rubber_thickness;
-        Self::from_strength(rubber, lead_area * Self::LEAD_YIELD_STRESS)
+        let rubber_stiffness = shear_modulus * rubber_area / rubber_thickness;
+        Self::from_strength(rubber_stiffness, lead_area * Self::LEAD_YIELD_STRESS)
     }
 
     /// Bearings with stiffness after yield K₂ (N/m) and characteristic strength Q (N).
@@ -62,9 +62,9 @@ impl LeadRubber {
     pub fn from_strength(stiffness: f64, strength: f64) -> Result<Self> {
         positive("stiffness of the rubber", stiffness)?;
         positive("strength of the lead cores", strength)?;
-        let series = (Self::STIFFNESS_RATIO - 1.0) * stiffness;
-        let series = finite("first stiffness of the bearing", series)?;
-        Ok(Self { slider: Slider::new(stiffness, series, strength) })
+        let lead_stiffness = (Self::STIFFNESS_RATIO - 1.0) * stiffness;
+        finite("first stiffness of the bearing", lead_stiffness)?;
+        Ok(Self { slider: Slider::new(stiffness, lead_stiffness, strength) })
     }
 
     /// Sets the ratio of the initial stiffness to the stiffness after yield.
@@ -74,8 +74,8 @@ impl LeadRubber {
     pub fn with_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
         let needed = "finite and above 1";
         require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, needed)?;
-        let series = (ratio - 1.0) * self.slider.parallel;
-        self.slider.series = positive("first stiffness of the bearing", series)?;
+        let lead_stiffness = (ratio - 1.0) * self.slider.parallel;
+        self.slider.series = positive("first stiffness of the bearing", lead_stiffness)?;
         Ok(self)
     }
 
@@ -89,7 +89,9 @@ impl LeadRubber {
         self.slider.parallel
     }
 
-    /// A new bearing with these numbers in two directions: F = K₂ d plus lead that yields on a circle of radius Q.
+    /// A new bearing with these parameters for two directions.
+    ///
+    /// Its force is K₂ d plus the force of the lead, which yields on a circle of radius Q.
     pub fn coupled(&self) -> BiaxialSpring {
         CoupledSlider::new(&self.slider).into()
     }

@@ -24,33 +24,34 @@ pub use springs::WithSprings;
 use super::InternalEnergy;
 use crate::error::{CheckpointError, Result};
 
-/// Force of a spring and its slope.
+/// Force of a hysteretic spring and its tangent stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpringResponse {
     /// Force, N per metre of thickness, positive against a positive deformation.
     pub force: f64,
-    /// Slope of the force over the deformation, N/m per metre.
+    /// Derivative of the force by the deformation, N/m per metre of thickness.
     pub tangent: f64,
 }
 
-/// Force of a [`BiaxialSpring`] and its slopes.
+/// Force of a [`BiaxialSpring`] and its tangent stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BiaxialResponse {
     /// Components of the force, N, positive against positive deformations.
     pub force: [f64; 2],
-    /// Slopes of the force over the deformation, N/m: a symmetric matrix, by rows.
+    /// Derivatives of the force by the deformation, N/m: a symmetric matrix, by rows.
     ///
-    /// A coupled [`BoucWen`] gives the symmetric part of the slopes; the rest falls with the square of the step.
+    /// A coupled [`BoucWen`] gives the symmetric part of the derivatives; the antisymmetric part decreases with the square
+    /// of the step.
     pub tangent: [[f64; 2]; 2],
 }
 
 /// A hysteretic spring: implement this for your own law.
 ///
-/// Its force depends on its past deformation.
+/// Its force depends on its past deformations.
 ///
-/// The spring stores the deformation of the last **committed** step and its internal variables there. From there
-/// Newton's method evaluates trial deformations, on a straight path and any number of times, without changing the
-/// spring. [`commit`](Hysteresis::commit) accepts a deformation.
+/// The spring stores the deformation and the internal variables of the last **committed** step. Newton's method evaluates
+/// trial deformations at the end of a straight path from there, any number of times; these evaluations change no state.
+/// [`commit`](Hysteresis::commit) accepts a deformation.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, Hysteresis};
@@ -60,17 +61,17 @@ pub struct BiaxialResponse {
 /// assert_eq!(columns.response(0.005).force, 50.0e3);
 /// assert_eq!(columns.response(0.03).force, 120.0e3);
 /// columns.commit(0.03);
-/// // On the way back it is elastic again, and 18 mm of slip stay.
+/// // Unloading is elastic again; a permanent deformation of 18 mm remains.
 /// assert_eq!(columns.response(0.025).tangent, 10.0e6);
 /// assert!((columns.response(0.018).force).abs() < 1e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait Hysteresis: Send {
-    /// Force and tangent at `deformation` (m), reached straight from the last committed one.
+    /// Force and tangent at `deformation` (m), after a straight path from the last committed one.
     fn response(&self, deformation: f64) -> SpringResponse;
 
-    /// Stored and dissipated energy at `deformation`, on a straight path to it.
+    /// Stored and dissipated energy at `deformation`, after a straight path from the last committed one.
     ///
     /// Their sum is the work of the force along the path.
     fn energy(&self, deformation: f64) -> InternalEnergy;
@@ -83,13 +84,13 @@ pub trait Hysteresis: Send {
 
     /// Restores the variables that [`save`](Hysteresis::save) returned.
     ///
-    /// All values are finite. On an error the spring stays unchanged.
+    /// The caller passes finite values only. On an error the spring must not change.
     ///
     /// # Errors
     /// [`CheckpointError::Corrupt`] for impossible values.
     fn restore(&mut self, values: &[f64]) -> Result<()>;
 
-    /// A copy with its internal variables: usually `Box::new(self.clone())`.
+    /// Copy of the spring with its internal variables: usually `Box::new(self.clone())`.
     fn clone_box(&self) -> Box<dyn Hysteresis>;
 }
 
@@ -99,7 +100,7 @@ impl Clone for Box<dyn Hysteresis> {
     }
 }
 
-/// The error for impossible internal variables.
-fn corrupt() -> crate::Error {
+/// Error for impossible internal variables.
+fn corrupt_state() -> crate::Error {
     CheckpointError::Corrupt { quantity: "state of a hysteretic spring" }.into()
 }

@@ -1,23 +1,27 @@
-//! Elastic slider parallel to a spring, and laws made of it.
+//! Elastic slider parallel to a spring, and laws that consist of it.
 
-use super::{SpringResponse, corrupt};
+use super::{SpringResponse, corrupt_state};
 use crate::error::{Result, require};
 use crate::structure::InternalEnergy;
 
-/// Spring `parallel` to a spring `series` with a slider that yields at the force `limit`.
+/// Spring parallel to another spring in series with a slider: a bilinear law with kinematic hardening.
 ///
-/// The return mapping is exact for straight paths: the force is kinematically hardening bilinear.
+/// The return mapping is exact for straight paths.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Slider {
+    /// Stiffness of the parallel spring, N/m.
     pub(super) parallel: f64,
+    /// Stiffness of the spring in series with the slider, N/m.
     pub(super) series: f64,
+    /// Force at which the slider yields, N.
     pub(super) limit: f64,
-    /// Displacement of the slider.
+    /// Displacement of the slider, m.
     slip: f64,
+    /// Energy dissipated by the slider, J.
     dissipated: f64,
 }
 
-/// Force of a slider and its displacement.
+/// Force (N) and displacement (m) of a slider.
 struct SliderState {
     force: f64,
     slip: f64,
@@ -29,26 +33,26 @@ impl Slider {
     }
 
     /// State of the slider at a deformation.
-    fn slide(&self, deformation: f64) -> SliderState {
-        let trial = self.series * (deformation - self.slip);
-        if trial.abs() <= self.limit {
-            return SliderState { force: trial, slip: self.slip };
+    fn state_at(&self, deformation: f64) -> SliderState {
+        let trial_force = self.series * (deformation - self.slip);
+        if trial_force.abs() <= self.limit {
+            return SliderState { force: trial_force, slip: self.slip };
         }
-        let force = self.limit.copysign(trial);
+        let force = self.limit.copysign(trial_force);
         SliderState { force, slip: deformation - force / self.series }
     }
 
     pub(super) fn response(&self, deformation: f64) -> SpringResponse {
-        let SliderState { force, slip } = self.slide(deformation);
-        let tangent = if slip == self.slip { self.series } else { 0.0 };
+        let SliderState { force, slip } = self.state_at(deformation);
+        let series_tangent = if slip == self.slip { self.series } else { 0.0 };
         SpringResponse {
             force: self.parallel * deformation + force,
-            tangent: self.parallel + tangent,
+            tangent: self.parallel + series_tangent,
         }
     }
 
     pub(super) fn energy(&self, deformation: f64) -> InternalEnergy {
-        let SliderState { force, slip } = self.slide(deformation);
+        let SliderState { force, slip } = self.state_at(deformation);
         InternalEnergy {
             stored: 0.5 * (self.parallel * deformation * deformation + force * force / self.series),
             dissipated: self.dissipated + self.limit * (slip - self.slip).abs(),
@@ -57,7 +61,7 @@ impl Slider {
 
     pub(super) fn commit(&mut self, deformation: f64) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.slip = self.slide(deformation).slip;
+        self.slip = self.state_at(deformation).slip;
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
@@ -72,7 +76,7 @@ impl Slider {
                 (self.slip, self.dissipated) = (slip, dissipated);
                 Ok(())
             }
-            _ => Err(corrupt()),
+            _ => Err(corrupt_state()),
         }
     }
 }
@@ -109,8 +113,8 @@ macro_rules! slider_law {
 }
 pub(super) use slider_law;
 
-/// 1 − α for a hardening ratio 0 ≤ α < 1.
-pub(super) fn elastic_share(hardening: f64) -> Result<f64> {
+/// Elastic fraction 1 − α for a hardening ratio 0 ≤ α < 1.
+pub(super) fn elastic_fraction(hardening: f64) -> Result<f64> {
     let is_ratio = (0.0..1.0).contains(&hardening);
     Ok(1.0 - require("hardening ratio", hardening, is_ratio, "from 0 to below 1")?)
 }

@@ -1,4 +1,4 @@
-//! A spring on the degrees of freedom of a structure.
+//! A hysteretic spring on the degrees of freedom of a structure.
 
 use super::Hysteresis;
 use super::biaxial::BiaxialSpring;
@@ -6,7 +6,7 @@ use super::pendulum_bearing::PendulumBearing;
 use crate::error::Result;
 use crate::structure::{DofCombination, InternalEnergy, Triplets};
 
-/// A law, and the rows l of its deformations l·u.
+/// A force law, and its deformations as weighted sums of degrees of freedom.
 #[derive(Clone)]
 pub(super) enum HystereticSpring {
     Uniaxial(DofCombination, Box<dyn Hysteresis>),
@@ -15,6 +15,7 @@ pub(super) enum HystereticSpring {
 }
 
 impl HystereticSpring {
+    /// Deformations of the spring.
     pub(super) fn rows(&self) -> &[DofCombination] {
         match self {
             Self::Uniaxial(row, _) => std::slice::from_ref(row),
@@ -27,17 +28,17 @@ impl HystereticSpring {
     pub(super) fn add_force(&self, displacement: &[f64], force: &mut [f64]) {
         match self {
             Self::Uniaxial(row, law) => {
-                add_scaled(row, law.response(row.value(displacement)).force, force);
+                add_spring_force(row, law.response(row.value(displacement)).force, force);
             }
             Self::Biaxial(rows, law) => {
-                let response = law.response(values(rows, displacement));
+                let response = law.response(deformations(rows, displacement));
                 for (row, value) in rows.iter().zip(response.force) {
-                    add_scaled(row, value, force);
+                    add_spring_force(row, value, force);
                 }
             }
             Self::Pendulum(rows, law) => {
-                for (row, value) in rows.iter().zip(law.force(values(rows, displacement))) {
-                    add_scaled(row, value, force);
+                for (row, value) in rows.iter().zip(law.force(deformations(rows, displacement))) {
+                    add_spring_force(row, value, force);
                 }
             }
         }
@@ -50,10 +51,14 @@ impl HystereticSpring {
                 matrix.add_outer(row, law.response(row.value(displacement)).tangent);
             }
             Self::Biaxial(rows, law) => {
-                add_slopes(rows, &law.response(values(rows, displacement)).tangent, matrix);
+                add_tangent_matrix(
+                    rows,
+                    &law.response(deformations(rows, displacement)).tangent,
+                    matrix,
+                );
             }
             Self::Pendulum(rows, law) => {
-                add_slopes(rows, &law.tangent(values(rows, displacement)), matrix);
+                add_tangent_matrix(rows, &law.tangent(deformations(rows, displacement)), matrix);
             }
         }
     }
@@ -61,16 +66,16 @@ impl HystereticSpring {
     pub(super) fn energy(&self, displacement: &[f64]) -> InternalEnergy {
         match self {
             Self::Uniaxial(row, law) => law.energy(row.value(displacement)),
-            Self::Biaxial(rows, law) => law.energy(values(rows, displacement)),
-            Self::Pendulum(rows, law) => law.energy(values(rows, displacement)),
+            Self::Biaxial(rows, law) => law.energy(deformations(rows, displacement)),
+            Self::Pendulum(rows, law) => law.energy(deformations(rows, displacement)),
         }
     }
 
     pub(super) fn commit(&mut self, displacement: &[f64]) {
         match self {
             Self::Uniaxial(row, law) => law.commit(row.value(displacement)),
-            Self::Biaxial(rows, law) => law.commit(values(rows, displacement)),
-            Self::Pendulum(rows, law) => law.commit(values(rows, displacement)),
+            Self::Biaxial(rows, law) => law.commit(deformations(rows, displacement)),
+            Self::Pendulum(rows, law) => law.commit(deformations(rows, displacement)),
         }
     }
 
@@ -91,30 +96,33 @@ impl HystereticSpring {
     }
 }
 
-fn values<const N: usize>(rows: &[DofCombination; N], displacement: &[f64]) -> [f64; N] {
+/// Values of the deformations at a displacement of the structure.
+fn deformations<const N: usize>(rows: &[DofCombination; N], displacement: &[f64]) -> [f64; N] {
     rows.each_ref().map(|row| row.value(displacement))
 }
 
-/// Adds the slopes of forces along rows over deformations along the same rows.
-fn add_slopes<const N: usize>(
+/// Adds the tangent matrix of a spring with these deformations to `matrix`.
+fn add_tangent_matrix<const N: usize>(
     rows: &[DofCombination; N],
     tangent: &[[f64; N]; N],
     matrix: &mut Triplets,
 ) {
-    for (first, slopes) in rows.iter().zip(tangent) {
-        for (second, slope) in rows.iter().zip(slopes) {
-            for &(i, a) in first {
-                second.iter().for_each(|&(j, b)| matrix.add(i, j, slope * a * b));
+    for (force_row, tangent_row) in rows.iter().zip(tangent) {
+        for (deformation_row, derivative) in rows.iter().zip(tangent_row) {
+            for &(i, a) in force_row {
+                deformation_row.iter().for_each(|&(j, b)| matrix.add(i, j, derivative * a * b));
             }
         }
     }
 }
 
-/// Adds `factor` times a row; degrees of freedom beyond the end of `sum` do not count.
-fn add_scaled(row: &DofCombination, factor: f64, sum: &mut [f64]) {
-    for &(i, weight) in row {
-        if let Some(sum) = sum.get_mut(i) {
-            *sum += weight * factor;
+/// Adds a spring force on the deformation `row` to the nodal `forces`.
+///
+/// Degrees of freedom beyond the end of `forces` do not count.
+fn add_spring_force(row: &DofCombination, spring_force: f64, forces: &mut [f64]) {
+    for &(dof, weight) in row {
+        if let Some(force) = forces.get_mut(dof) {
+            *force += weight * spring_force;
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
 
-/// The nonlinear part of a structure with springs.
+/// Hysteretic springs of a structure, as its nonlinear force.
 #[derive(Clone, Default)]
 pub(crate) struct HystereticSprings(Vec<HystereticSpring>);
 
@@ -43,6 +43,7 @@ impl HystereticSprings {
         self.attach(HystereticSpring::Pendulum(rows, law), dofs)
     }
 
+    /// Adds a spring after a check of its degrees of freedom.
     fn attach(&mut self, spring: HystereticSpring, dofs: usize) -> Result<()> {
         for row in spring.rows() {
             row.check("degree of freedom of a spring", dofs)?;
@@ -68,20 +69,22 @@ impl HystereticSprings {
     }
 
     /// Number of internal variables.
-    fn variables(&self) -> usize {
+    fn variable_count(&self) -> usize {
         self.0.iter().map(|spring| spring.save().len()).sum()
     }
 
+    /// Internal variables of all springs.
     fn state(&self) -> Vec<f64> {
         self.0.iter().flat_map(HystereticSpring::save).collect()
     }
 
+    /// Restores springs until the first error.
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
-        let mut rest = values;
+        let mut remaining_values = values;
         for spring in &mut self.0 {
-            let count = spring.save().len().min(rest.len());
-            spring.restore(&rest[..count])?;
-            rest = &rest[count..];
+            let variable_count = spring.save().len().min(remaining_values.len());
+            spring.restore(&remaining_values[..variable_count])?;
+            remaining_values = &remaining_values[variable_count..];
         }
         Ok(())
     }
@@ -99,8 +102,8 @@ impl NonlinearForce for HystereticSprings {
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let each = self.0.iter().map(|spring| spring.energy(displacement));
-        Some(each.fold(InternalEnergy::default(), |sum, one| sum + one))
+        let energies = self.0.iter().map(|spring| spring.energy(displacement));
+        Some(energies.fold(InternalEnergy::default(), |sum, energy| sum + energy))
     }
 
     fn commit(&mut self, displacement: &[f64]) {
@@ -111,35 +114,34 @@ impl NonlinearForce for HystereticSprings {
         Ok(self.state())
     }
 
-    /// Restores the variables of all springs; on an error all stay unchanged.
+    /// Restores the variables of all springs; on an error no spring changes.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let before = self.state();
-        if values.len() != before.len() {
+        let previous_state = self.state();
+        if values.len() != previous_state.len() {
             return Err(CheckpointError::Corrupt { quantity: "state of the springs" }.into());
         }
-        let outcome = self.try_restore(values);
-        if outcome.is_err() {
-            self.try_restore(&before)?;
+        let result = self.try_restore(values);
+        if result.is_err() {
+            self.try_restore(&previous_state)?;
         }
-        outcome
+        result
     }
 }
 
 /// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// The deformation of each spring is a weighted sum of degrees of freedom; its force follows its [`Hysteresis`]
-/// law. The force adds to the forces of the structure: a storey or a bearing that is to have the spring alone must
-/// have no stiffness of its own there. The structure's damping stays as it is; stiffness-proportional damping does
-/// not include the springs. For storeys of a shear building use
+/// The deformation of each spring is a weighted sum of degrees of freedom; its force follows its [`Hysteresis`] law. The
+/// force adds to the other forces of the structure: a storey or a bearing that consists of the spring alone must have no
+/// other stiffness. The damping of the structure does not change; stiffness-proportional damping does not include the
+/// springs. For storeys of a shear building use
 /// [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
-/// Degrees of freedom are absolute. A spring on a single one would hold the structure to a point in space instead
-/// of the moving ground, and `build` returns an error. A deformation must be zero when all degrees of freedom
-/// translate together.
+/// Degrees of freedom are absolute. A spring on a single degree of freedom would connect the structure to a fixed point
+/// instead of the moving ground, and `build` returns an error. A deformation must be zero in a translation of the whole
+/// structure.
 ///
-/// A bearing in plan that moves in two directions is one
-/// [`biaxial_spring`](WithSprings::biaxial_spring). Two springs along x and y act independently: two
-/// sliders carry √2 times their friction on the diagonal.
+/// A bearing with two horizontal displacements is one [`biaxial_spring`](WithSprings::biaxial_spring). Two springs along x
+/// and y act independently: along the diagonal, two sliders have √2 times the friction of one.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
@@ -150,7 +152,7 @@ impl NonlinearForce for HystereticSprings {
 /// let drift = building.drift(0)?;
 /// let damped = WithSprings::new(building).spring(drift, Bilinear::new(5.0e6, 2.0e4, 0.0)?)?;
 /// let mut force = [0.0; 6];
-/// // 10 mm of drift: it yields, and turns the base by its height of 3 m.
+/// // At 10 mm of drift the damper yields. Its moment on the base has the lever arm of 3 m.
 /// damped.force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force)?;
 /// assert_eq!(force, [-2.0e4, 0.0, 6.0e4, 2.0e4, 0.0, 0.0]);
 /// # Ok::<(), basemat::Error>(())
@@ -165,7 +167,7 @@ short_debug! {
 }
 
 impl WithSprings {
-    /// The structure, without springs yet.
+    /// A structure without springs.
     pub fn new(structure: impl Structure + 'static) -> Self {
         Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }
@@ -197,9 +199,10 @@ impl WithSprings {
         Ok(self)
     }
 
-    /// Adds a friction pendulum that carries the structure, with the deformations `rows` along x, along y and up.
+    /// Adds a friction pendulum that supports the structure.
     ///
-    /// It has a vertical stiffness of its own: the structure must have none there.
+    /// `rows`: its deformations along x, along y and up. The bearing has a vertical stiffness: the structure must have none
+    /// there.
     ///
     /// # Errors
     /// As for [`spring`](WithSprings::spring).
@@ -234,18 +237,18 @@ impl Structure for WithSprings {
     }
 }
 
-/// The springs, and the structure's own nonlinear force if it has one.
+/// The springs, and the nonlinear force of the structure if it has one.
 impl NonlinearForce for WithSprings {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        if let Some(law) = self.structure.nonlinear() {
-            law.force(displacement, force)?;
+        if let Some(structure_force) = self.structure.nonlinear() {
+            structure_force.force(displacement, force)?;
         }
         self.springs.force(displacement, force)
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        if let Some(law) = self.structure.nonlinear() {
-            law.tangent(displacement, matrix)?;
+        if let Some(structure_force) = self.structure.nonlinear() {
+            structure_force.tangent(displacement, matrix)?;
         }
         self.springs.tangent(displacement, matrix)
     }
@@ -253,14 +256,14 @@ impl NonlinearForce for WithSprings {
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let springs = self.springs.energy(displacement)?;
         match self.structure.nonlinear() {
-            Some(law) => Some(law.energy(displacement)? + springs),
+            Some(structure_force) => Some(structure_force.energy(displacement)? + springs),
             None => Some(springs),
         }
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        if let Some(law) = self.structure.nonlinear_mut() {
-            law.commit(displacement);
+        if let Some(structure_force) = self.structure.nonlinear_mut() {
+            structure_force.commit(displacement);
         }
         self.springs.commit(displacement);
     }
@@ -272,13 +275,13 @@ impl NonlinearForce for WithSprings {
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let count = self.springs.variables().min(values.len());
-        let before = self.springs.state();
-        self.springs.restore(&values[..count])?;
-        let outcome = restore_variables(self.structure.as_mut(), &values[count..]);
-        if outcome.is_err() {
-            self.springs.restore(&before)?;
+        let variable_count = self.springs.variable_count().min(values.len());
+        let previous_state = self.springs.state();
+        self.springs.restore(&values[..variable_count])?;
+        let result = restore_variables(self.structure.as_mut(), &values[variable_count..]);
+        if result.is_err() {
+            self.springs.restore(&previous_state)?;
         }
-        outcome
+        result
     }
 }

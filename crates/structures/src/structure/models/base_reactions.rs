@@ -1,23 +1,23 @@
-//! Geometric stiffness of P–Δ that no element has: rigid links, and reactions of the ground that turn with the base.
+//! Geometric stiffness of P–Δ by rigid links, and by reactions of the ground that rotate with the base.
 //!
-//! The forces of the static state are in equilibrium with the weights and with the reactions at the held contact
-//! nodes. In a rigid rotation the forces of the elements turn with them, and the weights keep their direction. The
-//! reactions of the ground do as follows, so that a structure meets no force in a rotation about the vertical, and in a
-//! rocking rotation the overturning moment of its weights about the height of the base:
+//! The forces of the static state are in equilibrium with the weights and with the reactions at the fixed contact nodes. In a
+//! rigid rotation the forces of the elements rotate with them, and the weights keep their direction. The reactions of the
+//! ground follow two rules. A rotation of the structure about the vertical then causes no force, and a rocking rotation
+//! causes the overturning moment of the weights about the height of the base:
 //!
-//! * vertical reactions keep their direction;
-//! * other reactions, such as the thrust between the feet of a portal, hold each other through the base and turn with
-//!   it. Ground and basemat share them in a way that the structure does not know.
+//! * Vertical reactions keep their direction.
+//! * Other reactions, such as the thrust between the feet of a portal, are in equilibrium through the base and rotate with
+//!   it. Their distribution between ground and basemat is not a property of the structure.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | K_G | geometric stiffness of elements and links |
-//! | R | rigid rotations by 1 rad about the middle of the base, one column an axis |
-//! | Q | mean rotations of the base by the degrees of freedom, one row an axis; Q R = 1 |
-//! | T | forces that hold the structure in these rotations |
-//! | D | K_G R − T, at degrees of freedom of the base |
+//! | R | rigid rotations by 1 rad about the middle of the base, one column for each axis |
+//! | Q | mean rotations of the base by the degrees of freedom, one row for each axis; Q R = 1 |
+//! | T | forces in equilibrium with the structure in these rotations |
+//! | D | surplus K_G R − T, at degrees of freedom of the base |
 //!
-//! K_G − D Q − (D Q)ᵀ + Qᵀ(RᵀD)Q is symmetric and gives T in the rotations. Q and D have few entries each.
+//! The matrix K_G − D Q − (D Q)ᵀ + Qᵀ(RᵀD)Q is symmetric and gives T in the rotations. Q and D have few entries.
 
 use super::rigid_links::Follower;
 use crate::error::Result;
@@ -27,128 +27,149 @@ use crate::linalg::{SparseMatrix, dot, largest};
 use crate::structure::{BaseNode, DofCombination, FemModel, Structure, Triplets};
 
 /// Forces below this fraction of the largest are rounding.
-const ROUNDING_OF_FORCES: f64 = 1e-12;
+const FORCE_ROUNDING_RATIO: f64 = 1e-12;
 
-/// Difference of two distances that counts as rounding, relative to the size of the base.
-const SAME_DISTANCE: f64 = 1e-9;
+/// Difference of two distances that counts as rounding, relative to the extent of the base.
+const DISTANCE_ROUNDING_RATIO: f64 = 1e-9;
 
+/// Matrix entries (row, column, value).
 type Entries = Vec<(usize, usize, f64)>;
 
-/// Rotations of a mesh with the axes about which they turn.
-const ROTATIONS_OF_THE_PLANE: &[(usize, Direction)] = &[(2, Direction::Rotation)];
-const ROTATIONS_OF_SPACE: &[(usize, Direction)] =
-    &[(0, Direction::RotationX), (1, Direction::RotationY), (2, Direction::RotationZ)];
+/// A rotation of a mesh, and the index of its axis.
+struct RotationAxis {
+    axis: usize,
+    direction: Direction,
+}
+const PLANE_ROTATIONS: &[RotationAxis] =
+    &[RotationAxis { axis: 2, direction: Direction::Rotation }];
+const SPACE_ROTATIONS: &[RotationAxis] = &[
+    RotationAxis { axis: 0, direction: Direction::RotationX },
+    RotationAxis { axis: 1, direction: Direction::RotationY },
+    RotationAxis { axis: 2, direction: Direction::RotationZ },
+];
 
 impl FemModel {
     /// Whether each degree of freedom moves a contact node of the base's floor.
     ///
-    /// Walls carry no weight at rest.
-    pub(super) fn is_held(&self) -> Vec<bool> {
-        let mut is_held = vec![false; self.dofs()];
+    /// Walls have no static reactions to the weight.
+    pub(super) fn moves_base(&self) -> Vec<bool> {
+        let mut moves_base = vec![false; self.dofs()];
         let base = self.base();
         let floors = base.parts().iter().flat_map(|part| BaseNode::floor(part));
         for dof in floors.flat_map(BaseNode::dofs) {
-            is_held[dof] = true;
+            moves_base[dof] = true;
         }
-        is_held
+        moves_base
     }
 
-    /// Axis and direction of each rotation.
-    fn rotations(&self) -> &'static [(usize, Direction)] {
-        if self.mesh.has_depth() { ROTATIONS_OF_SPACE } else { ROTATIONS_OF_THE_PLANE }
+    /// Rotations of the mesh.
+    fn rotations(&self) -> &'static [RotationAxis] {
+        if self.mesh.has_depth() { SPACE_ROTATIONS } else { PLANE_ROTATIONS }
     }
 
-    /// Sum of the elements' matrices by the degrees of freedom of the model.
-    fn matrix_of(&self, quantity: MatrixKind) -> Result<SparseMatrix> {
-        let mut matrix = Triplets::new(self.dofs());
-        self.add(&mut matrix, &[(quantity, 1.0)]);
-        SparseMatrix::new("matrix of the elements", &matrix)
+    /// Matrix of all elements for the degrees of freedom of the model.
+    fn model_matrix(&self, kind: MatrixKind) -> Result<SparseMatrix> {
+        let mut entries = Triplets::new(self.dofs());
+        self.add_matrices(&mut entries, &[(kind, 1.0)]);
+        SparseMatrix::new("matrix of the elements", &entries)
     }
 
-    /// Sum of the elements' matrices by the degrees of freedom of the mesh, before rigid links.
-    fn mesh_matrix(&self, quantity: MatrixKind) -> Result<SparseMatrix> {
-        let mut matrix = Triplets::new(self.numbering.dofs());
-        assemble(&self.mesh, &self.numbering, quantity, 1.0, |_| true, &mut matrix);
-        SparseMatrix::new("matrix of the elements", &matrix)
+    /// Matrix of all elements for the degrees of freedom of the mesh, before rigid links.
+    fn mesh_matrix(&self, kind: MatrixKind) -> Result<SparseMatrix> {
+        let mut entries = Triplets::new(self.numbering.dofs());
+        assemble(&self.mesh, &self.numbering, kind, 1.0, |_| true, &mut entries);
+        SparseMatrix::new("matrix of the elements", &entries)
     }
 
-    /// Geometric stiffness of rigid links: their followers move by θ × a + θ × (θ × a)/2 at the arm a.
-    pub(super) fn rotation_of_links(&self, displacement: &[f64], gravity: f64) -> Result<Entries> {
+    /// Geometric stiffness of rigid links under the static `displacement` and `gravity` (m/s²).
+    ///
+    /// A follower at the arm a moves by θ × a + θ × (θ × a)/2 in a rotation θ of its leader.
+    pub(super) fn link_stiffness(&self, displacement: &[f64], gravity: f64) -> Result<Entries> {
         let mut entries = Entries::new();
         let Some(links) = &self.links else { return Ok(entries) };
-        let n = self.numbering.dofs();
-        let mut upwards = vec![0.0; n];
-        self.fill_rigid_motion(self.mesh.upwards(), [0.0; 3], &mut upwards, |node, direction| {
-            self.numbering.dof(node, direction)
-        });
-        let moved: Vec<f64> =
-            (0..n).map(|dof| self.remaining_row(vec![(dof, 1.0)]).value(displacement)).collect();
-        // Forces of the elements less the weight: what a follower exerts on its leader.
-        let mut forces = vec![0.0; n];
-        let stiffness = self.mesh_matrix(MatrixKind::Stiffness)?;
-        stiffness.multiply_add(1.0, &moved, &mut forces);
-        let mass = self.mesh_matrix(MatrixKind::Mass(self.mass_kind))?;
-        mass.multiply_add(gravity, &upwards, &mut forces);
+        let follower_forces = self.mesh_forces(displacement, gravity)?;
         for Follower { node, leader, is_body } in links.followers() {
-            let place = self.mesh.nodes()[node];
-            let origin = self.mesh.nodes()[leader];
-            let arm: [f64; 3] = std::array::from_fn(|axis| place[axis] - origin[axis]);
+            let follower_point = self.mesh.nodes()[node];
+            let leader_point = self.mesh.nodes()[leader];
+            let arm: [f64; 3] =
+                std::array::from_fn(|axis| follower_point[axis] - leader_point[axis]);
             let force = [Direction::X, Direction::Y, Direction::Z].map(|direction| {
-                // A diaphragm holds its nodes in its plane only.
+                // A diaphragm ties its nodes in its plane only.
                 let is_tied = is_body || direction != Direction::Z;
                 let dof = self.numbering.dof(node, direction).filter(|_| is_tied);
-                dof.map_or(0.0, |dof| forces[dof])
+                dof.map_or(0.0, |dof| follower_forces[dof])
             });
-            let work = dot(&arm, &force);
-            let turning = self.rotations().iter().filter(|(axis, _)| is_body || *axis == 2);
-            let turning: Vec<(usize, usize)> = turning
-                .filter_map(|&(axis, direction)| Some((axis, self.dof(leader, direction)?)))
+            let trace = dot(&arm, &force);
+            let tied_rotations =
+                self.rotations().iter().filter(|rotation| is_body || rotation.axis == 2);
+            let rotation_dofs: Vec<(usize, usize)> = tied_rotations
+                .filter_map(|rotation| Some((rotation.axis, self.dof(leader, rotation.direction)?)))
                 .collect();
-            for &(i, row) in &turning {
-                for &(j, column) in &turning {
+            for &(i, row) in &rotation_dofs {
+                for &(j, column) in &rotation_dofs {
                     let product = 0.5 * (force[i] * arm[j] + arm[i] * force[j]);
-                    entries.push((row, column, if i == j { product - work } else { product }));
+                    entries.push((row, column, if i == j { product - trace } else { product }));
                 }
             }
         }
         Ok(entries)
     }
 
+    /// Forces of the elements less the weight, by the degrees of freedom of the mesh.
+    ///
+    /// They are the forces that followers of rigid links exert on their leaders.
+    fn mesh_forces(&self, displacement: &[f64], gravity: f64) -> Result<Vec<f64>> {
+        let n = self.numbering.dofs();
+        let mut upwards = vec![0.0; n];
+        let up_direction = self.mesh.up_direction();
+        self.fill_rigid_motion(up_direction, [0.0; 3], &mut upwards, |node, direction| {
+            self.numbering.dof(node, direction)
+        });
+        let mesh_displacement: Vec<f64> =
+            (0..n).map(|dof| self.remaining_row(vec![(dof, 1.0)]).value(displacement)).collect();
+        let mut forces = vec![0.0; n];
+        let stiffness = self.mesh_matrix(MatrixKind::Stiffness)?;
+        stiffness.multiply_add(1.0, &mesh_displacement, &mut forces);
+        let mass = self.mesh_matrix(MatrixKind::Mass(self.mass_kind))?;
+        mass.multiply_add(gravity, &upwards, &mut forces);
+        Ok(forces)
+    }
+
     /// Adds the geometric stiffness of the base to the `entries` of the links.
     ///
-    /// `displacement` is the static state under `gravity`.
-    pub(super) fn add_base_reactions(
+    /// `displacement` is the static state under `gravity` (m/s²).
+    pub(super) fn add_base_stiffness(
         &self,
         displacement: &[f64],
         gravity: f64,
         entries: &mut Entries,
     ) -> Result<()> {
-        let Some(base) = MovingBase::new(self) else { return Ok(()) };
-        let geometric = {
+        let Some(base) = BaseRotations::new(self) else { return Ok(()) };
+        let geometric_stiffness = {
             let mut matrix = Triplets::new(self.dofs());
-            self.add(&mut matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
+            self.add_matrices(&mut matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
             matrix.extend(entries.iter().copied());
             SparseMatrix::new("geometric stiffness matrix", &matrix)?
         };
-        let mut surplus = self.forces_of_rotations(&base, displacement, gravity)?;
-        let mut scale = surplus.iter().map(|target| largest(target)).fold(0.0, f64::max);
-        for (target, motion) in surplus.iter_mut().zip(&base.motions) {
-            for value in target.iter_mut() {
-                *value = -*value;
+        let mut surplus_forces = self.equilibrium_forces(&base, displacement, gravity)?;
+        let mut max_force = surplus_forces.iter().map(|forces| largest(forces)).fold(0.0, f64::max);
+        for (forces, motion) in surplus_forces.iter_mut().zip(&base.rigid_rotations) {
+            for force in forces.iter_mut() {
+                *force = -*force;
             }
-            geometric.multiply_add(1.0, motion, target);
+            geometric_stiffness.multiply_add(1.0, motion, forces);
         }
-        scale = surplus.iter().map(|force| largest(force)).fold(scale, f64::max);
-        for value in surplus.iter_mut().flatten() {
-            if value.abs() <= ROUNDING_OF_FORCES * scale {
-                *value = 0.0;
+        max_force = surplus_forces.iter().map(|forces| largest(forces)).fold(max_force, f64::max);
+        for force in surplus_forces.iter_mut().flatten() {
+            if force.abs() <= FORCE_ROUNDING_RATIO * max_force {
+                *force = 0.0;
             }
         }
-        base.remove(&surplus, entries);
+        base.remove_forces(&surplus_forces, entries);
         Ok(())
     }
 
-    /// Forces of the mass under an `acceleration` (m/s²) in `direction`.
+    /// Product of the mass and an `acceleration` (m/s²) in `direction`.
     fn inertia_forces(
         &self,
         mass: &SparseMatrix,
@@ -161,111 +182,120 @@ impl FemModel {
         forces
     }
 
-    /// Forces T that hold the structure in rigid rotations of `base`.
-    fn forces_of_rotations(
+    /// Forces T in equilibrium with the structure in rigid rotations of `base`, one list for each rotation.
+    fn equilibrium_forces(
         &self,
-        base: &MovingBase,
+        base: &BaseRotations,
         displacement: &[f64],
         gravity: f64,
     ) -> Result<Vec<Vec<f64>>> {
         let n = self.dofs();
-        let mass = self.matrix_of(MatrixKind::Mass(self.mass_kind))?;
-        let upwards = self.mesh.upwards();
-        let mut reactions = self.inertia_forces(&mass, upwards, gravity);
-        self.matrix_of(MatrixKind::Stiffness)?
+        let mass = self.model_matrix(MatrixKind::Mass(self.mass_kind))?;
+        let up_direction = self.mesh.up_direction();
+        let mut reactions = self.inertia_forces(&mass, up_direction, gravity);
+        self.model_matrix(MatrixKind::Stiffness)?
             .multiply_add(1.0, displacement, &mut reactions);
-        let is_held = self.is_held();
-        let mut targets = Vec::with_capacity(base.motions.len());
-        for (_, rotation) in self.rotations() {
-            // In this rotation a vertical vector of length 1 moves by `factor` along `level`.
-            let (level, factor) = match rotation {
+        let moves_base = self.moves_base();
+        let mut force_lists = Vec::with_capacity(base.rigid_rotations.len());
+        for rotation in self.rotations() {
+            // In this rotation the end of a vertical unit vector moves by `factor` along `horizontal`.
+            let (horizontal, factor) = match rotation.direction {
                 Direction::Rotation => (Direction::X, -1.0),
                 Direction::RotationX => (Direction::Y, -1.0),
                 Direction::RotationY => (Direction::X, 1.0),
                 _ => {
-                    targets.push(vec![0.0; n]);
+                    force_lists.push(vec![0.0; n]);
                     continue;
                 }
             };
-            let mut target = self.inertia_forces(&mass, level, -factor * gravity);
-            let moments: Vec<f64> =
-                base.motions.iter().map(|motion| dot(motion, &target)).collect();
+            let mut forces = self.inertia_forces(&mass, horizontal, -factor * gravity);
+            let weight_moments: Vec<f64> =
+                base.rigid_rotations.iter().map(|motion| dot(motion, &forces)).collect();
             for node in 0..self.mesh.nodes().len() {
-                let up = self.dof(node, upwards).filter(|&dof| is_held[dof]);
-                let level = self.dof(node, level).filter(|&dof| is_held[dof]);
-                if let (Some(up), Some(level)) = (up, level) {
-                    target[level] += factor * reactions[up];
+                let vertical_dof = self.dof(node, up_direction).filter(|&dof| moves_base[dof]);
+                let horizontal_dof = self.dof(node, horizontal).filter(|&dof| moves_base[dof]);
+                if let (Some(vertical_dof), Some(horizontal_dof)) = (vertical_dof, horizontal_dof) {
+                    forces[horizontal_dof] += factor * reactions[vertical_dof];
                 }
             }
-            // Vertical reactions act on the contact nodes. Moments between these and the held nodes, such as the
-            // leader of a rigid base, act on the base.
-            for (a, motion) in base.motions.iter().enumerate() {
-                let is_vertical = self.rotations()[a].1 == Direction::RotationZ;
-                let needed = if is_vertical { 0.0 } else { moments[a] };
-                let missing = needed - dot(motion, &target);
-                for &(dof, weight) in &base.rows[a] {
-                    target[dof] += missing * weight;
+            // Vertical reactions act at the contact nodes. Their moments about the nodes with these degrees of freedom,
+            // such as the leader of a rigid base, act on the base.
+            for (axis, motion) in base.rigid_rotations.iter().enumerate() {
+                let is_vertical = self.rotations()[axis].direction == Direction::RotationZ;
+                let required_moment = if is_vertical { 0.0 } else { weight_moments[axis] };
+                let missing_moment = required_moment - dot(motion, &forces);
+                for &(dof, weight) in &base.mean_rotations[axis] {
+                    forces[dof] += missing_moment * weight;
                 }
             }
-            targets.push(target);
+            force_lists.push(forces);
         }
-        Ok(targets)
+        Ok(force_lists)
     }
 }
 
-/// Mean rotations of a base, and the rigid rotations of the structure on it.
-struct MovingBase {
-    /// R.
-    motions: Vec<Vec<f64>>,
-    /// Q.
-    rows: Vec<DofCombination>,
+/// Mean rotations of a base, and the rigid rotations of the structure with it.
+struct BaseRotations {
+    /// Columns of R.
+    rigid_rotations: Vec<Vec<f64>>,
+    /// Rows of Q.
+    mean_rotations: Vec<DofCombination>,
 }
 
-impl MovingBase {
+impl BaseRotations {
     /// Rotations of a model's base; `None` for a base without width.
     fn new(model: &FemModel) -> Option<Self> {
         let base = model.base();
-        let nodes: Vec<BaseNode> =
+        let floor_nodes: Vec<BaseNode> =
             base.parts().iter().flat_map(|part| BaseNode::floor(part)).cloned().collect();
-        let nodes = outermost(&nodes);
-        let rows = if model.mesh.has_depth() {
-            let [right, away, turn] = BaseNode::mean_rotations(&nodes);
-            vec![away, -right, turn]
+        let nodes = outermost_nodes(&floor_nodes);
+        let mean_rotations = if model.mesh.has_depth() {
+            let [slope_right, slope_away, vertical_rotation] = BaseNode::mean_rotations(&nodes);
+            vec![slope_away, -slope_right, vertical_rotation]
         } else {
-            let left = nodes.iter().min_by(|a, b| a.x.total_cmp(&b.x))?;
-            let right = nodes.iter().max_by(|a, b| a.x.total_cmp(&b.x))?;
-            let rise = right.vertical.clone() - left.vertical.clone();
-            vec![(1.0 / (right.x - left.x)) * rise]
+            let left_end = nodes.iter().min_by(|a, b| a.x.total_cmp(&b.x))?;
+            let right_end = nodes.iter().max_by(|a, b| a.x.total_cmp(&b.x))?;
+            let rise = right_end.vertical.clone() - left_end.vertical.clone();
+            vec![(1.0 / (right_end.x - left_end.x)) * rise]
         };
-        let heights = model.feet.iter().flatten();
-        let heights =
-            heights.map(|foot| model.mesh.nodes()[foot.node][model.mesh.up()] - foot.depth);
+        let up_axis = model.mesh.up_axis();
+        let foot_heights = model
+            .feet
+            .iter()
+            .flatten()
+            .map(|foot| model.mesh.nodes()[foot.node][up_axis] - foot.depth);
         let weight = 1.0 / nodes.len() as f64;
         let x = nodes.iter().map(|node| node.x).sum::<f64>() * weight;
         let y = nodes.iter().map(|node| node.y).sum::<f64>() * weight;
-        let mut point = [x, y, 0.0];
-        point[model.mesh.up()] = heights.reduce(f64::min)?;
-        let motions = model.rotations().iter();
-        let motions = motions.map(|(_, rotation)| model.rigid_motion(*rotation, point)).collect();
-        let mut weights = rows.iter().flatten();
-        weights.all(|(_, weight)| weight.is_finite()).then_some(Self { motions, rows })
+        let mut center = [x, y, 0.0];
+        center[up_axis] = foot_heights.reduce(f64::min)?;
+        let rotations = model.rotations().iter();
+        let rigid_rotations =
+            rotations.map(|rotation| model.rigid_motion(rotation.direction, center)).collect();
+        let mut terms = mean_rotations.iter().flatten();
+        terms
+            .all(|(_, weight)| weight.is_finite())
+            .then_some(Self { rigid_rotations, mean_rotations })
     }
 
-    /// Removes the `surplus` forces D from the forces of rigid rotations.
-    fn remove(&self, surplus: &[Vec<f64>], entries: &mut Entries) {
-        for (a, row) in self.rows.iter().enumerate() {
-            for (dof, &force) in surplus[a].iter().enumerate().filter(|(_, force)| **force != 0.0) {
-                for &(other, weight) in row {
-                    entries.push((dof, other, -force * weight));
-                    entries.push((other, dof, -force * weight));
+    /// Subtracts the surplus forces D from the forces of rigid rotations, by matrix `entries`.
+    fn remove_forces(&self, surplus_forces: &[Vec<f64>], entries: &mut Entries) {
+        for (a, row) in self.mean_rotations.iter().enumerate() {
+            let nonzero_forces =
+                surplus_forces[a].iter().enumerate().filter(|(_, force)| **force != 0.0);
+            for (dof, &force) in nonzero_forces {
+                for &(base_dof, weight) in row {
+                    entries.push((dof, base_dof, -force * weight));
+                    entries.push((base_dof, dof, -force * weight));
                 }
             }
-            for (b, column) in self.rows.iter().enumerate() {
-                let moment =
-                    0.5 * (dot(&self.motions[a], &surplus[b]) + dot(&self.motions[b], &surplus[a]));
-                for &(i, weight) in row.iter().filter(|_| moment != 0.0) {
-                    for &(j, other) in column {
-                        entries.push((i, j, moment * weight * other));
+            for (b, column) in self.mean_rotations.iter().enumerate() {
+                let moment = 0.5
+                    * (dot(&self.rigid_rotations[a], &surplus_forces[b])
+                        + dot(&self.rigid_rotations[b], &surplus_forces[a]));
+                for &(i, row_weight) in row.iter().filter(|_| moment != 0.0) {
+                    for &(j, column_weight) in column {
+                        entries.push((i, j, moment * row_weight * column_weight));
                     }
                 }
             }
@@ -273,29 +303,32 @@ impl MovingBase {
     }
 }
 
-/// The nodes that lie farthest out in eight directions, each once; of several as far out the two ends of their row.
+/// Outermost nodes of a base in eight directions, each once.
 ///
-/// Few nodes suffice for the mean rotations of a base, and keep the matrix sparse. Their choice depends on their places
-/// alone, whatever their numbers.
-fn outermost(nodes: &[BaseNode]) -> Vec<BaseNode> {
-    let ways = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
-    let mut found: Vec<BaseNode> = Vec::new();
-    for [x, y] in ways.into_iter().flatten().filter(|way| *way != [0.0; 2]) {
+/// Of several equally distant nodes in a direction, the two ends of their row are returned. Few nodes suffice for the mean
+/// rotations of a base, and keep the matrix sparse. The choice depends on the coordinates only, not on the numbering.
+fn outermost_nodes(nodes: &[BaseNode]) -> Vec<BaseNode> {
+    let grid = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
+    let mut outermost: Vec<BaseNode> = Vec::new();
+    for [x, y] in grid.into_iter().flatten().filter(|direction| *direction != [0.0; 2]) {
         let distances: Vec<f64> = nodes.iter().map(|node| x * node.x + y * node.y).collect();
-        let range = span(distances.iter().copied());
-        let farthest = range[1];
-        let slack = SAME_DISTANCE * (farthest - range[0]);
-        let along = |node: &BaseNode| x * node.y - y * node.x;
-        let outer = nodes.iter().zip(&distances);
-        let outer = outer.filter(|(_, distance)| **distance >= farthest - slack);
-        let row = outer.map(|(node, _)| node);
-        let first = row.clone().min_by(|a, b| along(a).total_cmp(&along(b)));
-        let last = row.max_by(|a, b| along(a).total_cmp(&along(b)));
-        for node in first.into_iter().chain(last) {
-            if found.iter().all(|other| other.place() != node.place()) {
-                found.push(node.clone());
+        let distance_range = span(distances.iter().copied());
+        let max_distance = distance_range[1];
+        let tolerance = DISTANCE_ROUNDING_RATIO * (max_distance - distance_range[0]);
+        let row_coordinate = |node: &BaseNode| x * node.y - y * node.x;
+        let node_row = nodes
+            .iter()
+            .zip(&distances)
+            .filter(|(_, distance)| **distance >= max_distance - tolerance)
+            .map(|(node, _)| node);
+        let first_end =
+            node_row.clone().min_by(|a, b| row_coordinate(a).total_cmp(&row_coordinate(b)));
+        let second_end = node_row.max_by(|a, b| row_coordinate(a).total_cmp(&row_coordinate(b)));
+        for node in first_end.into_iter().chain(second_end) {
+            if outermost.iter().all(|other| other.place() != node.place()) {
+                outermost.push(node.clone());
             }
         }
     }
-    found
+    outermost
 }

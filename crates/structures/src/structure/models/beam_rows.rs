@@ -1,4 +1,4 @@
-//! Forces at the ends of a model's beams as weighted sums of its degrees of freedom.
+//! Forces at the ends of a model's beams, as weighted sums of degrees of freedom.
 
 use std::any::Any;
 
@@ -6,25 +6,24 @@ use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Beam, Direction, Element, EndFrame, SpaceBeam};
 use crate::structure::{DofCombination, FemModel, SectionRows};
 
-/// Forces and moments of a beam at its two ends, as rows over displacements.
+/// Forces and moments of a beam at its two ends, as weighted sums of displacements.
 ///
-/// They are those on a section whose outward normal is x, the axis of the beam from its first to its second node, at
-/// both ends: an axial force, a torque and, without loads between the nodes, a shear force have one value along the
-/// beam. A `Probe::section` records one of them at every step, as a change from the
-/// static state. The static part is the row's value for
+/// At both ends they act on a section whose outward normal is x, the axis of the beam from its first to its second node.
+/// Axial force, torque and, without loads between the nodes, shear force are therefore equal at both ends. A
+/// `Probe::section` records one of them at every step, as a change from the static state. The static part is the value for
 /// `Simulation::static_displacement`.
 ///
-/// The rows contain the elastic forces, without damping and without the inertia of the beam's mass, which acts at
-/// its nodes. With the P–Δ effect ([`FemModel::with_p_delta`],
+/// The sums contain the elastic forces, without damping and without the inertia of the beam's mass, which acts at its nodes.
+/// With the P–Δ effect ([`FemModel::with_p_delta`],
 /// [`Beam::with_compression`](crate::fem::Beam::with_compression)) they also contain the forces of the geometric
-/// stiffness. They then refer to the axes of the undeformed beam: the shear force contains the axial force at rest
-/// times the rotation of the beam, and the moments balance the loads in the deformed state. The axial force at
-/// rest itself ([`Element::compression`]) is not part of a change.
+/// stiffness. They then refer to the axes of the undeformed beam: the shear force contains the static axial force times the
+/// rotation of the beam, and the moments are in equilibrium with the loads in the deformed state. The static axial force
+/// itself ([`Element::compression`]) is not part of a change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamRows {
     /// Axes x (along the beam), y and z of the section, as rows.
     ///
-    /// In the plane y is to the left of x, and z points to the reader.
+    /// In the plane y is to the left of x, and z points out of the plane.
     pub axes: [[f64; 3]; 3],
     /// The first and the second end.
     pub ends: [BeamEndRows; 2],
@@ -33,7 +32,7 @@ pub struct BeamRows {
 /// Forces and moments at one end of a beam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamEndRows {
-    /// The node of this end.
+    /// Index of the node of this end.
     pub node: usize,
     /// Axial force N, positive in tension.
     pub axial: SectionRows,
@@ -43,15 +42,15 @@ pub struct BeamEndRows {
     pub torque: SectionRows,
     /// Moments about y and about z by the right-hand rule; the first is zero in the plane.
     ///
-    /// A positive moment about y pulls the fibres at positive z; a positive moment about z those at negative y.
+    /// A positive moment about y causes tension at positive z, a positive moment about z tension at negative y.
     pub moments: [SectionRows; 2],
 }
 
 impl FemModel {
     /// Forces at the ends of a [`Beam`](crate::fem::Beam) or [`SpaceBeam`](crate::fem::SpaceBeam), as rows.
     ///
-    /// `element`: index of the beam, from [`Mesh::add`](crate::fem::Mesh::add). Ends that are offset from their nodes
-    /// have the forces at the ends, not at the nodes. Nodes that follow others in rigid links or diaphragms are
+    /// `element`: index of the beam, from [`Mesh::add`](crate::fem::Mesh::add). For an end with an offset the
+    /// forces are those at the end, not at the node. Degrees of freedom of followers of rigid links or diaphragms are
     /// expressed by the remaining degrees of freedom. Forces are in N and moments in N m; in the plane per metre of
     /// thickness.
     ///
@@ -69,16 +68,16 @@ impl FemModel {
     /// mesh.add(Beam::new([foot, right], 30.0e9, 0.5, 0.01, 2400.0)?)?;
     /// let column = mesh.add(Beam::new([foot, top], 30.0e9, 0.5, 0.01, 2400.0)?)?;
     /// let model = FemModel::on_base(mesh)?;
-    /// let [bottom, head] = model.beam_rows(column)?.ends;
-    /// let probe = Probe::section("moment at the foot", &bottom.moments[1]);
+    /// let [foot_rows, head_rows] = model.beam_rows(column)?.ends;
+    /// let probe = Probe::section("moment at the foot", &foot_rows.moments[1]);
     /// assert_eq!(probe.unit, "N·m/m");
     /// // The top moves by 1 mm and does not rotate: 12 E I u/L³ and ±6 E I u/L².
     /// let mut displacement = vec![0.0; model.dofs()];
     /// displacement[model.dof(top, Direction::X).unwrap()] = 1e-3;
     /// let value = |rows: &basemat::structure::SectionRows| rows.displacement.value(&displacement);
-    /// assert!((value(&head.shears[0]) + 12.0 * 3.0e8 * 1e-3 / 216.0).abs() < 1e-6);
-    /// assert!((value(&head.moments[1]) - 6.0 * 3.0e8 * 1e-3 / 36.0).abs() < 1e-6);
-    /// assert!((value(&bottom.moments[1]) + 6.0 * 3.0e8 * 1e-3 / 36.0).abs() < 1e-6);
+    /// assert!((value(&head_rows.shears[0]) + 12.0 * 3.0e8 * 1e-3 / 216.0).abs() < 1e-6);
+    /// assert!((value(&head_rows.moments[1]) - 6.0 * 3.0e8 * 1e-3 / 36.0).abs() < 1e-6);
+    /// assert!((value(&foot_rows.moments[1]) + 6.0 * 3.0e8 * 1e-3 / 36.0).abs() < 1e-6);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -86,46 +85,48 @@ impl FemModel {
     /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a beam.
     pub fn beam_rows(&self, element: usize) -> Result<BeamRows> {
         in_bounds("element", element, self.mesh.elements().len())?;
-        let fault = || Error::part(format!("element {element}"), "it is not a beam");
-        let beam = self.mesh.elements().nth(element).ok_or_else(fault)?;
+        let not_a_beam = || Error::part(format!("element {element}"), "it is not a beam");
+        let beam = self.mesh.elements().nth(element).ok_or_else(not_a_beam)?;
         let points = self.mesh.coordinates(beam.nodes());
-        let frame = end_frame(beam, &points).ok_or_else(fault)?;
+        let frame = end_frame(beam, &points).ok_or_else(not_a_beam)?;
         let order = beam.order();
         let mut matrix = vec![0.0; order * order];
         beam.stiffness(&points, &mut matrix);
         beam.geometric_stiffness(&points, &mut matrix);
         let mut dofs = Vec::with_capacity(order);
-        self.numbering.of_element(beam, &mut dofs);
+        self.numbering.element_dofs(beam, &mut dofs);
         let ends = [0, 1].map(|end| {
-            let row = |moment: bool, axis: [f64; 3]| {
-                let terms = end_force_row(beam.directions(), &frame, end, moment, axis, &matrix);
+            let row = |is_moment: bool, axis: [f64; 3]| {
+                let terms = end_force_row(beam.directions(), &frame, end, is_moment, axis, &matrix);
                 self.remaining_row(
                     dofs.iter().copied().zip(terms).filter(|term| term.1 != 0.0).collect(),
                 )
             };
             BeamEndRows {
                 node: beam.nodes()[end],
-                axial: self.force(row(false, frame.axes[0])),
-                shears: [1, 2].map(|k| self.force(row(false, frame.axes[k]))),
-                torque: self.moment(row(true, frame.axes[0])),
-                moments: [1, 2].map(|k| self.moment(row(true, frame.axes[k]))),
+                axial: self.force_rows(row(false, frame.axes[0])),
+                shears: [1, 2].map(|k| self.force_rows(row(false, frame.axes[k]))),
+                torque: self.moment_rows(row(true, frame.axes[0])),
+                moments: [1, 2].map(|k| self.moment_rows(row(true, frame.axes[k]))),
             }
         });
         Ok(BeamRows { axes: frame.axes, ends })
     }
 
-    fn force(&self, displacement: DofCombination) -> SectionRows {
+    /// Rows of a force.
+    fn force_rows(&self, displacement: DofCombination) -> SectionRows {
         let unit = if self.mesh.has_depth() { "N" } else { "N/m" };
         SectionRows { unit, displacement, ..SectionRows::default() }
     }
 
-    fn moment(&self, displacement: DofCombination) -> SectionRows {
+    /// Rows of a moment.
+    fn moment_rows(&self, displacement: DofCombination) -> SectionRows {
         let unit = if self.mesh.has_depth() { "N·m" } else { "N·m/m" };
         SectionRows { unit, displacement, ..SectionRows::default() }
     }
 }
 
-/// Axes and ends of a beam, also from a box; `None` for another element.
+/// Axes and offsets of a beam, also if it is in a box; `None` for another element.
 fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
     let any: &dyn Any = element;
     if let Some(inner) = any.downcast_ref::<Box<dyn Element>>() {
@@ -137,33 +138,36 @@ fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame
     any.downcast_ref::<Beam>()?.end_frame(coordinates)
 }
 
-/// Weights, on the displacements of a beam's nodes, of the force or moment along `axis` at an end.
+/// Weights of the displacements of a beam's nodes in the force or moment along `axis` at an end.
 ///
-/// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam.
-/// The end has the force of its node, and the work of that force on a rigid motion about the end is the resultant.
+/// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam. The force
+/// at the end is that of its node, and its resultant is the work on a unit rigid motion about the end.
 fn end_force_row(
     directions: &[Direction],
     frame: &EndFrame,
     end: usize,
-    moment: bool,
+    is_moment: bool,
     axis: [f64; 3],
     matrix: &[f64],
 ) -> Vec<f64> {
     let order = 2 * directions.len();
-    // On a section with the outward normal x the second end has the force of its node, the first one the opposite.
+    // With the outward normal x, the section at the second end has the force of its node, that at the first end the
+    // opposite force.
     let sign = if end == 0 { -1.0 } else { 1.0 };
-    let to_node = frame.offsets[end].map(|offset| -offset);
+    let arm_to_node = frame.offsets[end].map(|offset| -offset);
+    let motions = if is_moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
     let mut row = vec![0.0; order];
     for (k, direction) in directions.iter().enumerate() {
-        let motions = if moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
-        // The rotation of the plane is about z.
-        let direction =
+        // The rotation of a mesh in the plane is about z.
+        let space_direction =
             if *direction == Direction::Rotation { Direction::RotationZ } else { *direction };
-        let motion = motions.iter().zip(axis);
-        let weight: f64 =
-            motion.map(|(&motion, part)| part * direction.in_rigid_motion(motion, to_node)).sum();
-        let line = (end * directions.len() + k) * order;
-        for (sum, entry) in row.iter_mut().zip(&matrix[line..line + order]) {
+        let weight: f64 = motions
+            .iter()
+            .zip(axis)
+            .map(|(&motion, part)| part * space_direction.in_rigid_motion(motion, arm_to_node))
+            .sum();
+        let row_start = (end * directions.len() + k) * order;
+        for (sum, entry) in row.iter_mut().zip(&matrix[row_start..row_start + order]) {
             *sum += sign * weight * entry;
         }
     }

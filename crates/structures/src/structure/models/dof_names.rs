@@ -1,46 +1,46 @@
-//! Names of degrees of freedom by nodes, for errors.
+//! Texts that name degrees of freedom by their nodes, for errors.
 
 use std::fmt::Write;
 
 use crate::error::point_text;
 use crate::fem::{Direction, Mesh};
-use crate::structure::detached::{MAX_LISTED_ITEMS, listed};
+use crate::structure::detached::{MAX_LISTED_ITEMS, joined_items};
 
-/// Nodes of these degrees of freedom with their places, for an error.
+/// Text that names the nodes of `dofs` with their coordinates, for an error.
 ///
-/// The text also names a node at the same place that is not merged with one of them. `number` numbers the degrees
-/// of freedom. `None` if no node has these degrees of freedom.
+/// The text also names a coincident node that is not merged with one of them. `dof_of` returns the degree of freedom of a
+/// node in a direction. `None` if no node has these degrees of freedom.
 pub(super) fn describe(
     mesh: &Mesh,
-    number: &dyn Fn(usize, Direction) -> Option<usize>,
+    dof_of: &dyn Fn(usize, Direction) -> Option<usize>,
     dofs: &[usize],
 ) -> Option<String> {
-    let limit = dofs.iter().copied().max()?;
-    let max_dofs = mesh.directions().len() * mesh.nodes().len();
-    let mut is_wanted = vec![false; limit.saturating_add(1).min(max_dofs)];
+    let max_dof = dofs.iter().copied().max()?;
+    let dof_count_bound = mesh.directions().len() * mesh.nodes().len();
+    let mut is_requested = vec![false; max_dof.saturating_add(1).min(dof_count_bound)];
     for &dof in dofs {
-        *is_wanted.get_mut(dof)? = true;
+        *is_requested.get_mut(dof)? = true;
     }
     let mut nodes = Vec::new();
     let mut texts = Vec::new();
-    for (node, place) in mesh.nodes().iter().enumerate() {
-        let mut node_dofs = 0;
-        let mut wanted_directions = Vec::new();
+    for (node, coordinates) in mesh.nodes().iter().enumerate() {
+        let mut node_dof_count = 0;
+        let mut requested_directions = Vec::new();
         for &direction in mesh.directions() {
-            let Some(dof) = number(node, direction) else { continue };
-            node_dofs += 1;
-            if is_wanted.get(dof).copied().unwrap_or(false) {
-                wanted_directions.push(direction);
+            let Some(dof) = dof_of(node, direction) else { continue };
+            node_dof_count += 1;
+            if is_requested.get(dof).copied().unwrap_or(false) {
+                requested_directions.push(direction);
             }
         }
-        if wanted_directions.is_empty() {
+        if requested_directions.is_empty() {
             continue;
         }
         nodes.push(node);
         if texts.len() < MAX_LISTED_ITEMS {
-            let mut text = format!("node {node} at {}", point_text(place, mesh.nodes()));
-            if wanted_directions.len() < node_dofs {
-                for direction in wanted_directions {
+            let mut text = format!("node {node} at {}", point_text(coordinates, mesh.nodes()));
+            if requested_directions.len() < node_dof_count {
+                for direction in requested_directions {
                     let _ = write!(text, " in {direction:?}");
                 }
             }
@@ -50,12 +50,13 @@ pub(super) fn describe(
     if nodes.is_empty() {
         return None;
     }
-    let mut text = listed(&texts, nodes.len());
-    let twin = nodes.iter().find_map(|&node| {
-        let other = mesh.nodes_beside(node).find(|other| nodes.binary_search(other).is_err())?;
+    let mut text = joined_items(&texts, nodes.len());
+    let coincident_pair = nodes.iter().find_map(|&node| {
+        let other =
+            mesh.coincident_nodes(node).find(|other| nodes.binary_search(other).is_err())?;
         Some((node, other))
     });
-    if let Some((node, other)) = twin {
+    if let Some((node, other)) = coincident_pair {
         let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
     }
     Some(text)

@@ -5,17 +5,20 @@ use super::feet::{self, Foot};
 use super::rigid_links::RigidLinks;
 use crate::error::{Error, Result, in_bounds, same_length};
 use crate::fem::{Direction, Element, MassKind, MatrixKind, Mesh, Numbering, assemble};
-use crate::structure::{Base, BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
+use crate::structure::{
+    Base, BaseNode, DofCombination, RayleighDamping, Structure, StructureDescription, Triplets,
+};
 
 /// Finite-element structure on a flat base, in the plane or in space.
 ///
-/// Degrees of freedom are numbered node by node, within a node in the order of
-/// [`Mesh::directions`](crate::fem::Mesh::directions), as far as an element there has them; [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh
-/// damping.
+/// Degrees of freedom are numbered node by node, and at a node in the order of
+/// [`Mesh::directions`](crate::fem::Mesh::directions). A node has those directions that one of its elements has;
+/// [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh damping.
 ///
-/// Elements act on each other through common nodes. A part without a node in common with the part on the ground
-/// must be tied to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
-/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and nodes at the same place that were not merged.
+/// Elements act on each other through common nodes. A part without a common node with the part on the ground must be
+/// connected to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
+/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and coincident nodes that
+/// were not merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -35,33 +38,33 @@ pub struct FemModel {
     pub(super) mesh: Mesh,
     pub(super) numbering: Numbering,
     pub(super) links: Option<RigidLinks>,
-    /// Points that touch the ground, line by line or face by face.
+    /// Points in contact with the ground, line by line or face by face.
     pub(super) feet: Vec<Vec<Foot>>,
     base: Base,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
-    active_damping: bool,
-    active_stiffness: bool,
-    /// Acceleration of gravity for the axial forces of P–Δ.
-    pub(super) p_delta: Option<f64>,
-    /// Geometric stiffness of P–Δ by rigid links and by the reactions at the base.
-    pub(super) base_reactions: Vec<(usize, usize, f64)>,
+    has_active_damping: bool,
+    has_active_stiffness: bool,
+    /// Acceleration of gravity for the static forces of P–Δ, m/s²; `None` without P–Δ.
+    pub(super) p_delta_gravity: Option<f64>,
+    /// Entries (row, column, value) of the geometric stiffness by rigid links and by reactions at the base.
+    pub(super) link_and_base_stiffness: Vec<(usize, usize, f64)>,
 }
 
 impl FemModel {
-    /// Structure that touches the ground with the nodes `contact`, from left to right.
+    /// Structure on the ground with the contact nodes `contact`, from left to right.
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than two contact nodes, [`Error::Index`] for a node that does not exist,
-    /// [`Error::Input`] when the nodes do not run to the right at one height, [`Error::Scene`] when no element
-    /// displaces one of them, or for a mesh in space.
+    /// [`Error::Input`] unless the nodes are listed from left to right at one height, [`Error::Scene`] for a node
+    /// without horizontal and vertical degrees of freedom, or for a mesh in space.
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
-        let feet = feet::of_lines(&mesh, &[contact])?;
-        Self::standing(mesh, feet)
+        let feet = feet::line_feet(&mesh, &[contact])?;
+        Self::on_feet(mesh, feet)
     }
 
-    /// Structure on feet that are given line by line or face by face.
-    pub(super) fn standing(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
+    /// Structure on feet, which are listed line by line or face by face.
+    pub(super) fn on_feet(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
         let model = Self {
             numbering: Numbering::new(&mesh),
             mesh,
@@ -70,52 +73,53 @@ impl FemModel {
             base: Base::Lines(Vec::new()),
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
-            active_damping: false,
-            active_stiffness: false,
-            p_delta: None,
-            base_reactions: Vec::new(),
+            has_active_damping: false,
+            has_active_stiffness: false,
+            p_delta_gravity: None,
+            link_and_base_stiffness: Vec::new(),
         };
-        Ok(Self { base: model.base_of_feet()?, ..model })
+        Ok(Self { base: model.foot_base()?, ..model })
     }
 
-    /// The base, by the present degrees of freedom.
-    fn base_of_feet(&self) -> Result<Base> {
-        let parts = self.feet.iter();
-        let parts = parts
+    /// Base by the present degrees of freedom.
+    fn foot_base(&self) -> Result<Base> {
+        let parts = self
+            .feet
+            .iter()
             .map(|feet| feet.iter().map(|foot| self.base_node(*foot)).collect())
             .collect::<Result<Vec<Vec<_>>>>()?;
         Ok(if self.mesh.has_depth() { Base::Faces(parts) } else { Base::Lines(parts) })
     }
 
-    /// Motion of a foot.
+    /// Node of the base at a foot.
     fn base_node(&self, foot: Foot) -> Result<BaseNode> {
-        let has_depth = self.mesh.has_depth();
-        let unmoved = Error::Scene {
+        let is_in_space = self.mesh.has_depth();
+        let missing_dofs = Error::Scene {
             quantity: "contact node",
-            needed: if has_depth {
+            needed: if is_in_space {
                 "must have three displacements, and rotations on a shell, from some element"
             } else {
                 "must have horizontal and vertical degrees of freedom from some element"
             },
         };
-        let row = |direction| self.foot_row(foot, direction).map_err(|_| unmoved.clone());
-        let place = self.mesh.nodes()[foot.node];
+        let row = |direction| self.foot_row(foot, direction).map_err(|_| missing_dofs.clone());
+        let coordinates = self.mesh.nodes()[foot.node];
         let mut node = BaseNode {
-            x: place[0],
+            x: coordinates[0],
             z: foot.height,
             horizontal: row(Direction::X)?,
-            vertical: row(self.mesh.upwards())?,
+            vertical: row(self.mesh.up_direction())?,
             ..BaseNode::default()
         };
-        if has_depth {
-            node.y = place[1];
+        if is_in_space {
+            node.y = coordinates[1];
             node.z = 0.0;
             node.across = row(Direction::Y)?;
         }
         Ok(node)
     }
 
-    /// Displacement of a foot, which hangs below its node, in `direction`.
+    /// Displacement in `direction` of a foot, which is rigidly connected to its node.
     fn foot_row(&self, foot: Foot, direction: Direction) -> Result<DofCombination> {
         let mut row = self.row(foot.node, direction)?;
         for &motion in self.mesh.directions().iter().filter(|motion| motion.is_rotation()) {
@@ -129,14 +133,13 @@ impl FemModel {
 
     /// Structure on separate foundations.
     ///
-    /// Each foundation touches the ground with the nodes of one line, from left to right. Between two lines there
-    /// is no base.
+    /// `lines`: contact nodes of each foundation, from left to right. Between two lines there is no base.
     ///
     /// ```
     /// use basemat::fem::{Beam, Mesh};
     /// use basemat::structure::{Base, FemModel, Structure};
     ///
-    /// // A portal frame on two strips 2 m wide (the example `portal_frame` shakes one).
+    /// // A portal frame on two strips 2 m wide (as in the example `portal_frame`).
     /// let mut mesh = Mesh::new();
     /// let mut lines = Vec::new();
     /// let mut tops = Vec::new();
@@ -157,32 +160,32 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// As for [`FemModel::new`], for each line and for all lines in a row; [`Error::Size`] without lines.
+    /// As for [`FemModel::new`], for each line and for all lines together; [`Error::Size`] without lines.
     pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
         let lines: Vec<&[usize]> = lines.iter().map(Vec::as_slice).collect();
-        let feet = feet::of_lines(&mesh, &lines)?;
-        Self::standing(mesh, feet)
+        let feet = feet::line_feet(&mesh, &lines)?;
+        Self::on_feet(mesh, feet)
     }
 
-    /// Structure in space that touches the ground with these faces, each given by its corner nodes.
+    /// Structure in space on the ground with these faces, each of which lists its corner nodes.
     ///
-    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. A shell touches the ground with its
-    /// underside: a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness))
-    /// moves like the points half the thickness below its nodes. For a face over several shells the thickest one
-    /// counts. Another face moves like its nodes, such as the outline of nodes that a rigid link ties together.
+    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. The underside of a shell is in contact with the ground:
+    /// a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness)) moves with the
+    /// points at half the thickness below its nodes. For a face over several shells the thickest one counts. Other faces move
+    /// with their nodes, such as the outline of nodes that a rigid link connects.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a mesh in the plane, or when no element moves a corner in all directions;
+    /// [`Error::Scene`] for a mesh in the plane, or for a corner without three displacements;
     /// [`Error::Size`] without faces or for fewer than three corners; [`Error::Index`] for a node that does not
     /// exist; [`Error::Input`] for corners at different heights.
     pub fn on_faces(mesh: Mesh, faces: &[Vec<usize>]) -> Result<Self> {
-        let feet = feet::of_faces(&mesh, faces)?;
-        Self::standing(mesh, feet)
+        let feet = feet::face_feet(&mesh, faces)?;
+        Self::on_feet(mesh, feet)
     }
 
-    /// Structure that touches the ground with all its lowest nodes, in space with all faces at the lowest height.
+    /// Structure on the ground with all its lowest nodes, or in space with all its lowest faces.
     ///
-    /// In space these are horizontal shells and sides of solids ([`Element::faces`](crate::fem::Element::faces)), as
+    /// The faces are horizontal shells and sides of solids ([`Element::faces`](crate::fem::Element::faces)), as
     /// for [`FemModel::on_faces`].
     ///
     /// # Errors
@@ -190,10 +193,10 @@ impl FemModel {
     /// lowest height.
     pub fn on_base(mesh: Mesh) -> Result<Self> {
         if mesh.has_depth() {
-            let feet = feet::of_lowest_faces(&mesh)?;
-            return Self::standing(mesh, feet);
+            let feet = feet::lowest_face_feet(&mesh)?;
+            return Self::on_feet(mesh, feet);
         }
-        let contact = mesh.nodes_at_height(mesh.lowest(), mesh.tolerance())?;
+        let contact = mesh.nodes_at_height(mesh.lowest_height(), mesh.height_tolerance())?;
         Self::new(mesh, &contact)
     }
 
@@ -216,7 +219,7 @@ impl FemModel {
     /// Otherwise `build` returns an error for such an element.
     #[must_use]
     pub fn with_active_damping(self) -> Self {
-        Self { active_damping: true, ..self }
+        Self { has_active_damping: true, ..self }
     }
 
     /// Allows elements whose stiffness matrices are unsymmetric ([`Structure::has_active_stiffness`]).
@@ -224,10 +227,10 @@ impl FemModel {
     /// Otherwise `build` returns an error for such an element.
     #[must_use]
     pub fn with_active_stiffness(self) -> Self {
-        Self { active_stiffness: true, ..self }
+        Self { has_active_stiffness: true, ..self }
     }
 
-    /// The nodes and elements.
+    /// Nodes and elements of the model.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -236,14 +239,14 @@ impl FemModel {
     #[doc(hidden)]
     pub fn surface_height(&self) -> f64 {
         let foot = self.feet.iter().flatten().next();
-        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up()] - foot.height)
+        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up_axis()] - foot.height)
     }
 
-    /// The model with other links; base and axial forces of P–Δ follow.
+    /// The model with other links, and with base and static forces of P–Δ by these links.
     pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
         let linked = Self { links: Some(links), ..self };
-        let linked = Self { base: linked.base_of_feet()?, ..linked };
-        match linked.p_delta {
+        let linked = Self { base: linked.foot_base()?, ..linked };
+        match linked.p_delta_gravity {
             Some(gravity) => linked.with_p_delta(gravity),
             None => Ok(linked),
         }
@@ -251,24 +254,25 @@ impl FemModel {
 
     /// Index of the degree of freedom of `node` in `direction`.
     ///
-    /// `None` for a node without its own, such as a follower of a rigid link. Probes and springs take the node's
-    /// [`row`](FemModel::row).
+    /// `None` for a node without a degree of freedom, such as a follower of a rigid link. Use the node's
+    /// [`row`](FemModel::row) for probes and springs.
     pub fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
         let dof = self.numbering.dof(node, direction)?;
-        self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, direction, dof))
+        self.links
+            .as_ref()
+            .map_or(Some(dof), |links| links.remaining_dof(node, direction, dof))
     }
 
     /// Motion of `node` in `direction` as a weighted sum of degrees of freedom.
     ///
-    /// The degree of freedom itself, or for a follower of a rigid link a sum of its leader's degrees of freedom.
+    /// It is the degree of freedom itself, or a sum of the leader's degrees of freedom for a follower of a rigid link.
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node that no element moves in this
-    /// direction.
+    /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node without a degree of freedom in
+    /// this direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
         in_bounds("node", node, self.mesh.nodes().len())?;
-        let dof = self.numbering.dof(node, direction);
-        let dof = dof.ok_or_else(|| {
+        let dof = self.numbering.dof(node, direction).ok_or_else(|| {
             let reason = format!(
                 "it has no degree of freedom in direction {direction}: no element needs one there"
             );
@@ -277,20 +281,19 @@ impl FemModel {
         Ok(self.remaining_row(vec![(dof, 1.0)]))
     }
 
-    /// A weighted sum of the mesh's degrees of freedom by the remaining ones.
+    /// A weighted sum of the mesh's degrees of freedom as a sum of the remaining ones.
     pub(super) fn remaining_row(&self, terms: Vec<(usize, f64)>) -> DofCombination {
         match &self.links {
-            Some(links) => links.row(&terms).into(),
+            Some(links) => links.remaining_terms(&terms).into(),
             None => terms.into(),
         }
     }
 
     /// Displacements of an element's degrees of freedom, in the order of its matrices.
     ///
-    /// For [`Shell::resultants`](crate::fem::Shell::resultants), or the forces of an element of your own.
-    /// `displacement` holds all degrees of freedom of the model, such as
-    /// `State::displacement`. A follower of a rigid link or a diaphragm moves
-    /// with its leader. The element need not belong to the mesh.
+    /// [`Shell::resultants`](crate::fem::Shell::resultants) and forces of other elements are computed from them.
+    /// `displacement` holds all degrees of freedom of the model, such as `State::displacement`. A follower of a rigid link or
+    /// a diaphragm moves with its leader. The element need not belong to the mesh.
     ///
     /// # Errors
     /// [`Error::Size`] for a displacement of another length; as for [`row`](FemModel::row).
@@ -309,27 +312,27 @@ impl FemModel {
         Ok(values)
     }
 
-    /// Adds matrices of all elements, each times its factor, for the remaining degrees of freedom.
-    pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
+    /// Adds matrices of all elements, times their factors, for the remaining degrees of freedom.
+    pub(super) fn add_matrices(&self, matrix: &mut Triplets, weighted_kinds: &[(MatrixKind, f64)]) {
         match &self.links {
-            None => self.add_elements(matrix, parts),
+            None => self.add_elements(matrix, weighted_kinds),
             Some(links) => {
                 let mut mesh_matrix = Triplets::new(self.numbering.dofs());
-                self.add_elements(&mut mesh_matrix, parts);
+                self.add_elements(&mut mesh_matrix, weighted_kinds);
                 links.add_condensed(&mesh_matrix, matrix);
             }
         }
-        for (kind, factor) in parts {
+        for (kind, factor) in weighted_kinds {
             if matches!(kind, MatrixKind::GeometricStiffness) {
-                let entries = self.base_reactions.iter();
+                let entries = self.link_and_base_stiffness.iter();
                 matrix.extend(entries.map(|&(row, column, value)| (row, column, factor * value)));
             }
         }
     }
 
-    /// Adds matrices of all elements for the degrees of freedom of the mesh.
-    fn add_elements(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
-        for &(kind, factor) in parts {
+    /// Adds matrices of all elements, times their factors, for the degrees of freedom of the mesh.
+    fn add_elements(&self, matrix: &mut Triplets, weighted_kinds: &[(MatrixKind, f64)]) {
+        for &(kind, factor) in weighted_kinds {
             assemble(&self.mesh, &self.numbering, kind, factor, |_| true, matrix);
         }
     }
@@ -345,46 +348,49 @@ impl Structure for FemModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add(matrix, &[(MatrixKind::Mass(self.mass_kind), 1.0)]);
+        self.add_matrices(matrix, &[(MatrixKind::Mass(self.mass_kind), 1.0)]);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add(matrix, &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)]);
+        self.add_matrices(
+            matrix,
+            &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)],
+        );
         Ok(())
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add(matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
+        self.add_matrices(matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
         Ok(())
     }
 
-    /// Nodes with their places, and a node at the same place that is not merged with one of them.
+    /// Text with the nodes and their coordinates, and a coincident node that is not merged with one of them.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         describe(self.mesh(), &|node, direction| self.dof(node, direction), dofs)
     }
 
     fn has_active_damping(&self) -> bool {
-        self.active_damping
+        self.has_active_damping
     }
 
     fn has_active_stiffness(&self) -> bool {
-        self.active_stiffness
+        self.has_active_stiffness
     }
 
-    fn description(&self) -> crate::structure::StructureDescription {
+    fn description(&self) -> StructureDescription {
         let faces_off_ground = feet::uncovered(&self.mesh, &self.feet);
-        crate::structure::StructureDescription::of_mesh(&self.mesh, faces_off_ground)
+        StructureDescription::for_mesh(&self.mesh, faces_off_ground)
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        let mut parts = vec![
+        let mut weighted_kinds = vec![
             (MatrixKind::Mass(self.mass_kind), self.damping.mass()),
             (MatrixKind::Stiffness, self.damping.stiffness()),
             (MatrixKind::Damping, 1.0),
         ];
-        parts.retain(|(_, factor)| *factor > 0.0);
-        self.add(matrix, &parts);
+        weighted_kinds.retain(|(_, factor)| *factor > 0.0);
+        self.add_matrices(matrix, &weighted_kinds);
         Ok(())
     }
 }

@@ -13,20 +13,21 @@ use crate::structure::{
     StructureDescription, Triplets,
 };
 
-/// A structure of the group and where it stands.
+/// A structure of the group, and its base in the group.
 struct Member {
     structure: Box<dyn Structure>,
     /// Base in coordinates and degrees of freedom of the group.
     base: Base,
+    /// Index of its first degree of freedom in the group.
     first_dof: usize,
-    dofs: usize,
+    /// Number of its degrees of freedom.
+    dof_count: usize,
 }
 
 /// Several structures on foundations of their own, coupled through the soil.
 ///
-/// The simulation treats them as one structure with several foundations; the ground needs a strip under each, or
-/// in plan a mat. `State::foundations` has forces and motions of each
-/// foundation.
+/// The simulation treats them as one structure with several foundations. The ground needs a strip under each foundation, or
+/// a mat in space. `State::foundations` has forces and motions of each foundation.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -40,7 +41,7 @@ struct Member {
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
 /// assert_eq!(group.row(1, RigidBlock::HORIZONTAL_DOF)?[..], [(3, 1.0)]);
-/// // The first block has no fourth degree of freedom: that is one of the other block.
+/// // The first block has no fourth degree of freedom: degree of freedom 3 of the group belongs to the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
 ///     .ground(ElasticGround::under(Soil::new(40.0e6, 0.33, 1800.0)?, &group, 6)?)
@@ -49,13 +50,13 @@ struct Member {
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
-/// let [high, low] = &simulation.state().foundations[..] else { unreachable!() };
-/// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..12));
-/// assert!(run.energy_error < 1e-9 && high.base_rotation != low.base_rotation);
+/// let [tall_block, low_block] = &simulation.state().foundations[..] else { unreachable!() };
+/// assert_eq!((tall_block.elements.clone(), low_block.elements.clone()), (0..6, 6..12));
+/// assert!(run.energy_error < 1e-9 && tall_block.base_rotation != low_block.base_rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
-/// In plan bodies stand anywhere, with an empty cell of the ground between them at least:
+/// Bodies in space may have any positions with at least one empty cell of the ground between them:
 /// ```
 /// use basemat::bem::SpringGround;
 /// use basemat::structure::{Base, RigidBody, Structure, StructureGroup};
@@ -81,59 +82,61 @@ impl StructureGroup {
         Self::default()
     }
 
-    /// Adds `structure`, moved to the right by `shift` (m).
+    /// Adds `structure`, shifted to the right by `shift` (m).
     ///
-    /// In the plane its base must lie to the right of all members so far. In plan it may stand anywhere beside
-    /// them; its place along y is set by the structure, see
+    /// In the plane its base must lie to the right of all present members. In space its base may have any position that does
+    /// not touch them; the structure determines its position along y, see
     /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at).
     ///
     /// # Errors
     /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of the end of the
     /// previous base; [`Error::Size`] for a base without nodes; [`Error::Scene`] for a mixture of structures in
-    /// the plane and in plan, and for a base that touches another in plan.
+    /// the plane and in space, and for a base that touches another one in space.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
         let mut member = Member {
             base: structure.base(),
             first_dof: self.dofs(),
-            dofs: structure.dofs(),
+            dof_count: structure.dofs(),
             structure: Box::new(structure),
         };
-        let member_dofs = member.range();
+        let member_dofs = member.dof_range();
         for node in member.base.nodes_mut() {
             node.x += shift;
-            node.map_rows(|row| moved(row, &member_dofs));
+            node.map_rows(|row| group_row(row, &member_dofs));
         }
-        self.check_place(&member.base)?;
+        self.check_new_base(&member.base)?;
         self.members.push(member);
         Ok(self)
     }
 
-    /// Error for a base without nodes, a base of another kind than all others, or a place taken by another base.
-    fn check_place(&self, base: &Base) -> Result<()> {
-        let Some(left) = base.nodes().next() else {
+    /// Returns an error for a base without nodes, a base of another kind, or a base that touches another one.
+    fn check_new_base(&self, base: &Base) -> Result<()> {
+        let Some(left_node) = base.nodes().next() else {
             let quantity = "list of contact nodes";
             return Err(Error::Size { quantity, found: 0, needed: 2 });
         };
-        let others = self.members.iter().map(|member| &member.base);
+        let mut other_bases = self.members.iter().map(|member| &member.base);
+        if other_bases.clone().any(|other| discriminant(other) != discriminant(base)) {
+            let needed = "must be one in the plane as the others, or one in space as the others";
+            return Err(Error::Scene { quantity: "structure of a group", needed });
+        }
         match base {
-            _ if others.clone().any(|other| discriminant(other) != discriminant(base)) => {
-                let needed = "must be one in the plane as the others are, or in plan as they are";
-                Err(Error::Scene { quantity: "structure of a group", needed })
-            }
             Base::Lines(_) => {
-                let end =
-                    others.flat_map(Base::nodes).last().map_or(f64::NEG_INFINITY, |last| last.x);
-                let needed = "to the right of the structure before it";
-                require("left end of the base of a structure", left.x, left.x > end, needed)
-                    .map(drop)
+                let right_end = other_bases
+                    .flat_map(Base::nodes)
+                    .last()
+                    .map_or(f64::NEG_INFINITY, |node| node.x);
+                let quantity = "left end of the base of a structure";
+                let needed = "to the right of the previous structure";
+                require(quantity, left_node.x, left_node.x > right_end, needed).map(drop)
             }
             Base::Faces(faces) => {
-                let touches =
+                let touches_face =
                     |other: &Vec<BaseNode>| faces.iter().any(|face| !are_apart(face, other));
-                if others.flat_map(Base::parts).any(touches) {
-                    let needed =
-                        "must have a base apart from those before it: these touch or overlap";
+                let needed =
+                    "must have a base apart from the other bases: two of them touch or overlap";
+                if other_bases.any(|other| other.parts().iter().any(touches_face)) {
                     return Err(Error::Scene { quantity: "structure of a group", needed });
                 }
                 Ok(())
@@ -146,7 +149,7 @@ impl StructureGroup {
         self.members.len()
     }
 
-    /// Expresses a weighted sum of degrees of freedom of structure `member` in the group's.
+    /// Converts a weighted sum of degrees of freedom of structure `member` to the group's.
     ///
     /// Members count from 0, the first one added.
     ///
@@ -154,10 +157,11 @@ impl StructureGroup {
     /// [`Error::Index`] for a structure or a degree of freedom that does not exist; [`Error::Input`] for a weight
     /// that is not finite.
     pub fn row(&self, member: usize, row: impl Into<DofCombination>) -> Result<DofCombination> {
-        let row = row.into();
-        let member = &self.members[in_bounds("structure of the group", member, self.len())?];
-        row.check("degree of freedom of a structure of the group", member.dofs)?;
-        Ok(row.map_dofs(|index| member.first_dof.saturating_add(index)))
+        let member_row = row.into();
+        let Member { first_dof, dof_count, .. } =
+            self.members[in_bounds("structure of the group", member, self.len())?];
+        member_row.check("degree of freedom of a structure of the group", dof_count)?;
+        Ok(member_row.map_dofs(|dof| first_dof.saturating_add(dof)))
     }
 
     /// Converts a probe of structure `member` to a probe of the group.
@@ -170,21 +174,21 @@ impl StructureGroup {
         probe.try_map_rows(|row| self.row(member, row))
     }
 
-    /// Adds a matrix of every member at its degrees of freedom.
-    fn write(
+    /// Adds a matrix of every member, by `add_member`, at its degrees of freedom.
+    fn add_matrices(
         &self,
         matrix: &mut Triplets,
-        write: impl Fn(&dyn Structure, &mut Triplets) -> Result<()>,
+        add_member: impl Fn(&dyn Structure, &mut Triplets) -> Result<()>,
     ) -> Result<()> {
         self.members.iter().try_for_each(|member| {
-            matrix.block(member.first_dof, member.dofs, |block| {
-                write(member.structure.as_ref(), block)
+            matrix.block(member.first_dof, member.dof_count, |block| {
+                add_member(member.structure.as_ref(), block)
             })
         })
     }
 
-    /// The nonlinear forces of the members that have one, each with its member.
-    fn forces(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
+    /// Members with a nonlinear force, and these forces.
+    fn nonlinear_members(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
         self.members
             .iter()
             .filter_map(|member| Some((member, member.structure.nonlinear()?)))
@@ -192,42 +196,47 @@ impl StructureGroup {
 }
 
 impl Member {
-    fn range(&self) -> Range<usize> {
-        self.first_dof..self.first_dof.saturating_add(self.dofs)
+    /// Range of its degrees of freedom in the group.
+    fn dof_range(&self) -> Range<usize> {
+        self.first_dof..self.first_dof.saturating_add(self.dof_count)
     }
 }
 
-/// A row of a member in degrees of freedom of the group, of which the member has `member_dofs`.
+/// A weighted sum of a member's degrees of freedom, converted to those of the group.
 ///
-/// An index that is not a degree of freedom of the member becomes an index beyond all degrees of freedom of the
-/// group.
-fn moved(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination {
-    row.map_dofs(|k| {
-        if k < member_dofs.len() { member_dofs.start.saturating_add(k) } else { usize::MAX }
+/// `member_dofs`: degrees of freedom of the member in the group. An index out of their range is also out of the group's range
+/// afterwards.
+fn group_row(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination {
+    row.map_dofs(|dof| {
+        if dof < member_dofs.len() {
+            member_dofs.start.saturating_add(dof)
+        } else {
+            usize::MAX
+        }
     })
 }
 
-/// Coordinate to the right of the first node of a base, m.
-fn first_place(base: &Base) -> f64 {
+/// Coordinate x of the first node of a base, m.
+fn first_x(base: &Base) -> f64 {
     base.nodes().next().map_or(0.0, |node| node.x)
 }
 
 /// Whether there is a gap between two convex polygons.
 ///
-/// There is one if in the direction of some edge's normal one polygon ends before the other begins.
+/// There is a gap if along the normal of some edge one polygon ends before the other begins.
 fn are_apart(one: &[BaseNode], other: &[BaseNode]) -> bool {
-    let one: Vec<[f64; 2]> = one.iter().map(BaseNode::place).collect();
-    let other: Vec<[f64; 2]> = other.iter().map(BaseNode::place).collect();
-    Edge::all(&one).chain(Edge::all(&other)).any(|edge| {
-        let one_range = span(one.iter().map(|corner| edge.outward(*corner)));
-        let other_range = span(other.iter().map(|corner| edge.outward(*corner)));
+    let one_corners: Vec<[f64; 2]> = one.iter().map(BaseNode::place).collect();
+    let other_corners: Vec<[f64; 2]> = other.iter().map(BaseNode::place).collect();
+    Edge::all(&one_corners).chain(Edge::all(&other_corners)).any(|edge| {
+        let one_range = span(one_corners.iter().map(|corner| edge.outward(*corner)));
+        let other_range = span(other_corners.iter().map(|corner| edge.outward(*corner)));
         one_range[1] < other_range[0] || other_range[1] < one_range[0]
     })
 }
 
 impl Structure for StructureGroup {
     fn dofs(&self) -> usize {
-        self.members.last().map_or(0, |last| last.range().end)
+        self.members.last().map_or(0, |last| last.dof_range().end)
     }
 
     fn base(&self) -> Base {
@@ -239,34 +248,36 @@ impl Structure for StructureGroup {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.write(matrix, Structure::mass)
+        self.add_matrices(matrix, Structure::mass)
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.write(matrix, Structure::stiffness)
+        self.add_matrices(matrix, Structure::stiffness)
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.write(matrix, Structure::geometric_stiffness)
+        self.add_matrices(matrix, Structure::geometric_stiffness)
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        self.write(matrix, Structure::damping)
+        self.add_matrices(matrix, Structure::damping)
     }
 
-    /// Descriptions by the members.
+    /// Texts by the members.
     ///
-    /// Degrees of freedom that a member does not describe appear with their numbers in the group.
+    /// Degrees of freedom without a text of their member appear with their indices in the group.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut texts = Vec::new();
-        for (k, member) in self.members.iter().enumerate() {
-            let range = member.range();
-            let all: Vec<usize> = dofs.iter().copied().filter(|u| range.contains(u)).collect();
-            if !all.is_empty() {
-                let member_dofs: Vec<usize> = all.iter().map(|u| u - range.start).collect();
-                let text = member.structure.describe(&member_dofs);
-                let text = text.unwrap_or_else(|| numbers(&all));
-                texts.push(format!("structure {k}: {text}"));
+        for (index, member) in self.members.iter().enumerate() {
+            let range = member.dof_range();
+            let group_dofs: Vec<usize> =
+                dofs.iter().copied().filter(|dof| range.contains(dof)).collect();
+            if !group_dofs.is_empty() {
+                let member_dofs: Vec<usize> =
+                    group_dofs.iter().map(|dof| dof - range.start).collect();
+                let description = member.structure.describe(&member_dofs);
+                let text = description.unwrap_or_else(|| numbers(&group_dofs));
+                texts.push(format!("structure {index}: {text}"));
             }
         }
         (!texts.is_empty()).then(|| texts.join("; "))
@@ -284,49 +295,51 @@ impl Structure for StructureGroup {
 
     fn description(&self) -> StructureDescription {
         let descriptions = self.members.iter().map(|member| {
-            let shift = first_place(&member.base) - first_place(&member.structure.base());
-            member.structure.description().moved(shift)
+            let shift = first_x(&member.base) - first_x(&member.structure.base());
+            member.structure.description().shifted(shift)
         });
-        descriptions.reduce(StructureDescription::joined).unwrap_or_default()
+        descriptions.reduce(StructureDescription::combined).unwrap_or_default()
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         for member in &self.members {
-            if let Some(load) = load.get_mut(member.range()) {
-                member.structure.load(time, load)?;
+            if let Some(member_load) = load.get_mut(member.dof_range()) {
+                member.structure.load(time, member_load)?;
             }
         }
         Ok(())
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.forces().next().is_some().then_some(self)
+        self.nonlinear_members().next().is_some().then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        let shown = self.nonlinear().is_some();
+        let has_force = self.nonlinear().is_some();
         // If a member returns its force by only one of the two methods, so does the group.
-        let consistent =
+        let is_consistent =
             self.members.iter_mut().all(|m| is_nonlinear(m.structure.as_mut()).is_ok());
-        (shown == consistent).then_some(self)
+        (has_force == is_consistent).then_some(self)
     }
 }
 
 impl NonlinearForce for StructureGroup {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        for (member, law) in self.forces() {
-            let range = member.range();
+        for (member, nonlinear_force) in self.nonlinear_members() {
+            let range = member.dof_range();
             if let (Some(u), Some(f)) = (displacement.get(range.clone()), force.get_mut(range)) {
-                law.force(u, f)?;
+                nonlinear_force.force(u, f)?;
             }
         }
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        for (member, law) in self.forces() {
-            if let Some(u) = displacement.get(member.range()) {
-                matrix.block(member.first_dof, member.dofs, |block| law.tangent(u, block))?;
+        for (member, nonlinear_force) in self.nonlinear_members() {
+            if let Some(u) = displacement.get(member.dof_range()) {
+                matrix.block(member.first_dof, member.dof_count, |block| {
+                    nonlinear_force.tangent(u, block)
+                })?;
             }
         }
         Ok(())
@@ -334,53 +347,63 @@ impl NonlinearForce for StructureGroup {
 
     /// Energies of all members; `None` unless all nonlinear members return theirs.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        self.forces().try_fold(InternalEnergy::default(), |sum, (member, law)| {
-            Some(sum + law.energy(displacement.get(member.range())?)?)
-        })
+        self.nonlinear_members().try_fold(
+            InternalEnergy::default(),
+            |sum, (member, nonlinear_force)| {
+                Some(sum + nonlinear_force.energy(displacement.get(member.dof_range())?)?)
+            },
+        )
     }
 
     fn commit(&mut self, displacement: &[f64]) {
         for member in &mut self.members {
-            let u = displacement.get(member.range());
-            if let (Some(u), Some(law)) = (u, member.structure.nonlinear_mut()) {
-                law.commit(u);
+            let u = displacement.get(member.dof_range());
+            if let (Some(u), Some(nonlinear_force)) = (u, member.structure.nonlinear_mut()) {
+                nonlinear_force.commit(u);
             }
         }
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let mut all = Vec::new();
+        let mut values = Vec::new();
         for member in &self.members {
             let variables = save_variables(member.structure.as_ref())?;
-            all.push(variables.len() as f64);
-            all.extend(variables);
+            values.push(variables.len() as f64);
+            values.extend(variables);
         }
-        Ok(all)
+        Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
-        let mut rest = values;
-        let mut parts = Vec::with_capacity(self.members.len());
-        for _ in &self.members {
-            let (&count, after) = rest.split_first().ok_or_else(corrupt)?;
-            let length = (0..=after.len()).find(|n| *n as f64 == count).ok_or_else(corrupt)?;
-            parts.push(&after[..length]);
-            rest = &after[length..];
-        }
-        if !rest.is_empty() {
-            return Err(corrupt().into());
-        }
-        let before = self.members.iter().map(|member| save_variables(member.structure.as_ref()));
-        let before = before.collect::<Result<Vec<_>>>()?;
-        for k in 0..parts.len() {
-            if let Err(error) = restore_variables(self.members[k].structure.as_mut(), parts[k]) {
-                for (member, before) in self.members[..k].iter_mut().zip(&before) {
-                    restore_variables(member.structure.as_mut(), before)?;
+        let member_values = split_by_length(values, self.members.len())?;
+        let saved_states: Vec<Vec<f64>> = self
+            .members
+            .iter()
+            .map(|member| save_variables(member.structure.as_ref()))
+            .collect::<Result<_>>()?;
+        for (index, values) in member_values.into_iter().enumerate() {
+            if let Err(error) = restore_variables(self.members[index].structure.as_mut(), values) {
+                for (member, saved_state) in self.members[..index].iter_mut().zip(&saved_states) {
+                    restore_variables(member.structure.as_mut(), saved_state)?;
                 }
                 return Err(error);
             }
         }
         Ok(())
     }
+}
+
+/// Splits saved values into `count` lists, each of which follows its length.
+fn split_by_length(values: &[f64], count: usize) -> Result<Vec<&[f64]>> {
+    let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
+    let mut remaining_values = values;
+    let mut lists = Vec::with_capacity(count);
+    for _ in 0..count {
+        let (&saved_length, following) = remaining_values.split_first().ok_or_else(corrupt)?;
+        let length =
+            (0..=following.len()).find(|n| *n as f64 == saved_length).ok_or_else(corrupt)?;
+        lists.push(&following[..length]);
+        remaining_values = &following[length..];
+    }
+    if remaining_values.is_empty() { Ok(lists) } else { Err(corrupt().into()) }
 }

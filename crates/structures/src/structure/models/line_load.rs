@@ -1,17 +1,23 @@
-//! Rows for loads along a line of nodes: pressures, tractions, resultants.
+//! Nodal forces of loads along a line of nodes.
 
 use crate::error::{Result, at_least, in_bounds, positive, require_part};
 use crate::fem::Direction;
 use crate::structure::{DofCombination, FemModel};
 
+/// A node of a loaded line, and its part of a segment as a vector, m.
+struct WeightedNode {
+    node: usize,
+    segment: [f64; 3],
+}
+
 impl FemModel {
-    /// Row of nodal forces for a pressure of 1 Pa along the line through `nodes`.
+    /// Nodal forces of a pressure of 1 Pa along the line through `nodes`, for a `Load` in Pa.
     ///
-    /// For a `Load` in Pa. The pressure pushes to the left of the direction from the first
-    /// to the last node, which is into a body whose boundary is followed counter-clockwise.
+    /// The pressure acts to the left of the direction from the first to the last node, which is into a body with nodes
+    /// counter-clockwise along its boundary.
     ///
-    /// The forces do the same work as the pressure on the elements' edges: halves at the ends of a segment,
-    /// Simpson's weights along the edge of an eight-node element whose middle node is in the list.
+    /// The forces do the same work as the pressure on the elements' edges: one half at each end of a segment, or Simpson's
+    /// weights along the edge of an eight-node element whose middle node is in the list.
     ///
     /// ```
     /// use basemat::coupled::Load;
@@ -37,7 +43,7 @@ impl FemModel {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
     /// that does not exist, [`Error::Input`](crate::Error::Input) for two successive nodes at one place,
-    /// [`Error::Part`](crate::Error::Part) for a node that no element moves in a direction of the pressure,
+    /// [`Error::Part`](crate::Error::Part) for a node without a degree of freedom in a direction of the pressure,
     /// [`Error::Scene`](crate::Error::Scene) for a mesh in space, where pressures act on faces:
     /// [`Shell::pressure_forces`](crate::fem::Shell::pressure_forces) times the rows of the nodes.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
@@ -47,7 +53,7 @@ impl FemModel {
             "must be in a mesh in the plane, but this one is in space",
         )?;
         let mut row = DofCombination::default();
-        for (node, [x, y, _]) in self.line_weights(nodes)? {
+        for WeightedNode { node, segment: [x, y, _] } in self.weighted_nodes(nodes)? {
             // The normal to the left, times the length.
             for (direction, force) in [(Direction::X, -y), (Direction::Y, x)] {
                 if force != 0.0 {
@@ -58,55 +64,66 @@ impl FemModel {
         Ok(row)
     }
 
-    /// Row of nodal forces for a unit force (1 N/m) in `direction`.
+    /// Nodal forces of a unit force (1 N/m) in `direction`, for a `Load` in N/m.
     ///
-    /// It is spread evenly along the line through `nodes`, for a `Load` in N/m.
+    /// The force is distributed uniformly along the line through `nodes`.
     ///
     /// # Errors
     /// As for [`FemModel::pressure_row`]; [`Error::Scene`](crate::Error::Scene) for a rotation.
     pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
         let needed = "a displacement, not a rotation";
         require_part("resultant along a line", !direction.is_rotation(), needed)?;
-        let weights = self.line_weights(nodes)?;
-        let lengths: Vec<f64> =
-            weights.iter().map(|(_, [x, y, z])| x.hypot(*y).hypot(*z)).collect();
-        let whole: f64 = lengths.iter().sum();
+        let weighted_nodes = self.weighted_nodes(nodes)?;
+        let lengths: Vec<f64> = weighted_nodes
+            .iter()
+            .map(|weighted| {
+                let [x, y, z] = weighted.segment;
+                x.hypot(y).hypot(z)
+            })
+            .collect();
+        let total_length: f64 = lengths.iter().sum();
         let mut row = DofCombination::default();
-        for ((node, _), length) in weights.iter().zip(&lengths) {
-            row += (length / whole) * self.row(*node, direction)?;
+        for (weighted, length) in weighted_nodes.iter().zip(&lengths) {
+            row += (length / total_length) * self.row(weighted.node, direction)?;
         }
         Ok(row)
     }
 
-    /// The nodes of a line with their parts of its length, `[x, y, z]` in m; a node may occur more than once.
-    fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 3])>> {
+    /// Nodes of a line with their parts of its segments; a node may occur more than once.
+    fn weighted_nodes(&self, nodes: &[usize]) -> Result<Vec<WeightedNode>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
-        let all = self.mesh().nodes();
-        let mut weights = Vec::with_capacity(2 * nodes.len());
-        let mut k = 0;
-        while k + 1 < nodes.len() {
-            let is_quadratic = nodes.get(k..k + 3).is_some_and(|edge| self.is_quadratic_edge(edge));
+        let mesh_nodes = self.mesh().nodes();
+        let mut weighted_nodes = Vec::with_capacity(2 * nodes.len());
+        let mut start = 0;
+        while start + 1 < nodes.len() {
+            let is_quadratic = nodes
+                .get(start..start + 3)
+                .is_some_and(|edge_nodes| self.is_quadratic_edge(edge_nodes));
             let fractions: &[f64] =
                 if is_quadratic { &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] } else { &[0.5, 0.5] };
-            let count = fractions.len() - 1;
-            let from = all[in_bounds("node", nodes[k], all.len())?];
-            let to = all[in_bounds("node", nodes[k + count], all.len())?];
-            let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+            let segment_count = fractions.len() - 1;
+            let start_point = mesh_nodes[in_bounds("node", nodes[start], mesh_nodes.len())?];
+            let end_point =
+                mesh_nodes[in_bounds("node", nodes[start + segment_count], mesh_nodes.len())?];
+            let edge_vector = [0, 1, 2].map(|axis| end_point[axis] - start_point[axis]);
             positive(
                 "distance between nodes of a loaded line",
-                way[0].hypot(way[1]).hypot(way[2]),
+                edge_vector[0].hypot(edge_vector[1]).hypot(edge_vector[2]),
             )?;
-            let edge = nodes[k..=k + count].iter().zip(fractions);
-            weights.extend(edge.map(|(&node, fraction)| (node, way.map(|w| fraction * w))));
-            k += count;
+            let edge_nodes = nodes[start..=start + segment_count].iter().zip(fractions);
+            weighted_nodes.extend(edge_nodes.map(|(&node, fraction)| WeightedNode {
+                node,
+                segment: edge_vector.map(|component| fraction * component),
+            }));
+            start += segment_count;
         }
-        Ok(weights)
+        Ok(weighted_nodes)
     }
 
     /// Whether three nodes are an edge of an eight-node element, with the middle node second.
     fn is_quadratic_edge(&self, edge: &[usize]) -> bool {
         self.mesh().elements().any(|element| {
-            // Corners come first, nodes of edges then.
+            // The four corners come first, then the nodes of the edges.
             let nodes = element.nodes();
             nodes.len() == 8
                 && nodes[..4].contains(&edge[0])

@@ -7,11 +7,11 @@ use crate::structure::FemModel;
 impl FemModel {
     /// Connects the nodes `followers` with `leader` so that they move as one rigid body.
     ///
-    /// For stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
-    /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
-    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses of followers
-    /// stay where they are. Contact nodes may follow. The axial forces of [`with_p_delta`](FemModel::with_p_delta)
-    /// are computed anew.
+    /// Uses are stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and the
+    /// remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
+    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses still act at the
+    /// followers. Contact nodes may be followers. The static forces of [`with_p_delta`](FemModel::with_p_delta) are computed
+    /// again.
     ///
     /// ```
     /// use basemat::fem::{Beam, Direction, Mesh};
@@ -35,13 +35,13 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a node that does not exist; [`Error::Scene`](crate::Error::Scene)
-    /// when the leader lacks one of a node's degrees of freedom or follows another node, or a follower leads or
-    /// follows already. After [`with_p_delta`](FemModel::with_p_delta) also its errors.
+    /// when the leader does not have all degrees of freedom of a node or follows another node, or when a follower is already
+    /// a leader or a follower. After [`with_p_delta`](FemModel::with_p_delta) also its errors.
     pub fn with_rigid_link(self, leader: usize, followers: &[usize]) -> Result<Self> {
         self.with_link(RigidLinkKind::Body, leader, followers)
     }
 
-    /// Ties the nodes `followers` to `leader` in a horizontal plane, like a floor that is stiff in its plane.
+    /// Ties the nodes `followers` to `leader` in a horizontal plane, as a floor that is rigid in its plane.
     ///
     /// The displacements along x and y and the rotation about z follow the leader; the displacement along z and the
     /// other two rotations remain free. All nodes lie at one height, so that the diaphragm resists no rigid motion.
@@ -55,18 +55,20 @@ impl FemModel {
             self.mesh.has_depth(),
             "must be in a mesh in space, but this one is in the plane",
         )?;
-        self.with_link(RigidLinkKind::Floor, leader, followers)
+        self.with_link(RigidLinkKind::Diaphragm, leader, followers)
     }
 
+    /// Adds a rigid link of one kind.
     fn with_link(
         mut self,
-        link: RigidLinkKind,
+        kind: RigidLinkKind,
         leader: usize,
         followers: &[usize],
     ) -> Result<Self> {
-        let links = self.links.take();
-        let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
-        links.link(&self.mesh, &self.numbering, link, leader, followers)?;
+        let existing_links = self.links.take();
+        let mut links =
+            existing_links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
+        links.link(&self.mesh, &self.numbering, kind, leader, followers)?;
         self.with_links(links)
     }
 }

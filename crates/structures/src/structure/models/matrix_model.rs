@@ -1,25 +1,26 @@
-//! Structures of given matrices.
+//! Structures by their matrices.
 
 use crate::error::{Error, Result, at_least, same_length};
 use crate::linalg::{Elimination, SparseMatrix};
 use crate::structure::matrix_checks::{check_damping, check_mass, check_stiffness};
 use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Structure, Triplets};
 
+/// Name of the damping matrix in errors.
 const DAMPING_MATRIX_NAME: &str = "damping matrix";
 
-/// A structure given by mass, damping and stiffness matrices, from another program for example.
+/// A structure by its mass, damping and stiffness matrices, for example from another program.
 ///
 /// The degrees of freedom are absolute displacements in m and rotations in rad, in any order. The structure is
-/// **free**, without supports, since the ground holds it up: a rigid translation must give no elastic force beyond
-/// rounding (entries with ten digits may leave too much, entries with twelve do not). Matrices are per metre of
-/// thickness, except for a structure in plan ([`Base::Faces`]). They may come from Matrix Market files
+/// **free**, without supports, since the ground supports it: a rigid translation must give no elastic force beyond rounding
+/// (entries with ten digits may be too inaccurate, entries with twelve digits are not). Matrices are per metre of
+/// thickness, except for a structure in space ([`Base::Faces`]). They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
 /// ([`Triplets::from_csr`]). Large models run faster after a [`CraigBampton`](crate::structure::CraigBampton)
 /// reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is checked here.
-/// The stiffness matrix must be symmetric, and positive semi-definite with the base held, Lagrange multipliers
-/// excepted (see [`Structure::stiffness`]). This is checked when a simulation is built.
+/// The stiffness matrix must be symmetric, and positive semi-definite with a fixed base, Lagrange multipliers excepted (see
+/// [`Structure::stiffness`]). This is checked when a simulation is built.
 ///
 /// ```
 /// use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
@@ -41,16 +42,16 @@ pub struct MatrixModel {
     stiffness: Triplets,
     base: Base,
     /// Whether the damping may feed energy in; it is then not checked.
-    active: bool,
+    has_active_damping: bool,
     /// Whether the stiffness may be unsymmetric.
-    active_stiffness: bool,
+    has_active_stiffness: bool,
 }
 
 impl MatrixModel {
     /// Structure with mass (kg/m) and stiffness (N/m per metre), without damping.
     ///
-    /// `base`: nodes from left to right, or any [`Base`]. With [`Base::Faces`] the structure is in plan. Its
-    /// matrices then belong to the whole body (kg, N/m):
+    /// `base`: nodes from left to right, or any [`Base`]. With [`Base::Faces`] the structure is in space. Its matrices then
+    /// belong to the whole body (kg, N/m):
     /// ```
     /// use basemat::structure::{Base, BaseNode, MatrixModel, Structure, Triplets};
     ///
@@ -59,7 +60,7 @@ impl MatrixModel {
     /// let node = |k: usize| BaseNode::free_in_plan(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
     /// let mass = Triplets::from_entries(12, (0..12).map(|k| (k, k, 20.0e3)));
     /// let mut stiffness = Triplets::new(12);
-    /// // Stiffness against twisting of the corners out of their plane; the slab has no other stiffness.
+    /// // Stiffness against displacements of the corners out of their plane; the slab has no other stiffness.
     /// stiffness.add_outer([(2, 1.0), (5, -1.0), (8, 1.0), (11, -1.0)], 5.0e6);
     /// let face = (0..4).map(node).collect();
     /// let slab = MatrixModel::new(mass, stiffness, Base::Faces(vec![face]))?;
@@ -72,26 +73,33 @@ impl MatrixModel {
     /// than two nodes, [`Error::Index`] and [`Error::Input`] for entries,
     /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`] for a
     /// mass matrix that is not symmetric, [`Error::Indefinite`] for a negative mass
-    /// beyond rounding. Whether nodes are in order, and faces flat, convex and apart, is checked when a simulation
-    /// is built.
+    /// beyond rounding. The order of nodes, and whether faces are flat, convex and apart, are checked when a simulation is
+    /// built.
     pub fn new(mass: Triplets, stiffness: Triplets, base: impl Into<Base>) -> Result<Self> {
         let order = mass.order();
         at_least("mass matrix", order, 1)?;
         check_mass(&SparseMatrix::new("mass matrix", &mass)?, &Elimination::default())?;
-        check("stiffness matrix", &stiffness, order)?;
+        checked_matrix("stiffness matrix", &stiffness, order)?;
         let base = base.into();
         let damping = Triplets::new(order);
         base.check(order)?;
-        Ok(Self { mass, damping, stiffness, base, active: false, active_stiffness: false })
+        Ok(Self {
+            mass,
+            damping,
+            stiffness,
+            base,
+            has_active_damping: false,
+            has_active_stiffness: false,
+        })
     }
 
-    /// Force or moment that a part of the structure exerts on the rest, from its inertia.
+    /// Force or moment that a part of the structure exerts on the other parts, by its inertia.
     ///
-    /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation
-    /// gives the force along it, a rotation about a point the moment about this point. The rows are −motionᵀ M: exact
-    /// for a part without loads and without damping of its own against the ground, and with the midpoint rule the mean
-    /// over the step. To include the weight, add the acceleration of gravity to the vertical accelerations. The unit
-    /// is the unit of a force.
+    /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation gives the
+    /// force in its direction, a rotation about a point the moment about this point. The weights of the accelerations are
+    /// −motionᵀ M. The result is exact for a part without loads and without damping to the ground; with the midpoint rule
+    /// it is the mean over the step. To include the weight, add the acceleration of gravity to the vertical accelerations.
+    /// The unit is that of a force.
     ///
     /// ```
     /// use basemat::structure::{BaseNode, MatrixModel, Triplets};
@@ -104,7 +112,7 @@ impl MatrixModel {
     /// stiffness.add_outer([(4, 1.0), (3, -1.0), (2, 4.0)], 4.0e6);
     /// let model = MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))?;
     /// let shear = model.section([(3, 1.0), (4, 1.0)])?;
-    /// // Turning by 1 rad about the foot moves the masses to the left.
+    /// // A rotation by 1 rad about the foot moves the masses to the left.
     /// let moment = model.section([(3, -4.0), (4, -8.0)])?;
     /// let acceleration = [0.0, 0.0, 0.0, 1.0, 2.0];
     /// assert_eq!(shear.value(&[], &[], &acceleration), -1.0e4 - 3.0e4);
@@ -135,35 +143,35 @@ impl MatrixModel {
     /// # Errors
     /// [`Error::Size`] for another order, [`Error::Index`] and
     /// [`Error::Input`] for entries out of range or not finite,
-    /// [`Error::Unsymmetric`] for a matrix that is not symmetric (it names the stiffness if that is not symmetric either),
+    /// [`Error::Unsymmetric`] for a matrix that is not symmetric (with the name of the stiffness if it is not symmetric either),
     /// [`Error::Indefinite`] for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
-        let matrix = check(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
-        check_damping(&matrix, &Elimination::default()).map_err(|error| match error {
+        let damping_matrix = checked_matrix(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
+        check_damping(&damping_matrix, &Elimination::default()).map_err(|error| match error {
             Error::Unsymmetric { .. } => self.unsymmetric_stiffness().unwrap_or(error),
             other => other,
         })?;
-        Ok(Self { damping, active: false, ..self })
+        Ok(Self { damping, has_active_damping: false, ..self })
     }
 
-    /// Error of a stiffness that is not symmetric: damping in proportion to it is not the cause.
+    /// Error for a stiffness that is not symmetric, by which proportional damping is not symmetric either.
     fn unsymmetric_stiffness(&self) -> Option<Error> {
         let stiffness = SparseMatrix::new("stiffness matrix", &self.stiffness).ok()?;
         let mass = SparseMatrix::new("mass matrix", &self.mass).ok()?;
-        check_stiffness(&stiffness, &mass).err().filter(|_| !self.active_stiffness)
+        check_stiffness(&stiffness, &mass).err().filter(|_| !self.has_active_stiffness)
     }
 
     /// Replaces the damping by a matrix (N s/m per metre) without a check of symmetry and sign.
     ///
-    /// For gyroscopes, or dampers that feed energy in. Energy fed in appears as negative
-    /// `damping` in the energy balance.
+    /// Gyroscopes, or dampers that feed energy in, have such a matrix. This energy is negative `damping` in the energy
+    /// balance.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Index`] and
     /// [`Error::Input`] as for [`with_damping`](MatrixModel::with_damping).
     pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
-        check(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
-        Ok(Self { damping, active: true, ..self })
+        checked_matrix(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
+        Ok(Self { damping, has_active_damping: true, ..self })
     }
 
     /// Allows a stiffness matrix that is not symmetric ([`Structure::has_active_stiffness`]).
@@ -171,32 +179,33 @@ impl MatrixModel {
     /// Otherwise `build` returns an error for such a matrix.
     #[must_use]
     pub fn with_active_stiffness(self) -> Self {
-        Self { active_stiffness: true, ..self }
+        Self { has_active_stiffness: true, ..self }
     }
 
     /// Replaces the damping by Rayleigh damping.
     #[must_use]
     pub fn with_rayleigh(mut self, damping: RayleighDamping) -> Self {
         self.damping.clear();
-        self.active = false;
+        self.has_active_damping = false;
         for (matrix, factor) in
             [(&self.mass, damping.mass()), (&self.stiffness, damping.stiffness())]
         {
             if factor > 0.0 {
-                add(matrix, factor, &mut self.damping);
+                add_scaled(matrix, factor, &mut self.damping);
             }
         }
         self
     }
 }
 
-fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<SparseMatrix> {
+/// Matrix of the triplets; an error for another order or invalid entries.
+fn checked_matrix(name: &'static str, matrix: &Triplets, order: usize) -> Result<SparseMatrix> {
     same_length(name, matrix.order(), order)?;
     SparseMatrix::new(name, matrix)
 }
 
-/// Adds `factor` times one matrix to another.
-fn add(matrix: &Triplets, factor: f64, sum: &mut Triplets) {
+/// Adds `factor` times a matrix to `sum`.
+fn add_scaled(matrix: &Triplets, factor: f64, sum: &mut Triplets) {
     for &(row, column, value) in matrix.entries() {
         sum.add(row, column, factor * value);
     }
@@ -212,25 +221,25 @@ impl Structure for MatrixModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.mass, 1.0, matrix);
+        add_scaled(&self.mass, 1.0, matrix);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.stiffness, 1.0, matrix);
+        add_scaled(&self.stiffness, 1.0, matrix);
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.damping, 1.0, matrix);
+        add_scaled(&self.damping, 1.0, matrix);
         Ok(())
     }
 
     fn has_active_damping(&self) -> bool {
-        self.active
+        self.has_active_damping
     }
 
     fn has_active_stiffness(&self) -> bool {
-        self.active_stiffness
+        self.has_active_stiffness
     }
 }

@@ -1,4 +1,4 @@
-//! Structures that come with the crate.
+//! Models of structures: rigid bodies, buildings, finite elements, matrices, groups.
 
 mod base_reactions;
 mod beam_rows;

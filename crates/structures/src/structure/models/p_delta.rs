@@ -1,15 +1,18 @@
-//! P–Δ of finite-element models: axial forces from the weight, and the buckling factor.
+//! P–Δ effect of finite-element models: static forces by the weight, and the buckling factor.
 
 use crate::error::{Error, Result, StructureError, not_negative};
 use crate::fem::{MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
-use crate::structure::detached::restricted;
+use crate::structure::detached::submatrix;
 use crate::structure::{FemModel, Structure, Triplets};
 
-const MATRIX_NAME: &str = "stiffness matrix with the contact nodes held";
-/// Residual forces of a solution, relative to the weight, above which the structure is a mechanism.
+/// Name of the stiffness matrix in errors.
+const MATRIX_NAME: &str = "stiffness matrix with the contact nodes fixed";
+/// Residual force of a solution, relative to the weight, above which the structure counts as a mechanism.
+///
+/// Rounding leaves far less, unless the stiffness is nearly singular.
 const EQUILIBRIUM_TOLERANCE: f64 = 1e-6;
-/// Largest multiple of the axial forces in the search for buckling.
+/// Largest factor on the axial forces in the search for buckling; larger factors have no practical meaning.
 const MAX_BUCKLING_FACTOR: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
 const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;
@@ -17,26 +20,26 @@ const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;
 impl FemModel {
     /// Adds the P–Δ effect of the structure's own weight.
     ///
-    /// The elements get the geometric stiffness of the forces that they carry at rest. The forces
-    /// follow from first-order statics under `gravity` (m/s², downwards) with the contact nodes held, and do not
-    /// change in the shaking. Every degree of freedom that moves a contact node is held: a rigid basemat is clamped, a
-    /// column that ends on a contact node is hinged there, as on the ground. Walls in a trench are free.
+    /// The elements get the geometric stiffness of their static forces. These forces follow from first-order statics under
+    /// `gravity` (m/s², downwards) with fixed contact nodes, and do not change during the motion. Every degree of freedom
+    /// that moves a contact node is fixed: a rigid basemat is clamped, and a column that ends on a contact node is hinged
+    /// there, as on the ground. Walls in a trench are free.
     ///
-    /// * All forces at the nodes of an element turn with it: shear forces and moments of beams, forces of shells, solids
-    ///   and springs between two nodes. A solid or shell has no curvature between its nodes; take several along a
-    ///   member that may buckle.
-    /// * The axial forces of beams and trusses act on the curvature between their ends too. In a beam the force grows
-    ///   downwards with the beam's own weight; a truss has the mean.
+    /// * All forces at the nodes of an element rotate with it: shear forces and moments of beams, forces of shells, solids
+    ///   and springs between two nodes. A solid or shell has no curvature between its nodes; use several along a member
+    ///   that may buckle.
+    /// * The axial forces of beams and trusses also act on the lateral displacement between their ends. In a beam the force
+    ///   increases downwards by the weight of the beam; a truss has the mean force.
     ///   [`Element::compression`](crate::fem::Element::compression) returns the force.
-    /// * Reactions of the ground that are not vertical, such as the thrust of a portal, turn with the base.
-    /// * A force given by [`Beam::with_compression`](crate::fem::Beam::with_compression) stays as it is. Given forces are
-    ///   not in equilibrium with the weights, so the last rule and the next paragraph do not hold with them.
+    /// * Reactions of the ground that are not vertical, such as the thrust of a portal, rotate with the base.
+    /// * A force prescribed by [`Beam::with_compression`](crate::fem::Beam::with_compression) does not change. Prescribed
+    ///   forces are not in equilibrium with the weights, so the previous rule and the last paragraph do not hold with them.
     ///
-    /// The present kind of mass matrix counts: call [`with_mass`](FemModel::with_mass) before. Rigid links may
-    /// follow; the forces are then computed anew.
+    /// Call [`with_mass`](FemModel::with_mass) before this method, which uses the present kind of mass matrix. Rigid links
+    /// may be added later; the forces are then computed again.
     ///
-    /// Translations and a rotation about the vertical meet no force, so the structure still moves freely. In a rocking
-    /// rotation ψ it meets the overturning moment −W h ψ of its weight W at the height h above the base.
+    /// Translations and a rotation about the vertical cause no force, so the structure can still move freely. A rocking
+    /// rotation ψ causes the overturning moment −W h ψ of the weight W at the height h above the base.
     ///
     /// ```
     /// use basemat::fem::{Beam, LumpedMass, Mesh};
@@ -62,148 +65,154 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the contact nodes do
-    /// not hold the structure, [`StructureError::Buckling`] when it buckles on them, under forces given by hand too; and
-    /// errors of its matrices.
+    /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the structure is a
+    /// mechanism on fixed contact nodes, [`StructureError::Buckling`] when it buckles there, also under prescribed forces;
+    /// and errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
-        // They belong to the links of an earlier call.
-        self.base_reactions = Vec::new();
-        let displacement = self.under_weight(gravity)?;
+        // The present entries belong to the links of an earlier call.
+        self.link_and_base_stiffness = Vec::new();
+        let displacement = self.static_displacement(gravity)?;
         let elements = self.mesh.elements();
         let displacements: Vec<_> = elements
             .map(|element| self.element_displacements(element, &displacement))
             .collect::<Result<_>>()?;
-        let has_given_force =
+        let has_prescribed_force =
             set_static_state(&mut self.mesh, &displacements, gravity, self.mass_kind)?;
-        let mut entries = self.rotation_of_links(&displacement, gravity)?;
-        // Forces given by hand are not in equilibrium with the weights.
-        if !has_given_force {
-            self.add_base_reactions(&displacement, gravity, &mut entries)?;
+        let mut link_entries = self.link_stiffness(&displacement, gravity)?;
+        // Prescribed forces are not in equilibrium with the weights.
+        if !has_prescribed_force {
+            self.add_base_stiffness(&displacement, gravity, &mut link_entries)?;
         }
-        self.base_reactions = entries;
-        self.p_delta = Some(gravity);
-        let held = HeldStructure::new(&self)?;
-        if held.stands(1.0)? {
+        self.link_and_base_stiffness = link_entries;
+        self.p_delta_gravity = Some(gravity);
+        let fixed_base = FixedBaseModel::new(&self)?;
+        if fixed_base.is_stable_at(1.0)? {
             Ok(self)
         } else {
-            Err(StructureError::Buckling { factor: held.buckling_factor(1.0)? }.into())
+            Err(StructureError::Buckling { factor: fixed_base.buckling_factor(1.0)? }.into())
         }
     }
 
     /// Factor on the axial forces of the elements at which the structure buckles.
     ///
-    /// The structure is held at its contact nodes; the forces come from [`with_p_delta`](FemModel::with_p_delta)
-    /// or were given by hand. Infinite if a million times the forces does not buckle it. For the given mesh the
-    /// factor has nine digits; it takes some forty sparse factorisations.
+    /// The contact nodes are fixed. The forces are those of [`with_p_delta`](FemModel::with_p_delta), or prescribed ones.
+    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present mesh it is
+    /// accurate to nine digits, by some forty sparse factorisations.
     ///
     /// # Errors
-    /// [`Error::Singular`] when the contact nodes do not hold the structure.
+    /// [`Error::Singular`] when the structure is a mechanism on fixed contact nodes.
     pub fn buckling_factor(&self) -> Result<f64> {
-        let held = HeldStructure::new(self)?;
-        let mut high = 1.0;
-        while held.stands(high)? {
-            high *= 2.0;
-            if high > MAX_BUCKLING_FACTOR {
+        let fixed_base = FixedBaseModel::new(self)?;
+        let mut upper_factor = 1.0;
+        while fixed_base.is_stable_at(upper_factor)? {
+            upper_factor *= 2.0;
+            if upper_factor > MAX_BUCKLING_FACTOR {
                 return Ok(f64::INFINITY);
             }
         }
-        held.buckling_factor(high)
+        fixed_base.buckling_factor(upper_factor)
     }
 
-    /// Displacements under the structure's weight.
-    fn under_weight(&self, gravity: f64) -> Result<Vec<f64>> {
+    /// Static displacement under the structure's weight, with fixed contact nodes.
+    fn static_displacement(&self, gravity: f64) -> Result<Vec<f64>> {
         let n = self.dofs();
-        let mut mass = Triplets::new(n);
-        self.mass(&mut mass)?;
-        let mass = SparseMatrix::new("mass matrix", &mass)?;
+        let mut mass_entries = Triplets::new(n);
+        self.mass(&mut mass_entries)?;
+        let mass = SparseMatrix::new("mass matrix", &mass_entries)?;
         let mut weight = vec![0.0; n];
-        mass.multiply_add(-gravity, &self.rigid_motion(self.mesh.upwards(), [0.0; 3]), &mut weight);
-        let held = HeldStructure::new(self)?;
-        let load: Vec<f64> = held.free.iter().map(|&dof| weight[dof]).collect();
+        mass.multiply_add(
+            -gravity,
+            &self.rigid_motion(self.mesh.up_direction(), [0.0; 3]),
+            &mut weight,
+        );
+        let fixed_base = FixedBaseModel::new(self)?;
+        let load: Vec<f64> = fixed_base.free_dofs.iter().map(|&dof| weight[dof]).collect();
         let mut displacement = vec![0.0; n];
-        for (&dof, value) in held.free.iter().zip(held.solve(load)?) {
+        for (&dof, value) in fixed_base.free_dofs.iter().zip(fixed_base.solve(load)?) {
             displacement[dof] = value;
         }
         Ok(displacement)
     }
 }
 
-/// A structure whose contact nodes are held.
-struct HeldStructure {
-    /// The degrees of freedom that are not held.
-    free: Vec<usize>,
-    /// Stiffness without axial forces, and the geometric stiffness of the axial forces, in the free degrees of
-    /// freedom.
+/// Stiffness of a model with fixed contact nodes.
+struct FixedBaseModel {
+    /// Degrees of freedom that are not fixed.
+    free_dofs: Vec<usize>,
+    /// Stiffness of the free degrees of freedom without P–Δ.
     elastic: SparseMatrix,
+    /// Geometric stiffness of the free degrees of freedom.
     geometric: SparseMatrix,
 }
 
-impl HeldStructure {
-    /// Assembles both stiffnesses; returns an error for invalid entries.
+impl FixedBaseModel {
+    /// Assembles both matrices; returns an error for invalid entries.
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
-        let is_held = model.is_held();
-        let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();
-        let mut place = vec![None; n];
-        free.iter().enumerate().for_each(|(k, &dof)| place[dof] = Some(k));
+        let is_fixed = model.moves_base();
+        let free_dofs: Vec<usize> = (0..n).filter(|&dof| !is_fixed[dof]).collect();
+        let mut free_index = vec![None; n];
+        free_dofs.iter().enumerate().for_each(|(index, &dof)| free_index[dof] = Some(index));
         let free_matrix = |kind| {
-            let mut all = Triplets::new(n);
-            model.add(&mut all, &[(kind, 1.0)]);
-            // Through the full matrix, which returns an error for indices out of range.
-            let all = SparseMatrix::new(MATRIX_NAME, &all)?;
-            restricted(MATRIX_NAME, &all, free.len(), |dof| place[dof])
+            let mut entries = Triplets::new(n);
+            model.add_matrices(&mut entries, &[(kind, 1.0)]);
+            // The full matrix returns an error for indices out of range.
+            let full_matrix = SparseMatrix::new(MATRIX_NAME, &entries)?;
+            submatrix(MATRIX_NAME, &full_matrix, free_dofs.len(), |dof| free_index[dof])
         };
         let elastic = free_matrix(MatrixKind::Stiffness)?;
         let geometric = free_matrix(MatrixKind::GeometricStiffness)?;
-        Ok(Self { free, elastic, geometric })
+        Ok(Self { free_dofs, elastic, geometric })
     }
 
     /// Elastic displacements under a load.
     fn solve(&self, load: Vec<f64>) -> Result<Vec<f64>> {
-        if self.free.is_empty() {
+        if self.free_dofs.is_empty() {
             return Ok(load);
         }
         let mut displacement = load.clone();
         SparseFactor::positive_definite(MATRIX_NAME, &self.elastic)?.solve(&mut displacement);
-        let mut rest = load;
-        let weight = largest(&rest);
-        self.elastic.multiply_add(-1.0, &displacement, &mut rest);
-        if rest.iter().all(|force| force.abs() <= EQUILIBRIUM_TOLERANCE * weight) {
+        let mut residual = load;
+        let max_load = largest(&residual);
+        self.elastic.multiply_add(-1.0, &displacement, &mut residual);
+        if residual.iter().all(|force| force.abs() <= EQUILIBRIUM_TOLERANCE * max_load) {
             Ok(displacement)
         } else {
-            Err(Error::Singular { matrix: MATRIX_NAME, order: self.free.len() })
+            Err(Error::Singular { matrix: MATRIX_NAME, order: self.free_dofs.len() })
         }
     }
 
-    /// Whether the structure stands under `factor` times its axial forces: its stiffness is positive definite.
-    fn stands(&self, factor: f64) -> Result<bool> {
-        if self.free.is_empty() {
+    /// Whether the stiffness is positive definite under `factor` times the static forces.
+    fn is_stable_at(&self, factor: f64) -> Result<bool> {
+        if self.free_dofs.is_empty() {
             return Ok(true);
         }
-        let mut matrix = Triplets::new(self.free.len());
-        self.elastic.add_to(1.0, &mut matrix);
-        self.geometric.add_to(factor, &mut matrix);
-        let matrix = SparseMatrix::new(MATRIX_NAME, &matrix)?;
+        let mut entries = Triplets::new(self.free_dofs.len());
+        self.elastic.add_to(1.0, &mut entries);
+        self.geometric.add_to(factor, &mut entries);
+        let matrix = SparseMatrix::new(MATRIX_NAME, &entries)?;
         Ok(SparseFactor::positive_definite(MATRIX_NAME, &matrix).is_ok())
     }
 
-    /// Factor on the axial forces at which the structure buckles, by bisection.
+    /// Factor on the static forces at which the structure buckles, by bisection.
     ///
-    /// The structure must not stand under `high` times the forces; an error unless it stands without axial forces.
-    fn buckling_factor(&self, mut high: f64) -> Result<f64> {
-        if !self.stands(0.0)? {
-            return Err(Error::Singular { matrix: MATRIX_NAME, order: self.free.len() });
+    /// The structure must be unstable at `upper_factor`. Returns an error if it is unstable without static forces.
+    fn buckling_factor(&self, mut upper_factor: f64) -> Result<f64> {
+        if !self.is_stable_at(0.0)? {
+            return Err(Error::Singular { matrix: MATRIX_NAME, order: self.free_dofs.len() });
         }
-        let mut low = 0.0;
-        while high - low > BUCKLING_FACTOR_TOLERANCE * high && high > f64::MIN_POSITIVE {
-            let middle = 0.5 * (low + high);
-            if self.stands(middle)? {
-                low = middle;
+        let mut lower_factor = 0.0;
+        while upper_factor - lower_factor > BUCKLING_FACTOR_TOLERANCE * upper_factor
+            && upper_factor > f64::MIN_POSITIVE
+        {
+            let middle = 0.5 * (lower_factor + upper_factor);
+            if self.is_stable_at(middle)? {
+                lower_factor = middle;
             } else {
-                high = middle;
+                upper_factor = middle;
             }
         }
-        Ok(0.5 * (low + high))
+        Ok(0.5 * (lower_factor + upper_factor))
     }
 }

@@ -3,9 +3,7 @@
 use crate::error::{Result, finite, not_negative, positive};
 use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
-/// Rigid body on a flat base, with three degrees of freedom `[u_x, u_y, θ]`.
-///
-/// They belong to the middle of the base.
+/// Rigid body on a flat base, with the degrees of freedom `[u_x, u_y, θ]` of the base's middle.
 ///
 /// A point at height z above the base, x to the right of its middle, moves by `u_x − z θ` and `u_y + x θ` (small
 /// rotations). The centre of gravity lies above the middle of the base.
@@ -25,9 +23,13 @@ use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 pub struct RigidBlock {
     width: f64,
     mass: f64,
+    /// About the centre of gravity, kg m² per metre of thickness.
     rotary_inertia: f64,
+    /// Height of the centre of gravity above the base, m.
     center_height: f64,
+    /// Middle of the base on the surface, m.
     center: f64,
+    /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
 }
 
@@ -54,7 +56,7 @@ impl RigidBlock {
         Self::from_mass(width, mass, rotary_inertia, 0.5 * height)
     }
 
-    /// Any rigid body in the plane, given by its base width, mass and inertia.
+    /// Any rigid body in the plane, by its base width, mass and inertia.
     ///
     /// `width` of the base: m. `mass`: kg/m. `rotary_inertia` about the centre of gravity: kg m²/m.
     /// `center_height`: height of the centre of gravity above the base, m.

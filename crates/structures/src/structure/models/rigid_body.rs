@@ -1,4 +1,4 @@
-//! The rigid body on a flat base in plan.
+//! The rigid body on a flat base in space.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 /// Relative difference up to which mirrored entries of an inertia tensor count as equal.
 const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
-/// Rigid body on a flat base in plan, with six degrees of freedom.
+/// Rigid body on a flat base in space, with six degrees of freedom.
 ///
 /// `[u_x, u_y, u_z, r_x, r_y, r_z]` belong to the middle of the base. x points to the right, y away from the
 /// reader, z up; rotations follow the right-hand rule. A point at (x, y, z) from the middle of the base moves by u
@@ -36,7 +36,9 @@ pub struct RigidBody {
     inertia: [[f64; 3]; 3],
     /// Centre of gravity from the middle of the base, m.
     gravity_center: [f64; 3],
+    /// Middle of the base on the surface, m.
     center: [f64; 2],
+    /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
 }
 
@@ -50,12 +52,21 @@ impl RigidBody {
         positive("width of the cuboid", width)?;
         positive("height of the cuboid", height)?;
         positive("density of the cuboid", density)?;
-        let x = 0.5 * length;
-        let y = 0.5 * width;
+        let half_length = 0.5 * length;
+        let half_width = 0.5 * width;
         let mass = length * width * height * density;
-        let about = |one: f64, other: f64| mass * (one * one + other * other) / 12.0;
-        let inertia = diagonal([about(width, height), about(length, height), about(length, width)]);
-        let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
+        let inertia_by = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
+        let inertia = diagonal_tensor([
+            inertia_by(width, height),
+            inertia_by(length, height),
+            inertia_by(length, width),
+        ]);
+        let outline = vec![
+            [-half_length, -half_width],
+            [half_length, -half_width],
+            [half_length, half_width],
+            [-half_length, half_width],
+        ];
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
@@ -69,25 +80,26 @@ impl RigidBody {
         positive("radius of the cylinder", radius)?;
         positive("height of the cylinder", height)?;
         positive("density of the cylinder", density)?;
-        let square = radius * radius;
-        let mass = 0.5 * TAU * square * height * density;
-        let tilting = mass * (square / 4.0 + height * height / 12.0);
-        let inertia = diagonal([tilting, tilting, 0.5 * mass * square]);
+        let squared_radius = radius * radius;
+        let mass = 0.5 * TAU * squared_radius * height * density;
+        let tilting_inertia = mass * (squared_radius / 4.0 + height * height / 12.0);
+        let inertia =
+            diagonal_tensor([tilting_inertia, tilting_inertia, 0.5 * mass * squared_radius]);
         let outline = circle(radius).collect();
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
-    /// Any rigid body, given by its convex base, mass, inertia and centre of gravity.
+    /// Any rigid body, by its convex base, mass, inertia and centre of gravity.
     ///
-    /// `outline`: corners of the base from the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor
-    /// about the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of
-    /// inertia beside it. `gravity_center`: from the same point, m.
+    /// `outline`: corners of the base relative to the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor about
+    /// the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of inertia off the
+    /// diagonal. `gravity_center`: relative to the same point, m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for numbers that are not finite, a mass that is not positive, a tensor
     /// that is not symmetric and positive definite, and a centre of gravity below the base;
-    /// [`Error::Size`](crate::Error::Size) for less than three corners. Whether the corners form a convex face is
-    /// checked when a simulation is built.
+    /// [`Error::Size`](crate::Error::Size) for fewer than three corners. Whether the corners form a convex face
+    /// is checked when a simulation is built.
     pub fn from_mass(
         outline: Vec<[f64; 2]>,
         mass: f64,
@@ -119,7 +131,7 @@ impl RigidBody {
 
     /// Adds the P–Δ effect of the body's weight.
     ///
-    /// −m g h (r_x² + r_y²)/2 in the potential energy, with h the height of the centre of gravity.
+    /// The effect is the potential energy −m g h (r_x² + r_y²)/2 with the height h of the centre of gravity.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
@@ -127,7 +139,7 @@ impl RigidBody {
         Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
     }
 
-    /// The point of the degrees of freedom on the surface, m.
+    /// Point of the degrees of freedom on the surface, m.
     pub(crate) fn center(&self) -> [f64; 2] {
         self.center
     }
@@ -139,47 +151,53 @@ impl RigidBody {
 
     /// Displacements of a point of the body along x, y and z.
     ///
-    /// The point is given from the middle of the base, m.
+    /// The coordinates of the point are relative to the middle of the base, m.
     pub fn displacement_at(&self, [x, y, z]: [f64; 3]) -> [DofCombination; 3] {
         let rows =
             [[(0, 1.0), (4, z), (5, -y)], [(1, 1.0), (5, x), (3, -z)], [(2, 1.0), (3, y), (4, -x)]];
         rows.map(DofCombination::from)
     }
 
-    /// Tensor of inertia about the middle of the base (Steiner).
+    /// Tensor of inertia about the middle of the base, by the parallel axis theorem, kg m².
     fn base_inertia(&self) -> [[f64; 3]; 3] {
         let c = self.gravity_center;
-        let square: f64 = c.iter().map(|x| x * x).sum();
+        let squared_distance: f64 = c.iter().map(|x| x * x).sum();
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
-                let unit = if i == j { square } else { 0.0 };
-                self.inertia[i][j] + self.mass * (unit - c[i] * c[j])
+                let diagonal = if i == j { squared_distance } else { 0.0 };
+                self.inertia[i][j] + self.mass * (diagonal - c[i] * c[j])
             })
         })
     }
 }
 
-fn diagonal([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
+/// Diagonal tensor.
+fn diagonal_tensor([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
     [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
 }
 
-/// Error unless a tensor of inertia is symmetric and positive definite.
+/// Returns an error unless a tensor of inertia is symmetric and positive definite.
 fn check_tensor(t: &[[f64; 3]; 3]) -> Result<()> {
     const TENSOR_NAME: &str = "tensor of inertia of the body";
-    let mut largest = 0.0_f64;
-    for value in t.iter().flatten() {
-        largest = largest.max(finite(TENSOR_NAME, *value)?.abs());
+    let mut max_entry = 0.0_f64;
+    for entry in t.iter().flatten() {
+        max_entry = max_entry.max(finite(TENSOR_NAME, *entry)?.abs());
     }
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        let value = t[i][j] - t[j][i];
-        require(TENSOR_NAME, value, value.abs() <= SYMMETRY_TOLERANCE * largest, "symmetric")?;
+        let asymmetry = t[i][j] - t[j][i];
+        require(
+            TENSOR_NAME,
+            asymmetry,
+            asymmetry.abs() <= SYMMETRY_TOLERANCE * max_entry,
+            "symmetric",
+        )?;
     }
-    let two = t[0][0] * t[1][1] - t[0][1] * t[1][0];
-    let all = t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0])
+    let second_minor = t[0][0] * t[1][1] - t[0][1] * t[1][0];
+    let determinant = t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0])
         - t[1][2] * (t[0][0] * t[2][1] - t[0][1] * t[2][0])
-        + t[2][2] * two;
-    for value in [t[0][0], two, all] {
-        require(TENSOR_NAME, value, value > 0.0, "positive definite")?;
+        + t[2][2] * second_minor;
+    for minor in [t[0][0], second_minor, determinant] {
+        require(TENSOR_NAME, minor, minor > 0.0, "positive definite")?;
     }
     Ok(())
 }
@@ -196,11 +214,12 @@ impl Structure for RigidBody {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         let inertia = self.base_inertia();
-        // The centre of gravity moves by u + r × c: three rows of the mass, then the rotary inertia about it.
-        let moving = self.displacement_at(self.gravity_center);
+        // The centre of gravity moves by u + r × c, which gives the mass of the translations and their coupling with the
+        // rotations.
+        let center_rows = self.displacement_at(self.gravity_center);
         for i in 0..3 {
             matrix.add(i, i, self.mass);
-            for &(j, weight) in moving[i].iter().skip(1).filter(|(_, weight)| *weight != 0.0) {
+            for &(j, weight) in center_rows[i].iter().skip(1).filter(|(_, weight)| *weight != 0.0) {
                 matrix.add(i, j, self.mass * weight);
                 matrix.add(j, i, self.mass * weight);
             }

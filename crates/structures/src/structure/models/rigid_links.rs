@@ -1,4 +1,4 @@
-//! Rigid links, by which nodes follow another node like a rigid body.
+//! Rigid links, by which nodes follow another node as parts of a rigid body.
 
 use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Direction, Mesh, Numbering};
@@ -7,25 +7,26 @@ use crate::structure::Triplets;
 /// Motions in which a follower moves with its leader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RigidLinkKind {
-    /// All: a rigid body.
+    /// All motions: a rigid body.
     Body,
     /// Motions in a horizontal plane: a rigid diaphragm.
-    Floor,
+    Diaphragm,
 }
 
 impl RigidLinkKind {
+    /// Whether a follower follows its leader in this direction.
     fn ties(self, direction: Direction) -> bool {
-        let horizontal = matches!(direction, Direction::X | Direction::Y | Direction::RotationZ);
-        self == Self::Body || horizontal
+        let is_horizontal = matches!(direction, Direction::X | Direction::Y | Direction::RotationZ);
+        self == Self::Body || is_horizontal
     }
 
-    /// Need for the degrees of freedom of a leader.
-    fn needed(self) -> &'static str {
+    /// Requirement on the degrees of freedom of a leader, for an error.
+    fn leader_requirement(self) -> &'static str {
         match self {
             Self::Body => {
                 "its leader must have all degrees of freedom of a node, from a beam for example"
             }
-            Self::Floor => {
+            Self::Diaphragm => {
                 "its leader must have displacements along x and y and the rotation about z"
             }
         }
@@ -40,28 +41,35 @@ fn link_error(needed: &'static str) -> Error {
 pub(super) struct Follower {
     pub(super) node: usize,
     pub(super) leader: usize,
-    /// Whether it follows in all directions, and not in a horizontal plane only.
+    /// Whether the node follows in all directions, not only in a horizontal plane.
     pub(super) is_body: bool,
 }
 
 /// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
-    /// Leader of each follower.
-    leader: Vec<Option<(RigidLinkKind, usize)>>,
+    /// Kind of link and leader of each node that is a follower.
+    leaders: Vec<Option<(RigidLinkKind, usize)>>,
+    /// Whether each node is a leader.
     is_leader: Vec<bool>,
-    /// Pairs (remaining degree of freedom, weight) for each degree of freedom of the mesh.
+    /// Terms (remaining degree of freedom, weight) of each degree of freedom of the mesh.
     rows: Vec<Vec<(usize, f64)>>,
-    dofs: usize,
+    /// Number of remaining degrees of freedom.
+    dof_count: usize,
 }
 
 impl RigidLinks {
-    /// No links yet.
+    /// Links of a mesh, without any.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
-        let nodes = mesh.nodes().len();
-        let dofs = numbering.dofs();
-        let rows = (0..dofs).map(|dof| vec![(dof, 1.0)]).collect();
-        Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, dofs }
+        let node_count = mesh.nodes().len();
+        let dof_count = numbering.dofs();
+        let rows = (0..dof_count).map(|dof| vec![(dof, 1.0)]).collect();
+        Self {
+            leaders: vec![None; node_count],
+            is_leader: vec![false; node_count],
+            rows,
+            dof_count,
+        }
     }
 
     /// Ties `followers` to `leader`.
@@ -69,46 +77,48 @@ impl RigidLinks {
         &mut self,
         mesh: &Mesh,
         numbering: &Numbering,
-        link: RigidLinkKind,
+        kind: RigidLinkKind,
         leader: usize,
         followers: &[usize],
     ) -> Result<()> {
-        let bound = mesh.nodes().len();
-        for &index in std::iter::once(&leader).chain(followers) {
-            in_bounds("node of a rigid link", index, bound)?;
+        let node_count = mesh.nodes().len();
+        for &node in std::iter::once(&leader).chain(followers) {
+            in_bounds("node of a rigid link", node, node_count)?;
         }
-        let mut tied = mesh.directions().iter().filter(|direction| link.ties(**direction));
-        if tied.any(|&direction| numbering.dof(leader, direction).is_none()) {
-            return Err(link_error(link.needed()));
+        let mut tied_directions =
+            mesh.directions().iter().filter(|direction| kind.ties(**direction));
+        if tied_directions.any(|&direction| numbering.dof(leader, direction).is_none()) {
+            return Err(link_error(kind.leader_requirement()));
         }
-        if link == RigidLinkKind::Floor {
-            let floor = mesh.nodes()[leader][mesh.up()];
-            let mut heights = followers.iter().map(|&node| mesh.nodes()[node][mesh.up()]);
-            if !heights.all(|height| (height - floor).abs() <= mesh.tolerance()) {
+        if kind == RigidLinkKind::Diaphragm {
+            let leader_height = mesh.nodes()[leader][mesh.up_axis()];
+            let mut heights = followers.iter().map(|&node| mesh.nodes()[node][mesh.up_axis()]);
+            if !heights.all(|height| (height - leader_height).abs() <= mesh.height_tolerance()) {
                 return Err(link_error("the nodes of a diaphragm must lie at one height"));
             }
         }
-        if self.leader[leader].is_some() {
+        if self.leaders[leader].is_some() {
             return Err(link_error("its leader must not follow another node"));
         }
-        for (place, &follower) in followers.iter().enumerate() {
-            let twice = self.leader[follower].is_some() || followers[..place].contains(&follower);
-            if follower == leader || twice || self.is_leader[follower] {
+        for (follower_index, &follower) in followers.iter().enumerate() {
+            let is_follower =
+                self.leaders[follower].is_some() || followers[..follower_index].contains(&follower);
+            if follower == leader || is_follower || self.is_leader[follower] {
                 return Err(link_error("its followers must follow one node only, and lead none"));
             }
         }
         self.is_leader[leader] = true;
         for &follower in followers {
-            self.leader[follower] = Some((link, leader));
+            self.leaders[follower] = Some((kind, leader));
         }
         self.renumber(mesh, numbering);
         Ok(())
     }
 
-    /// Numbers the remaining degrees of freedom, node by node, and expresses the followers by them.
+    /// Numbers the remaining degrees of freedom, node by node, and expresses all others by them.
     fn renumber(&mut self, mesh: &Mesh, numbering: &Numbering) {
         let nodes = mesh.nodes();
-        let mut next = 0;
+        let mut remaining_count = 0;
         let mut remaining = vec![None; numbering.dofs()];
         for node in 0..nodes.len() {
             for &direction in mesh.directions() {
@@ -116,26 +126,27 @@ impl RigidLinks {
                     continue;
                 }
                 if let Some(dof) = numbering.dof(node, direction) {
-                    remaining[dof] = Some(next);
-                    next += 1;
+                    remaining[dof] = Some(remaining_count);
+                    remaining_count += 1;
                 }
             }
         }
-        self.dofs = next;
+        self.dof_count = remaining_count;
         for node in 0..nodes.len() {
             for &direction in mesh.directions() {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
-                let tied = self.leader[node].filter(|(link, _)| link.ties(direction));
-                let (link, leader) = tied.unwrap_or((RigidLinkKind::Body, node));
+                let leader_link = self.leaders[node].filter(|(kind, _)| kind.ties(direction));
+                let (kind, leader) = leader_link.unwrap_or((RigidLinkKind::Body, node));
                 let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
-                // A follower moves like its leader, and its displacement also with the leader's rotations.
-                let motions = mesh.directions().iter().filter(|motion| link.ties(**motion));
+                // A follower has the motion of its leader, and displacements by the leader's rotations.
+                let motions = mesh.directions().iter().filter(|motion| kind.ties(**motion));
                 let mut row = Vec::new();
                 for &motion in motions {
                     let weight = direction.in_rigid_motion(motion, arm);
-                    let index = numbering.dof(leader, motion).and_then(|dof| remaining[dof]);
-                    if let Some(index) = index.filter(|_| weight != 0.0) {
-                        row.push((index, weight));
+                    let remaining_dof =
+                        numbering.dof(leader, motion).and_then(|dof| remaining[dof]);
+                    if let Some(remaining_dof) = remaining_dof.filter(|_| weight != 0.0) {
+                        row.push((remaining_dof, weight));
                     }
                 }
                 self.rows[dof] = row;
@@ -145,71 +156,81 @@ impl RigidLinks {
 
     /// Number of degrees of freedom that remain.
     pub(super) fn dofs(&self) -> usize {
-        self.dofs
+        self.dof_count
     }
 
     /// Whether a node follows another one in this direction.
     fn is_tied(&self, node: usize, direction: Direction) -> bool {
-        let link = self.leader.get(node).copied().flatten();
-        link.is_some_and(|(link, _)| link.ties(direction))
+        let leader_link = self.leaders.get(node).copied().flatten();
+        leader_link.is_some_and(|(kind, _)| kind.ties(direction))
     }
 
-    /// The new number of a mesh's degree of freedom; `None` for a follower's.
-    pub(super) fn remaining(&self, node: usize, direction: Direction, dof: usize) -> Option<usize> {
-        let free = !self.is_tied(node, direction);
-        self.rows.get(dof)?.first().filter(|_| free).map(|&(index, _)| index)
+    /// Index of a mesh's degree of freedom among the remaining ones; `None` for that of a follower.
+    pub(super) fn remaining_dof(
+        &self,
+        node: usize,
+        direction: Direction,
+        dof: usize,
+    ) -> Option<usize> {
+        let is_free = !self.is_tied(node, direction);
+        self.rows
+            .get(dof)?
+            .first()
+            .filter(|_| is_free)
+            .map(|&(remaining_dof, _)| remaining_dof)
     }
 
-    /// A weighted sum of the mesh's degrees of freedom by the remaining ones.
-    pub(super) fn row(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
-        let mut sums: Vec<(usize, f64)> = Vec::new();
+    /// Terms by remaining degrees of freedom of a weighted sum of the mesh's degrees of freedom.
+    pub(super) fn remaining_terms(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let mut remaining_terms: Vec<(usize, f64)> = Vec::new();
         for &(dof, weight) in terms {
-            for &(index, share) in self.rows.get(dof).into_iter().flatten() {
-                match sums.iter_mut().find(|sum| sum.0 == index) {
-                    Some(sum) => sum.1 += weight * share,
-                    None => sums.push((index, weight * share)),
+            for &(remaining_dof, factor) in self.rows.get(dof).into_iter().flatten() {
+                match remaining_terms.iter_mut().find(|term| term.0 == remaining_dof) {
+                    Some(term) => term.1 += weight * factor,
+                    None => remaining_terms.push((remaining_dof, weight * factor)),
                 }
             }
         }
-        sums
+        remaining_terms
     }
 
-    /// All nodes that follow another one.
+    /// All nodes that follow another node.
     pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
-        self.leader.iter().enumerate().filter_map(|(node, leader)| {
-            (*leader).map(|(link, leader)| Follower {
+        self.leaders.iter().enumerate().filter_map(|(node, leader)| {
+            leader.map(|(kind, leader)| Follower {
                 node,
                 leader,
-                is_body: link == RigidLinkKind::Body,
+                is_body: kind == RigidLinkKind::Body,
             })
         })
     }
 
-    /// Marks all nodes of each rigid body of which one node is marked.
-    pub(super) fn mark_bodies(&self, marks: &mut [bool]) {
-        // From the followers to their leaders, then back.
-        for node in 0..marks.len() {
-            if let Some((RigidLinkKind::Body, leader)) = self.leader[node] {
-                marks[leader] |= marks[node];
+    /// Marks all nodes of each rigid body that has a marked node.
+    pub(super) fn mark_bodies(&self, is_marked: &mut [bool]) {
+        // Marks pass from the followers to their leaders, then from the leaders to all followers.
+        for node in 0..is_marked.len() {
+            if let Some((RigidLinkKind::Body, leader)) = self.leaders[node] {
+                is_marked[leader] |= is_marked[node];
             }
         }
-        for node in 0..marks.len() {
-            if let Some((RigidLinkKind::Body, leader)) = self.leader[node] {
-                marks[node] |= marks[leader];
+        for node in 0..is_marked.len() {
+            if let Some((RigidLinkKind::Body, leader)) = self.leaders[node] {
+                is_marked[node] |= is_marked[leader];
             }
         }
     }
 
-    /// Adds Lᵀ A L, where u = L q and q are the remaining degrees of freedom.
+    /// Adds Lᵀ A L to `matrix`, with the matrix A of the mesh and u = L q by the remaining degrees of freedom q.
     pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
         for &(row, column, value) in mesh_matrix.entries() {
-            // A user's element may have indices out of range: the matrix reports them.
-            let (Some(rows), Some(columns)) = (self.rows.get(row), self.rows.get(column)) else {
+            // Degrees of freedom of a user's element may be out of range; the matrix later returns an error.
+            let (Some(row_terms), Some(column_terms)) = (self.rows.get(row), self.rows.get(column))
+            else {
                 matrix.add(row, column, value);
                 continue;
             };
-            for &(i, a) in rows {
-                for &(j, b) in columns {
+            for &(i, a) in row_terms {
+                for &(j, b) in column_terms {
                     matrix.add(i, j, a * b * value);
                 }
             }

@@ -9,6 +9,11 @@ use crate::structure::{
 };
 use std::f64::consts::{PI, TAU};
 
+/// Limit of inverse iterations, which only matters for nearly equal frequencies: the quotient is then accurate long before.
+const MAX_INVERSE_ITERATIONS: usize = 10_000;
+/// Relative change at which the Rayleigh quotient has converged: a few roundings.
+const QUOTIENT_TOLERANCE: f64 = 1e-15;
+
 /// Storey of a [`ShearBuilding`]: columns and their floor, per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -21,7 +26,7 @@ pub struct Storey {
     /// Rotary inertia of the floor about its centre, kg m².
     #[cfg_attr(feature = "serde", serde(default))]
     pub rotary_inertia: f64,
-    /// Sway stiffness of the columns, N/m.
+    /// Lateral stiffness of the columns, N/m.
     pub stiffness: f64,
     /// Dashpot between the floors, N s/m.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -38,9 +43,8 @@ impl Storey {
 /// Shear building: rigid floors on flexible columns on a rigid base.
 ///
 /// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor,
-/// from below. The columns neither shorten nor bend out of the building's frame: all floors rise and rotate with
-/// the base. A storey's drift is the relative displacement of its floors without the part caused by the rotation,
-/// `d_j = u_j − u_(j−1) + h_j θ`.
+/// from below. The columns do not shorten, so all floors rise and rotate with the base. A storey's drift is the relative
+/// displacement of its floors without the part by the rotation, `d_j = u_j − u_(j−1) + h_j θ`.
 ///
 /// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law ([`with_law`](ShearBuilding::with_law)), and
 /// the building may stand on isolators ([`isolated`](ShearBuilding::isolated)).
@@ -61,24 +65,28 @@ pub struct ShearBuilding {
     base_mass: f64,
     base_inertia: f64,
     pub(super) storeys: Vec<Storey>,
-    /// First tangent of the law that replaces a storey's stiffness.
-    pub(super) tangents: Vec<Option<f64>>,
+    /// Initial tangent of the law that replaces a storey's stiffness, N/m; `None` without a law.
+    pub(super) law_tangents: Vec<Option<f64>>,
     /// The laws, as springs that deform by the drifts of their storeys.
     pub(super) springs: HystereticSprings,
-    /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
-    pub(super) isolated: bool,
+    /// Whether storey 0 is a level of isolators, with the P–Δ effect of [`ShearBuilding::add_p_delta`].
+    pub(super) is_isolated: bool,
+    /// Middle of the base on the surface, m.
     center: f64,
+    /// Factor β of stiffness-proportional damping, s.
     stiffness_damping: f64,
+    /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
 }
 
 short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
 
 impl ShearBuilding {
-    // Degrees of freedom of the base; the floors follow.
+    // Degrees of freedom of the base. Those of the floors follow from `FIRST_FLOOR` on.
     const BASE_HORIZONTAL: usize = 0;
     const BASE_VERTICAL: usize = 1;
     const BASE_ROTATION: usize = 2;
+    const FIRST_FLOOR: usize = 3;
 
     /// Building on a rigid base, with storeys listed from below.
     ///
@@ -88,7 +96,7 @@ impl ShearBuilding {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) without storeys; [`Error::Input`](crate::Error::Input) unless width, base
     /// mass and each storey's height, mass and stiffness are positive and inertias and dashpots not negative, or when
-    /// nothing resists rotation.
+    /// base and floors have no rotary inertia.
     pub fn new(width: f64, base_mass: f64, base_inertia: f64, storeys: &[Storey]) -> Result<Self> {
         positive("width of the base", width)?;
         positive("mass of the base", base_mass)?;
@@ -106,9 +114,9 @@ impl ShearBuilding {
             base_mass,
             base_inertia,
             storeys: storeys.to_vec(),
-            tangents: vec![None; storeys.len()],
+            law_tangents: vec![None; storeys.len()],
             springs: HystereticSprings::default(),
-            isolated: false,
+            is_isolated: false,
             center: 0.0,
             stiffness_damping: 0.0,
             gravity: 0.0,
@@ -132,9 +140,9 @@ impl ShearBuilding {
 
     /// Adds stiffness-proportional damping with this ratio in the first fixed-base mode.
     ///
-    /// It adds to the storeys' dashpots. In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`.
-    /// Five equal storeys with 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the
-    /// upper floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) sets the ratio of
+    /// It adds to the storeys' dashpots. In higher modes the ratio increases with the frequency: `ratio · f_n/f_1`. Five
+    /// equal storeys with 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which strongly reduces the
+    /// accelerations of the upper floors. [`ModalDamping`](crate::structure::ModalDamping) sets the ratio of
     /// each mode.
     ///
     /// # Errors
@@ -150,16 +158,16 @@ impl ShearBuilding {
 
     /// Adds the P–Δ effect of the floors' weight.
     ///
-    /// Columns do not shorten, so they lower the weight above by `(u_j − u_(j−1))²/(2 h_j)`. This reduces the
-    /// stiffness of a storey that carries the weight W by W/h.
+    /// Columns do not shorten, so an inclination of the columns lowers the weight above by `(u_j − u_(j−1))²/(2 h_j)`. This
+    /// reduces the stiffness of a storey under the weight W by W/h.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative and every storey
-    /// stands: the height of its columns must be above W/k, at which they would buckle. k is the storey's
-    /// stiffness, or the first tangent of its law.
+    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative, and the height of
+    /// every storey is above W/k, at which its columns buckle. k is the storey's stiffness, or the initial tangent of its
+    /// law.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
-        (0..building.storeys.len()).try_for_each(|storey| building.carries_its_weight(storey))?;
+        (0..building.storeys.len()).try_for_each(|storey| building.check_buckling(storey))?;
         Ok(building)
     }
 
@@ -181,12 +189,12 @@ impl ShearBuilding {
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn floor(&self, storey: usize) -> Result<usize> {
-        Ok(in_bounds("storey", storey, self.storeys.len())? + 3)
+        Ok(in_bounds("storey", storey, self.storeys.len())? + Self::FIRST_FLOOR)
     }
 
     /// Index of the horizontal displacement of the highest floor.
     pub fn roof(&self) -> usize {
-        self.storeys.len() + 2
+        Self::FIRST_FLOOR + self.storeys.len() - 1
     }
 
     /// Drift of `storey` (0: the lowest): `u_j − u_(j−1) + h_j θ`.
@@ -200,7 +208,8 @@ impl ShearBuilding {
 
     /// Displacement of the floor on `storey` minus the base's rigid motion there.
     ///
-    /// `u_j − u_x + H_j θ` with the height `H_j` of the floor: the sum of the drifts below. Storeys count from 0.
+    /// It is `u_j − u_x + H_j θ` with the height `H_j` of the floor, the sum of the drifts of all storeys up to this one.
+    /// Storeys count from 0.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -212,71 +221,74 @@ impl ShearBuilding {
 
     /// Horizontal force of the floor on top of `storey` on the part below, N.
     ///
-    /// Positive to the right: the base shear for storey 0. It acts through the columns or isolators. With P–Δ it
-    /// is the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The
-    /// force of a law is not a weighted sum of displacements. In a storey that follows a law, the force is therefore
-    /// computed from the inertia of the floors above, which is exact for any law; with the midpoint rule it is
-    /// then the mean over the step.
+    /// It is the force of the columns or isolators, positive to the right; for storey 0 it is the base shear. With P–Δ it is
+    /// the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The force of a
+    /// law is not a weighted sum of displacements. For a storey with a law, the force is therefore computed from the inertia
+    /// of the floors above, which is exact for any law; with the midpoint rule it is then the mean over the step.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn shear(&self, storey: usize) -> Result<SectionRows> {
         self.floor(storey)?;
-        if self.tangents[storey].is_some() {
+        if self.law_tangents[storey].is_some() {
             let floors = self.storeys.iter().enumerate().skip(storey);
-            let acceleration = floors.map(|(index, floor)| (index + 3, -floor.mass)).collect();
+            let acceleration =
+                floors.map(|(index, floor)| (Self::FIRST_FLOOR + index, -floor.mass)).collect();
             return Ok(SectionRows { acceleration, ..SectionRows::default() });
         }
         let Storey { height, stiffness, .. } = self.storeys[storey];
-        let scaled = |factor: f64| self.drift_terms(storey).map(|(index, w)| (index, factor * w));
-        let mut displacement = scaled(stiffness);
+        let scaled_drift =
+            |factor: f64| self.drift_terms(storey).map(|(dof, weight)| (dof, factor * weight));
+        let mut displacement = scaled_drift(stiffness);
         if self.gravity > 0.0 {
-            let sway = self.weight_on(storey) / height;
+            let weight_stiffness = self.weight_on(storey) / height;
             // The first two entries of a drift are the floors' relative displacement.
-            for entry in displacement.iter_mut().zip(Self::sway_row(storey)) {
-                entry.0.1 -= sway * entry.1.1;
+            for (drift_term, sway_term) in displacement.iter_mut().zip(Self::sway_row(storey)) {
+                drift_term.1 -= weight_stiffness * sway_term.1;
             }
         }
-        let velocity = scaled(self.dashpot(storey)).into();
+        let velocity = scaled_drift(self.dashpot(storey)).into();
         Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
     }
 
     /// Frequency of the first mode on a fixed base, without P–Δ, Hz.
     pub fn fixed_base_frequency(&self) -> f64 {
         let mut shape = vec![1.0; self.storeys.len()];
-        let mut square = 0.0;
-        // Inverse iteration: the shape under the inertia forces of the last shape. The limit only matters for
-        // nearly equal frequencies, where the quotient is accurate long before.
-        for _ in 0..10_000 {
+        let mut squared_frequency = 0.0;
+        // Inverse iteration: each shape is the deflection under the inertia forces of the previous one.
+        for _ in 0..MAX_INVERSE_ITERATIONS {
             let mut shear: f64 = self.inertia_forces(&shape).sum();
-            let mut sway = 0.0;
-            let mut next = Vec::with_capacity(shape.len());
+            let mut floor_displacement = 0.0;
+            let mut deflection = Vec::with_capacity(shape.len());
             for (storey, force) in self.storeys.iter().zip(self.inertia_forces(&shape)) {
-                sway += shear / storey.stiffness;
+                floor_displacement += shear / storey.stiffness;
                 shear -= force;
-                next.push(sway);
+                deflection.push(floor_displacement);
             }
-            let work: f64 = self.inertia_forces(&shape).zip(&next).map(|(f, u)| f * u).sum();
-            let inertia: f64 = self.inertia_forces(&next).zip(&next).map(|(f, u)| f * u).sum();
-            let quotient = work / inertia;
-            let change = (quotient - square).abs();
-            square = quotient;
-            shape = next.iter().map(|u| u / sway).collect();
-            if change <= 1e-15 * quotient {
+            let work: f64 = self.inertia_forces(&shape).zip(&deflection).map(|(f, u)| f * u).sum();
+            let inertia: f64 =
+                self.inertia_forces(&deflection).zip(&deflection).map(|(f, u)| f * u).sum();
+            let rayleigh_quotient = work / inertia;
+            let change = (rayleigh_quotient - squared_frequency).abs();
+            squared_frequency = rayleigh_quotient;
+            shape = deflection.iter().map(|u| u / floor_displacement).collect();
+            if change <= QUOTIENT_TOLERANCE * rayleigh_quotient {
                 break;
             }
         }
-        square.sqrt() / TAU
+        squared_frequency.sqrt() / TAU
     }
 
+    /// Inertia forces of the floors in a shape, for a unit squared frequency.
     fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
     }
 
-    /// `u_j − u_(j−1)`, including the part caused by the base's rotation.
+    /// Relative displacement `u_j − u_(j−1)`, with the part by the base's rotation.
     fn sway_row(storey: usize) -> [(usize, f64); 2] {
-        let below = if storey == 0 { Self::BASE_HORIZONTAL } else { storey + 2 };
-        [(storey + 3, 1.0), (below, -1.0)]
+        let lower_dof =
+            if storey == 0 { Self::BASE_HORIZONTAL } else { Self::FIRST_FLOOR + storey - 1 };
+        [(Self::FIRST_FLOOR + storey, 1.0), (lower_dof, -1.0)]
     }
 
     /// Terms of the drift of a storey that exists.
@@ -290,33 +302,33 @@ impl ShearBuilding {
         self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
     }
 
-    /// Error unless the columns of a storey carry the weight above.
+    /// Returns an error if the columns of a storey buckle under the weight above.
     ///
-    /// On a fixed base K is a chain of storeys, positive definite if every link k − W/h is positive.
-    pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
+    /// On a fixed base the stiffness is a chain of storeys, positive definite if every k − W/h is positive.
+    pub(super) fn check_buckling(&self, storey: usize) -> Result<()> {
         let Storey { height, stiffness, .. } = self.storeys[storey];
-        let stiffness = self.tangents[storey].unwrap_or(stiffness);
-        let carries = self.gravity == 0.0
-            || self.isolated && storey == 0
-            || stiffness * height > self.weight_on(storey);
-        let needed = "above W/k, the weight it carries over its stiffness: its columns buckle";
-        require("height of a storey with P–Δ", height, carries, needed).map(drop)
+        let initial_stiffness = self.law_tangents[storey].unwrap_or(stiffness);
+        let is_stable = self.gravity == 0.0
+            || self.is_isolated && storey == 0
+            || initial_stiffness * height > self.weight_on(storey);
+        let needed = "above W/k, the weight on the storey over its stiffness: its columns buckle";
+        require("height of a storey with P–Δ", height, is_stable, needed).map(drop)
     }
 
-    /// Adds the curvature of the weight's potential.
+    /// Adds the geometric stiffness of the weight.
     ///
-    /// Columns lower the weight by half the square of the floors' relative displacement over their height. Isolators
-    /// are no columns: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2 for
-    /// a drift d at the height h. The term in d² is part of the law: W/R, or rubber as measured under its load.
+    /// Columns lower the weight by half the square of the floors' relative displacement, divided by their height. Isolators
+    /// do not: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2 for a drift d at
+    /// the height h. The term in d² is part of the law: W/R, or the stiffness of rubber under its load.
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             let weight = self.weight_on(index);
-            if self.isolated && index == 0 {
+            if self.is_isolated && index == 0 {
                 for (dof, sign) in Self::sway_row(0) {
                     matrix.add(dof, Self::BASE_ROTATION, sign * weight);
                     matrix.add(Self::BASE_ROTATION, dof, sign * weight);
                 }
-                // d = u_1 − u_0 + h θ, so d θ contains another h θ².
+                // d = u_1 − u_0 + h θ, so that d θ contains a further h θ².
                 matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, weight * storey.height);
             } else {
                 matrix.add_outer(Self::sway_row(index), -weight / storey.height);
@@ -324,20 +336,21 @@ impl ShearBuilding {
         }
     }
 
+    /// Rotary inertia of base and floors, kg m² per metre.
     fn rotary_inertia(&self) -> f64 {
         self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
     }
 
-    /// The storey's dashpot, plus the stiffness-proportional damping of its columns.
+    /// Damping coefficient of a storey, N s/m: its dashpot and the stiffness-proportional damping of its columns.
     ///
-    /// The latter uses the stiffness in [`Storey`], even if a law replaces it. Isolators have none.
+    /// The latter uses the stiffness in [`Storey`], even if a law replaces this stiffness. Isolators have none.
     fn dashpot(&self, storey: usize) -> f64 {
         let Storey { stiffness, damping, .. } = self.storeys[storey];
-        let isolates = self.isolated && storey == 0;
-        damping + if isolates { 0.0 } else { self.stiffness_damping * stiffness }
+        let is_isolator = self.is_isolated && storey == 0;
+        damping + if is_isolator { 0.0 } else { self.stiffness_damping * stiffness }
     }
 
-    /// Adds lᵀl of each storey's drift times `factor(storey)`.
+    /// Adds `factor(storey)` times lᵀ l of each storey's drift l to `matrix`.
     fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> f64) {
         for storey in 0..self.storeys.len() {
             matrix.add_outer(self.drift_terms(storey), factor(storey));
@@ -347,7 +360,7 @@ impl ShearBuilding {
 
 impl Structure for ShearBuilding {
     fn dofs(&self) -> usize {
-        3 + self.storeys.len()
+        Self::FIRST_FLOOR + self.storeys.len()
     }
 
     fn base(&self) -> Base {
@@ -362,14 +375,19 @@ impl Structure for ShearBuilding {
         matrix.add(Self::BASE_VERTICAL, Self::BASE_VERTICAL, self.total_mass());
         matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, self.rotary_inertia());
         for (index, storey) in self.storeys.iter().enumerate() {
-            matrix.add(index + 3, index + 3, storey.mass);
+            let dof = Self::FIRST_FLOOR + index;
+            matrix.add(dof, dof, storey.mass);
         }
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_drifts(matrix, |storey| {
-            if self.tangents[storey].is_some() { 0.0 } else { self.storeys[storey].stiffness }
+            if self.law_tangents[storey].is_some() {
+                0.0
+            } else {
+                self.storeys[storey].stiffness
+            }
         });
         self.geometric_stiffness(matrix)
     }

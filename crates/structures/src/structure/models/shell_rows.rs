@@ -1,4 +1,4 @@
-//! Forces and moments of a model's shells as weighted sums of its degrees of freedom.
+//! Forces and moments of a model's shells, as weighted sums of degrees of freedom.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -7,21 +7,19 @@ use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Element, Mesh, Shell, ShellResultants};
 use crate::structure::{FemModel, SectionRows};
 
-/// Forces and moments of shells per metre at a node, as rows over displacements.
+/// Forces and moments of shells per metre at a node, as weighted sums of displacements.
 ///
-/// A `Probe::section` records one of them at every step, as a change from the
-/// static state. The static part is the row's value for
-/// `Simulation::static_displacement`. The rows contain the elastic forces,
-/// without damping.
+/// A `Probe::section` records one of them at every step, as a change from the static state. The static part is the value
+/// for `Simulation::static_displacement`. The sums contain the elastic forces, without damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShellRows {
-    /// The node.
+    /// Index of the node.
     pub node: usize,
     /// Axes e1, e2, n of the resultants as rows, the means of the elements' axes.
     pub axes: [[f64; 3]; 3],
     /// Membrane forces n_11, n_22, n_12, N/m; tension is positive.
     pub membrane: [SectionRows; 3],
-    /// Moments m_11, m_22, m_12, Nm/m; positive with tension on the side of −n.
+    /// Moments m_11, m_22, m_12, N m/m; positive with tension on the side of −n.
     pub moments: [SectionRows; 3],
     /// Shear forces q_1, q_2, N/m: on a section whose outward normal is e1 or e2, along n.
     pub shears: [SectionRows; 2],
@@ -50,25 +48,25 @@ impl FemModel {
     /// of freedom. `State::displacement` gives changes from the static state.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is another one than a [`Shell`],
-    /// [`Error::Size`] for a displacement of another length, [`Error::NotFinite`] for one that is not finite.
+    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a [`Shell`], [`Error::Size`] for a
+    /// displacement of another length, [`Error::NotFinite`] for a displacement that is not finite.
     pub fn shell_resultants(
         &self,
         element: usize,
         displacement: &[f64],
     ) -> Result<Vec<ShellResultants>> {
-        let shell = shell(&self.mesh, element)?;
+        let shell = shell_at(&self.mesh, element)?;
         let shell_displacement = self.element_displacements(shell, displacement)?;
         shell.resultants(&self.mesh.coordinates(shell.nodes()), &shell_displacement)
     }
 
     /// Rows of the forces and moments at every node of some shells, in ascending order of nodes.
     ///
-    /// At each node they are means over the given shells. Give the shells of one mat or one wall: where it meets
-    /// another, the moments differ. `elements` are indices from [`Mesh::add`].
+    /// At each node they are means over these shells. Pass the shells of one mat or one wall only: the moments of another
+    /// wall at a common node are different. `elements` are indices from [`Mesh::add`].
     ///
-    /// `axes` returns [along, outward] at a place [x, y, z]: e1 is the part of `along` in the plane of a shell, and
-    /// the normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
+    /// `axes` returns [along, outward] at a point [x, y, z] (m): e1 is the part of `along` in the plane of a shell, and the
+    /// normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
     ///
     /// ```
     /// use basemat::coupled::Probe;
@@ -103,36 +101,43 @@ impl FemModel {
         elements: &[usize],
         axes: impl Fn([f64; 3]) -> [[f64; 3]; 2],
     ) -> Result<Vec<ShellRows>> {
-        let mut sums: BTreeMap<usize, Sum> = BTreeMap::new();
-        let mut indices = Vec::new();
+        let mut node_sums: BTreeMap<usize, NodeSum> = BTreeMap::new();
+        let mut dofs = Vec::new();
         for &element in elements {
-            let shell = shell(&self.mesh, element)?;
+            let shell = shell_at(&self.mesh, element)?;
             let points = self.mesh.coordinates(shell.nodes());
-            self.numbering.of_element(shell, &mut indices);
-            let mut unit = vec![0.0; indices.len()];
-            for (k, &dof) in indices.iter().enumerate() {
-                unit[k] = 1.0;
-                let all = shell.resultants(&points, &unit)?;
-                unit[k] = 0.0;
+            self.numbering.element_dofs(shell, &mut dofs);
+            let mut unit_displacement = vec![0.0; dofs.len()];
+            for (k, &dof) in dofs.iter().enumerate() {
+                unit_displacement[k] = 1.0;
+                let node_resultants = shell.resultants(&points, &unit_displacement)?;
+                unit_displacement[k] = 0.0;
                 let nodes = shell.nodes().iter().zip(&points);
-                for ((&node, &point), resultants) in nodes.zip(&all) {
+                for ((&node, &point), resultants) in nodes.zip(&node_resultants) {
                     let [along, outward] = axes(point);
-                    let turned = resultants.in_axes(along, outward);
-                    let turned = turned.map_err(|fault| fault.within(item(element)))?;
-                    sums.entry(node).or_default().add(k == 0, dof, &turned);
+                    let common_resultants = resultants
+                        .in_axes(along, outward)
+                        .map_err(|fault| fault.within(element_name(element)))?;
+                    let sum = node_sums.entry(node).or_default();
+                    if k == 0 {
+                        sum.add_shell(&common_resultants.axes);
+                    }
+                    sum.add_resultants(dof, &common_resultants);
                 }
             }
         }
-        Ok(sums.into_iter().map(|(node, sum)| self.mean_rows(node, sum)).collect())
+        Ok(node_sums.into_iter().map(|(node, sum)| self.mean_rows(node, sum)).collect())
     }
 
-    /// Means of the resultants at a node, by the remaining degrees of freedom.
-    fn mean_rows(&self, node: usize, sum: Sum) -> ShellRows {
-        let count = sum.count;
+    /// Means of the resultants at a node, as sums of the remaining degrees of freedom.
+    fn mean_rows(&self, node: usize, sum: NodeSum) -> ShellRows {
+        let shell_count = sum.shell_count;
         let mut means = sum.rows.into_iter().map(|row| {
-            self.remaining_row(row.into_iter().map(|(dof, value)| (dof, value / count)).collect())
+            self.remaining_row(
+                row.into_iter().map(|(dof, weight)| (dof, weight / shell_count)).collect(),
+            )
         });
-        let mut next = |unit| SectionRows {
+        let mut next_rows = |unit| SectionRows {
             unit,
             displacement: means.next().unwrap_or_default(),
             ..SectionRows::default()
@@ -140,33 +145,35 @@ impl FemModel {
         ShellRows {
             node,
             axes: ShellResultants::mean_axes(sum.axes),
-            membrane: ["N/m"; 3].map(&mut next),
-            moments: ["N·m/m"; 3].map(&mut next),
-            shears: ["N/m"; 2].map(&mut next),
+            membrane: ["N/m"; 3].map(&mut next_rows),
+            moments: ["N·m/m"; 3].map(&mut next_rows),
+            shears: ["N/m"; 2].map(&mut next_rows),
         }
     }
 }
 
 /// Sums over the shells at a node.
 #[derive(Default)]
-struct Sum {
+struct NodeSum {
     /// Number of shells.
-    count: f64,
+    shell_count: f64,
+    /// Sums of the unit vectors e1, e2, n.
     axes: [[f64; 3]; 3],
-    /// Values of the resultants by each degree of freedom of the mesh.
+    /// Sums of each resultant by a unit value of each degree of freedom of the mesh.
     rows: [BTreeMap<usize, f64>; 8],
 }
 
-impl Sum {
-    /// Adds the resultants of a shell for a unit displacement, and the shell itself with the first one.
-    fn add(&mut self, is_first: bool, dof: usize, resultants: &ShellResultants) {
-        if is_first {
-            self.count += 1.0;
-            let components = resultants.axes.iter().flatten();
-            for (sum, value) in self.axes.iter_mut().flatten().zip(components) {
-                *sum += value;
-            }
+impl NodeSum {
+    /// Counts a shell and adds its axes.
+    fn add_shell(&mut self, axes: &[[f64; 3]; 3]) {
+        self.shell_count += 1.0;
+        for (sum, component) in self.axes.iter_mut().flatten().zip(axes.iter().flatten()) {
+            *sum += component;
         }
+    }
+
+    /// Adds the resultants of a shell by a unit value of the degree of freedom `dof`.
+    fn add_resultants(&mut self, dof: usize, resultants: &ShellResultants) {
         for (row, value) in self.rows.iter_mut().zip(resultants.values()) {
             if value != 0.0 {
                 *row.entry(dof).or_insert(0.0) += value;
@@ -175,14 +182,14 @@ impl Sum {
     }
 }
 
-/// The shell of this index.
-fn shell(mesh: &Mesh, element: usize) -> Result<&Shell> {
+/// Shell of the element with this index.
+fn shell_at(mesh: &Mesh, element: usize) -> Result<&Shell> {
     in_bounds("element", element, mesh.elements().len())?;
     let shell = mesh.elements().nth(element).and_then(as_shell);
-    shell.ok_or_else(|| Error::part(item(element), "it is not a shell"))
+    shell.ok_or_else(|| Error::part(element_name(element), "it is not a shell"))
 }
 
-/// The element as a shell, also from a box.
+/// The element as a shell, also if it is in a box; `None` for another element.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
     let any: &dyn Any = element;
     match any.downcast_ref::<Box<dyn Element>>() {
@@ -191,6 +198,7 @@ fn as_shell(element: &dyn Element) -> Option<&Shell> {
     }
 }
 
-fn item(element: usize) -> String {
+/// Name of an element in errors.
+fn element_name(element: usize) -> String {
     format!("element {element}")
 }

@@ -1,18 +1,17 @@
-//! Six resultants across a horizontal cut in space.
+//! Six resultants at a horizontal section in space.
 
-use super::cut::Cut;
+use super::cut::SectionCut;
 use crate::error::{Result, require_part};
 use crate::fem::Direction;
 use crate::structure::{FemModel, SectionRows};
 
-/// Forces and moments that the part above a horizontal cut exerts on the part below.
+/// Forces and moments that the part above a horizontal section exerts on the part below.
 ///
-/// Forces are in N, moments in N m about a reference point in the cut, by the right-hand rule. They refer to places
-/// before deformation. A `Probe::section` records one of them at every step, as a
-/// change from the static state.
+/// Forces are in N, moments in N m about a reference point in the section, by the right-hand rule. They refer to the
+/// undeformed structure. A `Probe::section` records one of them at every step, as a change from the static state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpaceSection {
-    /// Height of the cut, m.
+    /// Height of the section, m.
     pub height: f64,
     /// Forces along x and along y; at the base, the base shears.
     pub shear: [SectionRows; 2],
@@ -27,11 +26,11 @@ pub struct SpaceSection {
 impl FemModel {
     /// Six resultants that the part above `height` (m) exerts on the part below, in space.
     ///
-    /// Moments refer to the point [x, y] = `reference` (m) at this height. The nodes at the height are the cut;
-    /// elements that lie in it count as below, so that a cut at the height of a mat has the forces at the feet of its
-    /// walls. The resultants contain the elastic forces, the damping forces except mass-proportional ones, and the
-    /// inertia that the elements above have at the nodes of the cut. A rigid body of linked nodes that reaches down
-    /// to the cut counts as below with all its nodes.
+    /// Moments refer to the point [x, y] = `reference` (m) at this height. The section consists of the nodes at this height;
+    /// elements at this height belong to the part below, so that a section at the height of a mat has the forces at the feet
+    /// of its walls. The resultants consist of elastic forces, of damping forces without mass-proportional damping, and of
+    /// the inertia of the elements above at the nodes of the section. A rigid body of linked nodes with a node at or below
+    /// the section belongs to the part below with all its nodes.
     ///
     /// To include the weight of the elements above, add the acceleration of gravity to the vertical accelerations.
     ///
@@ -60,14 +59,14 @@ impl FemModel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no
     /// element lies above it, or when an element crosses it; [`Error::Scene`](crate::Error::Scene) for a mesh in the
-    /// plane, whose cuts are made by [`section`](FemModel::section).
+    /// plane, for which [`section`](FemModel::section) exists.
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
         require_part(
             "section of six resultants",
             self.mesh.has_depth(),
             "must be in a mesh in space, but this one is in the plane",
         )?;
-        let cut = Cut::new(self, height, reference)?;
+        let cut = SectionCut::new(self, height, reference)?;
         let rows = |direction| cut.rows(direction, 1.0);
         Ok(SpaceSection {
             height,

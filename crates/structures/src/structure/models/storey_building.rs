@@ -1,4 +1,4 @@
-//! Storey building in plan on a rigid mat.
+//! Storey building in space on a rigid mat.
 
 use super::rigid_body::RigidBody;
 use crate::error::{
@@ -9,7 +9,7 @@ use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
-/// Places are from the middle of the mat's base.
+/// Coordinates are relative to the middle of the mat's base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -23,7 +23,7 @@ pub struct PlanStorey {
     /// Centre of mass of the floor, `[x, y]` in m.
     #[cfg_attr(feature = "serde", serde(default))]
     pub mass_center: [f64; 2],
-    /// Sway stiffness along x and y (N/m), and stiffness against twist (N m) about the centre of stiffness.
+    /// Lateral stiffness along x and y (N/m), and torsional stiffness (N m) about the centre of stiffness.
     pub stiffness: [f64; 3],
     /// Centre of stiffness, `[x, y]` in m: a shear force through it does not twist the storey.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -36,14 +36,15 @@ pub struct PlanStorey {
 impl PlanStorey {
     /// Storey with a homogeneous rectangular floor above the middle of the mat.
     ///
-    /// Sides of the floor along x and y, m. Without eccentricities and dashpots.
+    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as the field. The storey has
+    /// no eccentricities and no dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
-        let about_y = mass * length * length / 12.0;
-        let about_x = mass * width * width / 12.0;
+        let y_inertia = mass * length * length / 12.0;
+        let x_inertia = mass * width * width / 12.0;
         Self {
             height,
             mass,
-            inertia: [about_x, about_y, about_y + about_x],
+            inertia: [x_inertia, y_inertia, y_inertia + x_inertia],
             mass_center: [0.0; 2],
             stiffness,
             stiffness_center: [0.0; 2],
@@ -52,23 +53,23 @@ impl PlanStorey {
     }
 }
 
-/// Rigid floors on flexible columns and walls, on a rigid mat in plan.
+/// Rigid floors on flexible columns and walls, on a rigid mat in space.
 ///
 /// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from
 /// below, the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not
-/// shorten: all floors rise and tilt with the mat. A storey deforms by the relative motion of its floors without
-/// the part caused by the tilt. Along one axis and without eccentricities it is a
+/// shorten: all floors rise and tilt with the mat. The deformation of a storey is the relative motion of its floors without
+/// the part by the tilt. Along one axis and without eccentricities the building is a
 /// [`ShearBuilding`](crate::structure::ShearBuilding).
 ///
-/// [`ModalDamping`](crate::structure::ModalDamping) gives modal damping. Single walls and dampers anywhere in plan
-/// are [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
+/// [`ModalDamping`](crate::structure::ModalDamping) adds modal damping. Single walls and dampers at any point of a storey are
+/// [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
 ///
 /// let mat = RigidBody::cuboid([18.0, 12.0, 1.0], 2500.0)?;
 /// let storey = PlanStorey::new(3.2, 250.0e3, [18.0, 12.0], [4.0e8, 3.0e8, 2.0e10]);
-/// // Walls of a staircase draw the centre of stiffness to one end.
+/// // Walls of a staircase move the centre of stiffness to one end.
 /// let storey = PlanStorey { stiffness_center: [-4.0, 0.0], ..storey };
 /// let building = StoreyBuilding::new(mat, &[storey; 5])?;
 /// assert_eq!(building.drift(0)?[1][..], [(7, 1.0), (8, -4.0), (1, -1.0), (5, 4.0), (3, 3.2)]);
@@ -81,9 +82,10 @@ impl PlanStorey {
 pub struct StoreyBuilding {
     mat: RigidBody,
     pub(super) storeys: Vec<PlanStorey>,
-    /// Whether a law replaces a storey's stiffness, by direction.
+    /// Whether a law replaces the stiffness of each storey, in each direction.
     has_law: Vec<[bool; 3]>,
     springs: HystereticSprings,
+    /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
 }
 
@@ -99,7 +101,7 @@ impl StoreyBuilding {
 
     /// Building on a mat, with storeys listed from below.
     ///
-    /// The mat brings its place and its P–Δ. The columns of the first storey stand at height 0.
+    /// The mat determines the position, and has its own P–Δ effect. The columns of the first storey begin at height 0.
     ///
     /// # Errors
     /// [`Error::Size`] without storeys; [`Error::Input`] unless each storey's height, mass, inertia about the vertical
@@ -116,8 +118,8 @@ impl StoreyBuilding {
                 positive("stiffness of a storey", storey.stiffness[k])?;
                 not_negative("damping of a storey", storey.damping[k])?;
             }
-            for place in storey.mass_center.iter().chain(&storey.stiffness_center) {
-                finite("centre of a storey", *place)?;
+            for coordinate in storey.mass_center.iter().chain(&storey.stiffness_center) {
+                finite("centre of a storey", *coordinate)?;
             }
         }
         let building = Self {
@@ -135,8 +137,8 @@ impl StoreyBuilding {
     ///
     /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
     /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
-    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: two
-    /// sliders carry √2 times their friction on the diagonal. For bearings that slide or yield in any direction use
+    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: along the diagonal, two
+    /// sliders have √2 times the friction of one. For bearings that slide or yield in any direction use
     /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
@@ -172,6 +174,7 @@ impl StoreyBuilding {
         Ok(self)
     }
 
+    /// Marks the stiffness of a storey as replaced by a law.
     fn replace_stiffness(&mut self, storey: usize, direction: usize) -> Result<()> {
         let is_first = !std::mem::replace(&mut self.has_law[storey][direction], true);
         require_part("law of a storey", is_first, "one law at most")
@@ -179,8 +182,9 @@ impl StoreyBuilding {
 
     /// Adds the P–Δ effect of the floors' weight.
     ///
-    /// Columns do not shorten, so they lower the weight above by δ²/(2 h), with δ the relative displacement of a
-    /// storey's ends at the floor's mass centre. Columns that buckle cause an error when a simulation is built.
+    /// Columns do not shorten, so an inclination lowers the weight of each floor above by δ²/(2 h), where δ is the relative
+    /// displacement of a storey's ends at the floor's mass centre. Columns that buckle cause an error when a simulation is
+    /// built.
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
@@ -212,7 +216,7 @@ impl StoreyBuilding {
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
     pub fn floor(&self, storey: usize, place: [f64; 2]) -> Result<[DofCombination; 3]> {
-        Ok(level(in_bounds("storey", storey, self.storeys.len())? + 1, place))
+        Ok(level_motion(in_bounds("storey", storey, self.storeys.len())? + 1, place))
     }
 
     /// Drifts along x and y, and twist, of `storey` (0: the lowest) at its centre of stiffness.
@@ -246,41 +250,41 @@ impl StoreyBuilding {
         Ok(self.deformation([0, storey + 1], place))
     }
 
-    /// Displacement of level 2 relative to level 1, without the part caused by the mat's rotation.
+    /// Displacement of the second of two `levels` relative to the first, without the part by the mat's rotation.
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
         let storeys = &self.storeys[levels[0]..levels[1]];
         let height: f64 = storeys.iter().map(|storey| storey.height).sum();
-        let mut deformation = sway(levels, place);
+        let mut deformation = relative_displacement(levels, place);
         deformation[Self::DIRECTION_ALONG] -= DofCombination::from((MAT_ROTATION_Y, height));
         deformation[Self::DIRECTION_ACROSS] += DofCombination::from((MAT_ROTATION_X, height));
         deformation
     }
 
-    /// Displacements of the mass centre of the floor on `storey`, and rotations.
+    /// Displacements of the mass centre of the floor on `storey`, and its rotations, about x, y and z.
     pub(super) fn floor_motion(&self, storey: usize) -> [DofCombination; 6] {
         let place = self.storeys[storey].mass_center;
-        let [along, across, twist] = level(storey + 1, place);
-        let [.., up] = self.mat.displacement_at([place[0], place[1], 0.0]);
-        [along, across, up, MAT_ROTATION_X.into(), MAT_ROTATION_Y.into(), twist]
+        let [x_row, y_row, twist] = level_motion(storey + 1, place);
+        let [.., vertical] = self.mat.displacement_at([place[0], place[1], 0.0]);
+        [x_row, y_row, vertical, MAT_ROTATION_X.into(), MAT_ROTATION_Y.into(), twist]
     }
 
-    /// Adds lᵀl of each storey's deformations times a factor.
+    /// Adds lᵀ l of each storey's deformations l, times their factors, to `matrix`.
     fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> [f64; 3]) -> Result<()> {
         for storey in 0..self.storeys.len() {
-            for (row, factor) in self.drift(storey)?.iter().zip(factor(storey)) {
-                matrix.add_outer(row, factor);
+            for (row, row_factor) in self.drift(storey)?.iter().zip(factor(storey)) {
+                matrix.add_outer(row, row_factor);
             }
         }
         Ok(())
     }
 
-    /// Adds the curvature of the floors' weight.
+    /// Adds the geometric stiffness of the floors' weight.
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             for floor in &self.storeys[index..] {
                 let softening = -self.gravity / storey.height;
                 let inertias = [floor.mass, floor.mass, floor.inertia[2]];
-                let rows = sway([index, index + 1], floor.mass_center);
+                let rows = relative_displacement([index, index + 1], floor.mass_center);
                 for (row, inertia) in rows.into_iter().zip(inertias) {
                     matrix.add_outer(row, softening * inertia);
                 }
@@ -294,24 +298,29 @@ const MAT_ROTATION_X: usize = 3;
 /// Degree of freedom of the mat: rotation about y.
 const MAT_ROTATION_Y: usize = 4;
 
-/// Motion of a level at a place: the mat's base 0, floors from 1.
-fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
-    let first = 3 * level + 3;
-    let dofs = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
-    let twist = dofs[2];
-    [translation_row(dofs[0], twist, -y), translation_row(dofs[1], twist, x), twist.into()]
+/// Displacements along x and y, and twist, of a level at a point (m): level 0 is the mat's base, 1 the lowest floor.
+fn level_motion(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
+    // The six degrees of freedom of the mat come first, then three of each floor.
+    let first_dof = 3 * level + 3;
+    let [x_dof, y_dof, twist] =
+        if level == 0 { [0, 1, 5] } else { [first_dof, first_dof + 1, first_dof + 2] };
+    [translation_row(x_dof, twist, -y), translation_row(y_dof, twist, x), twist.into()]
 }
 
-/// Displacement by the degree of freedom `dof` and a rotation `twist` at a lever, m.
-fn translation_row(dof: usize, twist: usize, lever: f64) -> DofCombination {
-    let by_twist = Some((twist, lever)).filter(|_| lever != 0.0);
-    std::iter::once((dof, 1.0)).chain(by_twist).collect()
+/// Displacement by the translation `dof` and the rotation `twist` at a lever arm, m.
+fn translation_row(dof: usize, twist: usize, lever_arm: f64) -> DofCombination {
+    let twist_term = Some((twist, lever_arm)).filter(|_| lever_arm != 0.0);
+    std::iter::once((dof, 1.0)).chain(twist_term).collect()
 }
 
-/// Displacement of level 2 relative to level 1, including the part caused by the mat's tilt.
-fn sway([lower, upper]: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
-    let mut below = level(lower, place).into_iter();
-    level(upper, place).map(|above| above - below.next().unwrap_or_default())
+/// Displacement of an upper level relative to a lower one, with the part by the mat's tilt.
+fn relative_displacement(
+    [lower_level, upper_level]: [usize; 2],
+    place: [f64; 2],
+) -> [DofCombination; 3] {
+    let mut lower_rows = level_motion(lower_level, place).into_iter();
+    level_motion(upper_level, place)
+        .map(|upper_row| upper_row - lower_rows.next().unwrap_or_default())
 }
 
 impl Structure for StoreyBuilding {
@@ -371,7 +380,9 @@ impl Structure for StoreyBuilding {
             }
             names.push(match dof.checked_sub(6) {
                 None => self.mat.describe(&[dof])?,
-                Some(place) => format!("{} of floor {}", FLOOR_DOF_NAMES[place % 3], place / 3),
+                Some(floor_dof) => {
+                    format!("{} of floor {}", FLOOR_DOF_NAMES[floor_dof % 3], floor_dof / 3)
+                }
             });
         }
         Some(names.join(", "))

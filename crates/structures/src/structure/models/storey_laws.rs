@@ -1,11 +1,11 @@
-//! Shear buildings whose storeys yield, or that stand on isolators.
+//! Shear buildings with yielding storeys or on isolators.
 
 use super::shear_building::{ShearBuilding, Storey};
 use crate::error::{Result, finite, not_negative, positive, require_part};
 use crate::structure::Structure;
 use crate::structure::hysteresis::Hysteresis;
 
-/// The level of isolators between the basemat and the building's slab.
+/// Level of isolators between the basemat and the building's slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -23,10 +23,10 @@ pub struct IsolationLevel {
 impl ShearBuilding {
     /// Replaces the columns' stiffness of `storey` (0: the lowest) by `law`.
     ///
-    /// The deformation of the law is the storey's drift. Stiffness-proportional damping keeps using the stiffness
-    /// in [`Storey`], however far the columns yield. If it must not act in a yielding storey, leave
-    /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the other storeys dashpots
-    /// ([`Storey::damping`]) of ζ k/(π f₁).
+    /// The deformation of the law is the storey's drift. Stiffness-proportional damping still uses the stiffness in
+    /// [`Storey`], also after the columns yield. To exclude it from a yielding storey, do not call
+    /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping), and set dashpots ([`Storey::damping`]) of
+    /// ζ k/(π f₁) in the other storeys.
     ///
     /// ```
     /// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure};
@@ -44,34 +44,34 @@ impl ShearBuilding {
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey, [`Error::Scene`](crate::Error::Scene)
-    /// when it has a law already, [`Error::Input`](crate::Error::Input) when the law's first stiffness does not
-    /// carry the weight above with P–Δ.
+    /// when it has a law already, [`Error::Input`](crate::Error::Input) when the storey buckles with P–Δ by the law's
+    /// initial tangent.
     pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
         let drift = self.drift(storey)?;
-        let is_first = self.tangents[storey].replace(law.response(0.0).tangent).is_none();
+        let is_first = self.law_tangents[storey].replace(law.response(0.0).tangent).is_none();
         require_part("law of a storey", is_first, "one law at most")?;
-        self.carries_its_weight(storey)?;
+        self.check_buckling(storey)?;
         let dofs = self.dofs();
         self.springs.add(drift, Box::new(law), dofs)?;
         Ok(self)
     }
 
-    /// Puts the building on isolators that follow `law`.
+    /// Adds isolators that follow `law` under the building.
     ///
     /// The lowest columns then stand on a slab on the isolators. The isolators become storey 0, and the building's
     /// storeys count from 1. Call this before [`with_law`](ShearBuilding::with_law).
     ///
-    /// A damping ratio of the building, set before, still applies to its storeys only. The isolators have the
+    /// A damping ratio of the building from before this call still applies to its storeys only. The isolators have the
     /// damping of their law and of [`IsolationLevel::damping`], but no stiffness-proportional damping.
     ///
-    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators pushes them down the slope
-    /// of a rotating base with W θ, and rotates the base with W d by its drift d. The softening −W/h of columns
-    /// does not apply: the law of a slider contains its weight already (W/R of a
-    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be
-    /// given as measured under their load.
+    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators exerts the force W θ along the slope
+    /// of a rotated base, and the moment W d on the base by the drift d. The softening −W/h of columns does not apply: the
+    /// law of a slider contains its weight already (W/R of a
+    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be that under
+    /// their load.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's first stiffness
+    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's initial tangent
     /// are positive and its inertia and damping are not negative; [`Error::Scene`](crate::Error::Scene) when a
     /// storey has a law already.
     pub fn isolated(
@@ -86,11 +86,11 @@ impl ShearBuilding {
             stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
             damping: not_negative("damping of the isolators", level.damping)?,
         };
-        let needed = "must be there before the laws of storeys";
+        let needed = "must be added before the laws of storeys";
         require_part("level of isolators", self.springs.is_empty(), needed)?;
         self.storeys.insert(0, storey);
-        self.tangents.insert(0, None);
-        self.isolated = true;
+        self.law_tangents.insert(0, None);
+        self.is_isolated = true;
         finite("mass of the building", self.total_mass())?;
         self.with_law(0, law)
     }

@@ -3,11 +3,11 @@
 use crate::error::{Error, Result, positive};
 use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescription, Triplets};
 
-/// Structure in the ground: its rigid base lies at a depth and has walls up to the surface.
+/// Embedded structure: its rigid base is at a depth and has walls up to the surface.
 ///
-/// The structure is the same as on the surface: its heights count from the base. The ground is a
-/// `TrenchGround` of this width and depth. A structure whose base bends lists the
-/// nodes of base and walls itself: down the left wall, along the base, up the right wall. Needs the feature `embedded`.
+/// The structure is the same as on the surface, with heights above its base. The ground is a `TrenchGround` of this width and
+/// depth. For a flexible base, the structure itself lists the nodes of base and walls: down the left wall, along the base, up
+/// the right wall. Needs the feature `embedded`.
 ///
 /// ```
 /// use basemat::structure::{RigidBlock, Structure, WithWalls};
@@ -17,8 +17,8 @@ use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescr
 /// let places: Vec<_> = base.nodes().map(|node| [node.x, node.z]).collect();
 /// assert_eq!(places, [[-6.0, 0.0], [-6.0, -5.0], [6.0, -5.0], [6.0, 0.0]]);
 /// // The upper end of a wall moves by u_x − 5 θ.
-/// let turned = base.nodes().next().unwrap().horizontal.value(&[0.0, 0.0, 1.0]);
-/// assert!((turned + 5.0).abs() < 1e-14);
+/// let displacement = base.nodes().next().unwrap().horizontal.value(&[0.0, 0.0, 1.0]);
+/// assert!((displacement + 5.0).abs() < 1e-14);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct WithWalls {
@@ -29,35 +29,37 @@ pub struct WithWalls {
 short_debug! { WithWalls; self; dofs: self.structure.dofs(), nodes: self.nodes.len() }
 
 impl WithWalls {
-    /// Puts the base of `structure` at a `depth`, m.
+    /// Embeds `structure` with its base at a `depth` (m).
     ///
     /// # Errors
-    /// [`Error::Input`] for a depth that is not positive; [`Error::Scene`] for a base that is in plan, has several
-    /// foundations, walls already, or can bend.
+    /// [`Error::Input`] for a depth that is not positive; [`Error::Scene`] for a base in space, with several
+    /// foundations, with walls, or that is flexible.
     pub fn new(structure: impl Structure + 'static, depth: f64) -> Result<Self> {
         positive("depth of the base", depth)?;
-        let refused = Error::Scene {
+        let unsuitable_base = Error::Scene {
             quantity: "structure",
             needed: "one rigid base in the plane, on the surface",
         };
-        let Base::Lines(mut lines) = structure.base() else { return Err(refused) };
+        let Base::Lines(mut lines) = structure.base() else {
+            return Err(unsuitable_base);
+        };
         let Some(mut nodes) = lines.pop().filter(|line| lines.is_empty() && line.len() > 1) else {
-            return Err(refused);
+            return Err(unsuitable_base);
         };
         if !BaseNode::are_flat(&nodes) || nodes.iter().any(|node| node.z != 0.0) {
-            return Err(refused);
+            return Err(unsuitable_base);
         }
-        let first = nodes[0].clone();
-        let last = nodes[nodes.len() - 1].clone();
-        let rotation =
-            (1.0 / (last.x - first.x)) * (last.vertical.clone() - first.vertical.clone());
+        let left_end = nodes[0].clone();
+        let right_end = nodes[nodes.len() - 1].clone();
+        let rotation = (1.0 / (right_end.x - left_end.x))
+            * (right_end.vertical.clone() - left_end.vertical.clone());
         for node in &mut nodes {
             node.z = -depth;
         }
-        let left_top = first.horizontal - depth * rotation.clone();
-        let right_top = last.horizontal - depth * rotation;
-        nodes.insert(0, BaseNode { horizontal: left_top, ..first });
-        nodes.push(BaseNode { horizontal: right_top, ..last });
+        let left_top = left_end.horizontal - depth * rotation.clone();
+        let right_top = right_end.horizontal - depth * rotation;
+        nodes.insert(0, BaseNode { horizontal: left_top, ..left_end });
+        nodes.push(BaseNode { horizontal: right_top, ..right_end });
         Ok(Self { structure: Box::new(structure), nodes })
     }
 }

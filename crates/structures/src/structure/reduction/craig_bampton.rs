@@ -3,8 +3,8 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | b, i | kept (boundary) and interior degrees of freedom |
-//! | Ψ | static responses of the interior to unit kept degrees of freedom, −K_ii⁻¹ K_ib |
-//! | Φ | modes of the interior with the kept degrees of freedom held, Φᵀ M_ii Φ = 1 |
+//! | Ψ | static responses of the interior to unit displacements of kept degrees of freedom, −K_ii⁻¹ K_ib |
+//! | Φ | modes of the interior with the kept degrees of freedom fixed, Φᵀ M_ii Φ = 1 |
 //! | T | u = T q, q = (u_b, modal coordinates) |
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,17 +15,16 @@ use crate::error::{
     Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
 };
 use crate::linalg::{Eigenpairs, SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{check_attached, numbers, restricted};
+use crate::structure::detached::{check_attached, numbers, submatrix};
 use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescription, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
-/// The modes belong to the other degrees of freedom with the kept ones held. Rigid motions, weight and slow loads
-/// at the kept degrees of freedom pass exactly. Motion faster than the highest mode
-/// ([`ReducedModel::frequencies`]) is cut off. A usual choice is modes up to twice the highest frequency of
-/// interest.
+/// The modes are those of the interior degrees of freedom with the kept degrees of freedom fixed. Rigid motions, weight and
+/// slow loads at the kept degrees of freedom are exact. Motion above the frequency of the highest mode
+/// ([`ReducedModel::frequencies`]) is filtered out. A usual choice is modes up to twice the highest frequency of interest.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -46,8 +45,10 @@ use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescr
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CraigBampton {
-    modes: usize,
-    kept: Vec<usize>,
+    /// Number of modes.
+    mode_count: usize,
+    /// Degrees of freedom to keep beside those of the contact nodes.
+    kept_dofs: Vec<usize>,
 }
 
 /// A structure after [`CraigBampton::reduce`].
@@ -57,21 +58,22 @@ pub struct CraigBampton {
 pub struct ReducedModel {
     basis: Arc<Basis>,
     base: Base,
-    /// Row-major, of the order of the reduced model.
+    /// Reduced matrices, row-major.
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
     /// Whether `damping` may feed energy in.
-    active: bool,
+    has_active_damping: bool,
     /// Circular frequencies of the modes, rad/s.
-    frequencies: Vec<f64>,
-    load: Mutex<FullLoad>,
+    circular_frequencies: Vec<f64>,
+    /// Full model, by which loads are reduced.
+    full_model: Mutex<FullModel>,
 }
 
-/// Full model, which computes its loads, and scratch for them.
-struct FullLoad {
+/// Full model, and scratch for its load.
+struct FullModel {
     structure: Box<dyn Structure>,
-    values: Vec<f64>,
+    load: Vec<f64>,
 }
 
 short_debug! {
@@ -81,77 +83,85 @@ short_debug! {
 impl CraigBampton {
     /// Reduction to contact nodes and the lowest `modes` modes.
     pub fn new(modes: usize) -> Self {
-        Self { modes, kept: Vec::new() }
+        Self { mode_count: modes, kept_dofs: Vec::new() }
     }
 
     /// Also keeps these `dofs` unreduced.
     ///
-    /// Springs on the reduced model need them, for example ([`WithSprings`](crate::structure::WithSprings)).
+    /// For example, springs on the reduced model ([`WithSprings`](crate::structure::WithSprings)) need them.
     #[must_use]
     pub fn keep(mut self, dofs: &[usize]) -> Self {
-        self.kept.extend_from_slice(dofs);
+        self.kept_dofs.extend_from_slice(dofs);
         self
     }
 
     /// Reduces a linear structure.
     ///
-    /// Damping is reduced as it is; [`ReducedModel::with_damping_ratio`] replaces it. The reduction takes one
-    /// sparse factorisation and about two solves for each kept degree of freedom and mode. For each of them it
-    /// stores a number per degree of freedom of the full model.
+    /// The damping matrix is reduced as the others; [`ReducedModel::with_damping_ratio`] replaces it. The reduction takes
+    /// one sparse factorisation, and about two solves for each kept degree of freedom and mode. For each of these it
+    /// stores one number for every degree of freedom of the full model.
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure, [`Error::Unsymmetric`] for matrices that are not symmetric,
-    /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness joins to a kept degree of freedom, [`Error::Index`] for a
-    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than degrees of freedom are
-    /// left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or the stiffness of the
-    /// rest is not positive.
+    /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness connects to a kept degree of freedom, [`Error::Index`] for a
+    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than interior degrees of freedom,
+    /// [`Error::Singular`] when the interior is a mechanism with the kept degrees of freedom fixed, or its stiffness is
+    /// not positive definite.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
-        let needed = "must be linear: put springs on the reduced model";
+        let needed = "must be linear: add springs to the reduced model";
         require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
         let mut triplets = Triplets::new(n);
-        let mass = mirrored_matrix("mass matrix", &mut triplets, &|m| structure.mass(m))?;
+        let mass = symmetric_matrix("mass matrix", &mut triplets, &|m| structure.mass(m))?;
         let stiffness =
-            mirrored_matrix("stiffness matrix", &mut triplets, &|m| structure.stiffness(m))?;
-        let damping = mirrored_matrix("damping matrix", &mut triplets, &|m| structure.damping(m))?;
+            symmetric_matrix("stiffness matrix", &mut triplets, &|m| structure.stiffness(m))?;
+        let damping = symmetric_matrix("damping matrix", &mut triplets, &|m| structure.damping(m))?;
         drop(triplets);
 
         let mut base = structure.base();
-        let parts = DofPartition::new(n, &base, &self.kept)?;
-        check_attached(&structure, &stiffness, &mass, &parts.kept)?;
-        let interior = parts.interior.len();
-        same_length("list of fixed-interface modes", self.modes, self.modes.min(interior))?;
-        let (basis_rows, squares) = parts.basis(&stiffness, &mass, self.modes)?;
-        let basis = Basis::new(parts.kept.clone(), basis_rows, n);
+        let partition = DofPartition::new(n, &base, &self.kept_dofs)?;
+        check_attached(&structure, &stiffness, &mass, &partition.kept)?;
+        let interior_count = partition.interior.len();
+        same_length(
+            "list of fixed-interface modes",
+            self.mode_count,
+            self.mode_count.min(interior_count),
+        )?;
+        let (basis_rows, squared_frequencies) =
+            partition.basis(&stiffness, &mass, self.mode_count)?;
+        let basis = Basis::new(partition.kept.clone(), basis_rows, n);
         let order = basis.order();
-        let kept = parts.kept.len();
+        let kept_count = partition.kept.len();
         for node in base.nodes_mut() {
-            node.map_rows(|row| parts.renumbered(row));
+            node.map_rows(|row| partition.renumbered(row));
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
             damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
             base,
-            frequencies: squares.iter().map(|square| square.sqrt()).collect(),
-            active: structure.has_active_damping(),
-            load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
+            circular_frequencies: squared_frequencies.iter().map(|square| square.sqrt()).collect(),
+            has_active_damping: structure.has_active_damping(),
+            full_model: Mutex::new(FullModel {
+                load: vec![0.0; n],
+                structure: Box::new(structure),
+            }),
             basis: Arc::new(basis),
         };
         // Modes and static responses are K-orthogonal: entries between them are rounding.
-        for (k, square) in squares.iter().enumerate() {
+        for (mode, squared_frequency) in squared_frequencies.iter().enumerate() {
             for j in 0..order {
-                model.stiffness[(kept + k) * order + j] = 0.0;
-                model.stiffness[j * order + kept + k] = 0.0;
+                model.stiffness[(kept_count + mode) * order + j] = 0.0;
+                model.stiffness[j * order + kept_count + mode] = 0.0;
             }
-            model.stiffness[(kept + k) * (order + 1)] = *square;
+            model.stiffness[(kept_count + mode) * (order + 1)] = *squared_frequency;
         }
         Ok(model)
     }
 }
 
-/// Assembled matrix; an error unless it is symmetric.
-fn mirrored_matrix(
+/// Assembles a matrix; returns an error unless it is symmetric.
+fn symmetric_matrix(
     name: &'static str,
     triplets: &mut Triplets,
     fill: &dyn Fn(&mut Triplets) -> Result<()>,
@@ -161,141 +171,153 @@ fn mirrored_matrix(
     Ok(matrix)
 }
 
+/// Bytes for each entry of T: the basis, its copy while it grows, and scratch of the eigenvalue solver.
+const BASIS_BYTES_PER_ENTRY: f64 = 24.0;
+
 /// Kept and interior degrees of freedom.
 struct DofPartition {
     kept: Vec<usize>,
     interior: Vec<usize>,
-    /// Place of each degree of freedom in its list.
-    place: Vec<usize>,
+    /// Index of each degree of freedom in its list.
+    list_index: Vec<usize>,
     is_kept: Vec<bool>,
 }
 
 impl DofPartition {
-    fn new(n: usize, base: &Base, more: &[usize]) -> Result<Self> {
-        let of_base = base.nodes().flat_map(BaseNode::rows).flatten();
+    /// Partition of `n` degrees of freedom, which keeps those of the base and `further_dofs`.
+    fn new(n: usize, base: &Base, further_dofs: &[usize]) -> Result<Self> {
+        let base_terms = base.nodes().flat_map(BaseNode::rows).flatten();
         let mut is_kept = vec![false; n];
-        for index in of_base.map(|&(index, _)| index).chain(more.iter().copied()) {
-            is_kept[in_bounds("degree of freedom to be kept", index, n)?] = true;
+        for dof in base_terms.map(|&(dof, _)| dof).chain(further_dofs.iter().copied()) {
+            is_kept[in_bounds("degree of freedom to be kept", dof, n)?] = true;
         }
         let mut kept = Vec::new();
         let mut interior = Vec::new();
-        let mut place = Vec::with_capacity(n);
-        for (dof, is_kept) in is_kept.iter().enumerate() {
-            let list = if *is_kept { &mut kept } else { &mut interior };
-            place.push(list.len());
-            list.push(dof);
+        let mut list_index = Vec::with_capacity(n);
+        for dof in 0..n {
+            let dof_list = if is_kept[dof] { &mut kept } else { &mut interior };
+            list_index.push(dof_list.len());
+            dof_list.push(dof);
         }
         at_least("list of kept degrees of freedom", kept.len(), 1)?;
-        Ok(Self { kept, interior, place, is_kept })
+        Ok(Self { kept, interior, list_index, is_kept })
     }
 
+    /// A sum of kept degrees of freedom in the numbering of the reduced model.
     fn renumbered(&self, row: &DofCombination) -> DofCombination {
-        row.map_dofs(|index| self.place[index])
+        row.map_dofs(|dof| self.list_index[dof])
     }
 
-    /// A_ii.
-    fn inner(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
-        restricted(name, matrix, self.interior.len(), |dof| {
-            (!self.is_kept[dof]).then_some(self.place[dof])
+    /// Block A_ii of a matrix.
+    fn interior_block(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
+        submatrix(name, matrix, self.interior.len(), |dof| {
+            (!self.is_kept[dof]).then_some(self.list_index[dof])
         })
     }
 
-    /// The rows of Tᵀ, and the squared circular frequencies of the modes.
+    /// Rows of Tᵀ, and squared circular frequencies of the modes (rad²/s²).
     fn basis(
         &self,
         stiffness: &SparseMatrix,
         mass: &SparseMatrix,
-        modes: usize,
+        mode_count: usize,
     ) -> Result<(Vec<f64>, Vec<f64>)> {
-        const MATRIX_NAME: &str = "stiffness matrix with the kept degrees of freedom held";
-        let n = self.place.len();
-        let ni = self.interior.len();
-        let nb = self.kept.len();
-        let kept = (nb + modes.min(ni)) as f64;
+        const MATRIX_NAME: &str = "stiffness matrix with the kept degrees of freedom fixed";
+        let n = self.list_index.len();
+        let interior_count = self.interior.len();
+        let kept_count = self.kept.len();
+        let row_count = (kept_count + mode_count.min(interior_count)) as f64;
         memory::check(
             "degrees of freedom and modes of the reduction",
-            kept,
-            24.0 * kept * n as f64,
+            row_count,
+            BASIS_BYTES_PER_ENTRY * row_count * n as f64,
         )?;
-        let mut rows = vec![0.0; nb * n];
-        for (k, &dof) in self.kept.iter().enumerate() {
-            rows[k * n + dof] = 1.0;
+        let mut rows = vec![0.0; kept_count * n];
+        for (kept_index, &dof) in self.kept.iter().enumerate() {
+            rows[kept_index * n + dof] = 1.0;
         }
-        if ni == 0 {
+        if interior_count == 0 {
             return Ok((rows, Vec::new()));
         }
-        let interior_stiffness = self.inner(MATRIX_NAME, stiffness)?;
+        let interior_stiffness = self.interior_block(MATRIX_NAME, stiffness)?;
         let factor = SparseFactor::positive_definite(MATRIX_NAME, &interior_stiffness)?;
-        let mut static_responses = vec![0.0; nb * ni];
+        let mut static_responses = vec![0.0; kept_count * interior_count];
         for (row, column, value) in stiffness.entries() {
             if !self.is_kept[row] && self.is_kept[column] {
-                static_responses[self.place[column] * ni + self.place[row]] -= value;
+                static_responses
+                    [self.list_index[column] * interior_count + self.list_index[row]] -= value;
             }
         }
         factor.solve_many(&mut static_responses);
         let interior_mass =
-            self.inner("mass matrix with the kept degrees of freedom held", mass)?;
-        let Eigenpairs { values: squares, vectors: shapes } =
-            lowest_modes(&factor, &interior_mass, modes, None)
-                .ok_or(Error::Singular { matrix: MATRIX_NAME, order: ni })?;
-        rows.resize((nb + squares.len()) * n, 0.0);
-        let inner = static_responses.chunks_exact(ni).chain(shapes.chunks_exact(ni));
-        for (row, values) in rows.chunks_exact_mut(n).zip(inner) {
+            self.interior_block("mass matrix with the kept degrees of freedom fixed", mass)?;
+        let Eigenpairs { values: squared_frequencies, vectors: mode_shapes } =
+            lowest_modes(&factor, &interior_mass, mode_count, None)
+                .ok_or(Error::Singular { matrix: MATRIX_NAME, order: interior_count })?;
+        rows.resize((kept_count + squared_frequencies.len()) * n, 0.0);
+        let interior_rows = static_responses
+            .chunks_exact(interior_count)
+            .chain(mode_shapes.chunks_exact(interior_count));
+        for (row, values) in rows.chunks_exact_mut(n).zip(interior_rows) {
             for (&dof, value) in self.interior.iter().zip(values) {
                 row[dof] = *value;
             }
         }
         if rows.iter().all(|value| value.is_finite()) {
-            Ok((rows, squares))
+            Ok((rows, squared_frequencies))
         } else {
-            Err(Error::Singular { matrix: MATRIX_NAME, order: ni })
+            Err(Error::Singular { matrix: MATRIX_NAME, order: interior_count })
         }
     }
 }
 
 impl ReducedModel {
-    /// Frequencies of the modes with the kept degrees of freedom held, Hz, ascending.
+    /// Frequencies of the modes with the kept degrees of freedom fixed, Hz, ascending.
     ///
-    /// There are fewer modes than given to [`CraigBampton::new`] only if fewer degrees of freedom have mass.
+    /// There are fewer modes than requested by [`CraigBampton::new`] only if fewer degrees of freedom have mass.
     pub fn frequencies(&self) -> Vec<f64> {
-        self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
+        self.circular_frequencies
+            .iter()
+            .map(|circular| circular / std::f64::consts::TAU)
+            .collect()
     }
 
     /// Recovery of the full model's degrees of freedom.
     ///
-    /// It can be cloned, and kept when a simulation owns the model.
+    /// A clone remains usable after the model moves into a simulation.
     pub fn recovery(&self) -> Recovery {
         Recovery::new(Arc::clone(&self.basis))
     }
 
     /// Replaces the damping by this damping ratio in every mode.
     ///
-    /// The kept degrees of freedom are held in the modes. Motions of the kept degrees of freedom alone are not
-    /// damped.
+    /// The kept degrees of freedom are fixed in the modes. Their static responses are not damped.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is from 0 to below 1.
     pub fn with_damping_ratio(mut self, ratio: f64) -> Result<Self> {
         damping_ratio("damping ratio", ratio)?;
         self.damping.fill(0.0);
-        self.active = false;
+        self.has_active_damping = false;
         let order = self.basis.order();
-        let kept = order - self.frequencies.len();
-        for (k, frequency) in self.frequencies.iter().enumerate() {
-            self.damping[(kept + k) * (order + 1)] = 2.0 * ratio * frequency;
+        let kept_count = order - self.circular_frequencies.len();
+        for (mode, circular_frequency) in self.circular_frequencies.iter().enumerate() {
+            self.damping[(kept_count + mode) * (order + 1)] = 2.0 * ratio * circular_frequency;
         }
         Ok(self)
     }
 }
 
-/// The reduced damping matrix with exact zeros for motions that nothing damps.
+/// The reduced damping matrix with exact zeros for undamped motions, which are usually rigid.
 ///
-/// Such motions are usually rigid. Cancellation leaves entries of either sign, which may be large beside the
-/// damping of modes, since modes have another unit.
-fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -> Vec<f64> {
+/// For these motions, cancellation leaves entries of either sign. They may be larger than the damping of modes, which has
+/// another unit.
+fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full_damping: &SparseMatrix) -> Vec<f64> {
     let order = basis.order();
     for (i, motion) in basis.rows().enumerate() {
-        let terms = full.entries().map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
+        let terms = full_damping
+            .entries()
+            .map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
         if reduced[i * (order + 1)] <= MASSLESS_FRACTION * terms.sum::<f64>() {
             for j in 0..order {
                 reduced[i * order + j] = 0.0;
@@ -306,11 +328,11 @@ fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -
     reduced
 }
 
-/// Adds the nonzero entries of a dense row-major matrix.
-fn add(values: &[f64], order: usize, matrix: &mut Triplets) {
-    for (place, &value) in values.iter().enumerate() {
+/// Adds the nonzero entries of a dense row-major matrix to `matrix`.
+fn add_dense(entries: &[f64], order: usize, matrix: &mut Triplets) {
+    for (index, &value) in entries.iter().enumerate() {
         if value != 0.0 {
-            matrix.add(place / order, place % order, value);
+            matrix.add(index / order, index % order, value);
         }
     }
 }
@@ -325,70 +347,71 @@ impl Structure for ReducedModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.mass, self.dofs(), matrix);
+        add_dense(&self.mass, self.dofs(), matrix);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.stiffness, self.dofs(), matrix);
+        add_dense(&self.stiffness, self.dofs(), matrix);
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.damping, self.dofs(), matrix);
+        add_dense(&self.damping, self.dofs(), matrix);
         Ok(())
     }
 
     fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
         let mut triplets = Triplets::new(full.structure.dofs());
         full.structure.geometric_stiffness(&mut triplets)?;
         if !triplets.entries().is_empty() {
-            let geometric = SparseMatrix::new("geometric stiffness matrix", &triplets)?;
-            add(&self.basis.congruence(&geometric), self.dofs(), matrix);
+            let geometric_stiffness = SparseMatrix::new("geometric stiffness matrix", &triplets)?;
+            add_dense(&self.basis.congruence(&geometric_stiffness), self.dofs(), matrix);
         }
         Ok(())
     }
 
     fn has_active_damping(&self) -> bool {
-        self.active
+        self.has_active_damping
     }
 
     fn has_active_stiffness(&self) -> bool {
-        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
         full.structure.has_active_stiffness()
     }
 
     fn description(&self) -> StructureDescription {
-        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
         full.structure.description()
     }
 
-    /// Kept degrees of freedom as the full model describes them, and modes by number.
+    /// Text by the full model for kept degrees of freedom, and the index of the first mode.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept = self.basis.kept();
-        let full_dofs: Vec<usize> = dofs.iter().filter_map(|dof| kept.get(*dof).copied()).collect();
+        let full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept_dofs = self.basis.kept();
+        let full_dofs: Vec<usize> =
+            dofs.iter().filter_map(|dof| kept_dofs.get(*dof).copied()).collect();
         let mut texts = Vec::new();
         if !full_dofs.is_empty() {
-            let text = full.structure.describe(&full_dofs);
-            texts.push(text.unwrap_or_else(|| numbers(&full_dofs)));
+            let description = full.structure.describe(&full_dofs);
+            texts.push(description.unwrap_or_else(|| numbers(&full_dofs)));
         }
-        if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept.len()) {
-            texts.push(format!("mode {} of the reduction", dof - kept.len()));
+        if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept_dofs.len()) {
+            texts.push(format!("mode {} of the reduction", dof - kept_dofs.len()));
         }
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// The load of the full model on the reduced degrees of freedom.
+    /// Adds the load of the full model on the reduced degrees of freedom.
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        let mut full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
-        let FullLoad { structure, values } = &mut *full;
-        values.fill(0.0);
-        structure.load(time, values)?;
-        if values.iter().any(|force| *force != 0.0) {
-            for (sum, row) in load.iter_mut().zip(self.basis.rows()) {
-                *sum += dot(row, values);
+        let mut full = self.full_model.lock().unwrap_or_else(PoisonError::into_inner);
+        let FullModel { structure, load: full_load } = &mut *full;
+        full_load.fill(0.0);
+        structure.load(time, full_load)?;
+        if full_load.iter().any(|force| *force != 0.0) {
+            for (reduced_force, row) in load.iter_mut().zip(self.basis.rows()) {
+                *reduced_force += dot(row, full_load);
             }
         }
         Ok(())

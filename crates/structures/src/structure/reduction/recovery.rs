@@ -7,7 +7,7 @@ use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
-/// Columns of A T computed at a time.
+/// Number of columns of A T that are computed together; a block of this size fits into the cache.
 const COLUMNS_PER_BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
@@ -17,12 +17,13 @@ pub(super) struct Basis {
     kept: Vec<usize>,
     /// Tᵀ, row-major: for each reduced degree of freedom a row over the full model's.
     transposed: Vec<f64>,
-    full: usize,
+    /// Number of degrees of freedom of the full model.
+    full_dofs: usize,
 }
 
 impl Basis {
-    pub(super) fn new(kept: Vec<usize>, transposed: Vec<f64>, full: usize) -> Self {
-        Self { kept, transposed, full }
+    pub(super) fn new(kept: Vec<usize>, transposed: Vec<f64>, full_dofs: usize) -> Self {
+        Self { kept, transposed, full_dofs }
     }
 
     /// Degrees of freedom of the full model that the reduced model keeps.
@@ -32,11 +33,12 @@ impl Basis {
 
     /// Number of reduced degrees of freedom.
     pub(super) fn order(&self) -> usize {
-        self.transposed.len() / self.full.max(1)
+        self.transposed.len() / self.full_dofs.max(1)
     }
 
+    /// Rows of Tᵀ, one for each reduced degree of freedom.
     pub(super) fn rows(&self) -> impl Iterator<Item = &[f64]> {
-        self.transposed.chunks_exact(self.full.max(1))
+        self.transposed.chunks_exact(self.full_dofs.max(1))
     }
 
     /// Tᵀ A T for a symmetric matrix, row-major, symmetric to the last bit.
@@ -46,20 +48,22 @@ impl Basis {
         if matrix.is_empty() {
             return result;
         }
-        for (block, rows) in self.transposed.chunks(COLUMNS_PER_BLOCK * self.full).enumerate() {
+        for (block_index, rows) in
+            self.transposed.chunks(COLUMNS_PER_BLOCK * self.full_dofs).enumerate()
+        {
             let mut products = vec![0.0; rows.len()];
             for (row, product) in
-                rows.chunks_exact(self.full).zip(products.chunks_exact_mut(self.full))
+                rows.chunks_exact(self.full_dofs).zip(products.chunks_exact_mut(self.full_dofs))
             {
                 matrix.multiply_add(1.0, row, product);
             }
-            let columns = rows.len() / self.full;
-            // Rows after the block are the columns of later blocks.
-            let upto = (COLUMNS_PER_BLOCK * block + columns) * self.full;
-            let entries = row_products(&self.transposed[..upto], &products, self.full);
-            for (place, value) in entries.iter().enumerate() {
-                let i = place / columns;
-                let j = COLUMNS_PER_BLOCK * block + place % columns;
+            let column_count = rows.len() / self.full_dofs;
+            // Rows after this block follow by symmetry from the columns of later blocks.
+            let block_end = (COLUMNS_PER_BLOCK * block_index + column_count) * self.full_dofs;
+            let entries = row_products(&self.transposed[..block_end], &products, self.full_dofs);
+            for (index, value) in entries.iter().enumerate() {
+                let i = index / column_count;
+                let j = COLUMNS_PER_BLOCK * block_index + index % column_count;
                 if i <= j {
                     result[i * order + j] = *value;
                     result[j * order + i] = *value;
@@ -83,30 +87,28 @@ impl Recovery {
 
     /// Number of degrees of freedom of the full model.
     pub fn full_dofs(&self) -> usize {
-        self.basis.full
+        self.basis.full_dofs
     }
 
     /// The kept degrees of freedom of the full model.
     ///
-    /// They are the first ones of the reduced model, in this order.
+    /// They are the first degrees of freedom of the reduced model, in this order.
     pub fn kept(&self) -> &[usize] {
         &self.basis.kept
     }
 
-    /// Converts a weighted sum of the full model's degrees of freedom to the reduced model's.
-    ///
-    /// For a spring or a deformed shape.
+    /// Converts a weighted sum of the full model's degrees of freedom to the reduced model's, for a spring.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have,
     /// [`Error::Input`](crate::Error::Input) for a weight that is not finite.
     pub fn row(&self, row: impl Into<DofCombination>) -> Result<DofCombination> {
-        let full = row.into();
-        full.check("degree of freedom of the full model", self.basis.full)?;
-        if full.is_empty() {
-            return Ok(full);
+        let full_row = row.into();
+        full_row.check("degree of freedom of the full model", self.basis.full_dofs)?;
+        if full_row.is_empty() {
+            return Ok(full_row);
         }
-        Ok(self.basis.rows().map(|values| full.value(values)).enumerate().collect())
+        Ok(self.basis.rows().map(|basis_row| full_row.value(basis_row)).enumerate().collect())
     }
 
     /// Converts a probe of the full model to a probe of the reduced model.
@@ -127,8 +129,8 @@ impl Recovery {
     /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced degree of freedom.
     pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
         same_length("list of reduced degrees of freedom", reduced.len(), self.basis.order())?;
-        let mut full = vec![0.0; self.basis.full];
-        transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
-        Ok(full)
+        let mut full_values = vec![0.0; self.basis.full_dofs];
+        transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full_values);
+        Ok(full_values)
     }
 }
