@@ -2,40 +2,48 @@
 
 use crate::structure::{Base, BaseNode, Structure};
 
-/// Determinant of the second moments of nodes, relative to the square of one, up to which they lie on a line.
+/// Determinant of the nodes' second moments, relative to the square of the moment along x.
+///
+/// Up to this value the nodes count as collinear.
 const COLLINEAR_NODES_TOLERANCE: f64 = 1e-12;
 
-/// Rotations of the base about y and, in plan, about x: of the plane that fits its nodes best, the largest of all parts.
+/// Rotations of the base about the axes along y and x, rad, from its nodes' displacements.
+///
+/// A plane is fitted to the nodes of each foundation by least squares. The largest_rotations rotation of all foundations counts.
+/// The rotation about x is zero in the plane.
 pub(super) fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
     let base = structure.base();
-    let mut largest = [0.0_f64; 2];
-    for part in base.parts() {
-        let [slope, slope_across] = slopes(part, displacement);
+    let mut largest_rotations = [0.0_f64; 2];
+    for nodes in base.parts() {
+        let [slope_x, slope_y] = fitted_slopes(nodes, displacement);
         let rotations = match base {
-            Base::Faces(_) => [-slope, slope_across],
-            Base::Lines(_) => [slope, 0.0],
+            Base::Faces(_) => [-slope_x, slope_y],
+            Base::Lines(_) => [slope_x, 0.0],
         };
-        for (sum, value) in largest.iter_mut().zip(rotations) {
-            if value.abs() > sum.abs() {
-                *sum = value;
+        for (largest, rotation) in largest_rotations.iter_mut().zip(rotations) {
+            if rotation.abs() > largest.abs() {
+                *largest = rotation;
             }
         }
     }
-    largest
+    largest_rotations
 }
 
-/// Slopes along x and y of the plane that fits the vertical displacements of nodes best.
-fn slopes(nodes: &[BaseNode], displacement: &[f64]) -> [f64; 2] {
-    let count = nodes.len() as f64;
+/// Slopes along x and y of the vertical displacements of nodes, by least squares.
+///
+/// Collinear nodes have no slope along y.
+fn fitted_slopes(nodes: &[BaseNode], displacement: &[f64]) -> [f64; 2] {
+    let node_count = nodes.len() as f64;
     let mut points = Vec::with_capacity(nodes.len());
     let mut mean = [0.0; 3];
     for node in nodes {
         let point = [node.x, node.y, node.vertical.value(displacement)];
         for (sum, value) in mean.iter_mut().zip(point) {
-            *sum += value / count;
+            *sum += value / node_count;
         }
         points.push(point);
     }
+    // Sums of the products of coordinates x, y and vertical displacements v, about their means.
     let mut xx = 0.0;
     let mut xy = 0.0;
     let mut yy = 0.0;

@@ -8,13 +8,13 @@ const MAX_STEP_HALVINGS: usize = 10;
 
 /// The longest step with which a scene runs without a failed step.
 ///
-/// It tries `time_step` (s) and up to ten halvings of it, and runs the simulation that `make` builds for
-/// `duration` (s). A failed step is [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`]. `None`
-/// if the tenth halving fails too.
+/// The function tries `time_step` (s) and up to ten halvings of it. It runs the simulation that `scene` builds with
+/// each step for `duration` (s). A failed step is [`StepError::Contact`], [`StepError::Cone`] or
+/// [`StepError::Newton`]. The result is `None` if the tenth halving fails too.
 ///
 /// A simulation cannot change its step, since the soil's convolution weights and its history belong to one step.
-/// This function therefore runs whole simulations, each with twice the steps. Use the time of the failed step as
-/// `duration`.
+/// This function therefore runs whole simulations, each with twice as many steps as the one before. Use the time of
+/// the failed step as `duration`.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Grading, Strip};
@@ -26,7 +26,7 @@ const MAX_STEP_HALVINGS: usize = 10;
 ///
 /// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
 /// // in which waves cross five elements.
-/// let make = |step: f64| {
+/// let scene = |step: f64| {
 ///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 ///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
 ///     Simulation::builder(step)
@@ -36,30 +36,30 @@ const MAX_STEP_HALVINGS: usize = 10;
 ///         .motion(el_centro_1940().scaled(3.0)?)
 ///         .build()
 /// };
-/// let step = largest_convergent_step(0.0125, 5.0, make)?;
+/// let step = largest_convergent_step(0.0125, 5.0, scene)?;
 /// assert!(step.is_some_and(|step| step <= 0.0125));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
 /// # Errors
-/// Errors of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is finite and
+/// Errors of `scene`, and errors of steps that fail for another reason; [`Error::Input`] unless `time_step` is finite and
 /// above zero and `duration` finite and not negative.
 pub fn largest_convergent_step(
     time_step: f64,
     duration: f64,
-    mut make: impl FnMut(f64) -> Result<Simulation>,
+    mut scene: impl FnMut(f64) -> Result<Simulation>,
 ) -> Result<Option<f64>> {
-    let mut step = positive("time step", time_step)?;
+    let mut trial_step = positive("time trial_step", time_step)?;
     not_negative("duration", duration)?;
     for _ in 0..=MAX_STEP_HALVINGS {
-        let mut simulation = make(step)?;
+        let mut simulation = scene(trial_step)?;
         match simulation.run(simulation.steps_for(duration), |_| {}) {
-            Ok(_) => return Ok(Some(step)),
+            Ok(_) => return Ok(Some(trial_step)),
             Err(Error::Step {
                 source:
                     StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
                 ..
-            }) => step *= 0.5,
+            }) => trial_step *= 0.5,
             Err(other) => return Err(other),
         }
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | φ, ω | mode on the fixed base, circular frequency |
 //! | p = K φ | load that deflects the structure by φ, in balance with the reactions of its base |
-//! | η = pᵀu/(φᵀK φ) | part of the mode in the displacement; zero for rigid motions of the base, since K r = 0 |
+//! | η = pᵀu/(φᵀK φ) | amplitude of the mode in the displacement; zero for rigid motions of the base, since K r = 0 |
 //!
 //! Under p the ground has no load. When the load is released, inertia replaces it and moves the base.
 
@@ -20,13 +20,13 @@ use crate::structure::{
     DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
-/// Stiffness of the springs that hold the base, relative to the largest stiffness.
+/// Stiffness of the springs that fix the base, relative to the largest stiffness: their displacement is negligible.
 const BASE_SPRING_FACTOR: f64 = 1e6;
-/// Number of modes in which the mode with the most mass is sought.
+/// Number of lowest modes among which the mode with the largest participating mass is chosen.
 const MAX_SEARCHED_MODES: usize = 12;
-/// Largest part of the base's springs in the stiffness of a structural mode.
-const MAX_BASE_SPRING_FRACTION: f64 = 0.5;
-/// Smallest part of the mass that a mode must move.
+/// Smallest fraction of a mode's stiffness that is in the structure; other modes deform the base's springs.
+const MIN_STRUCTURAL_FRACTION: f64 = 0.5;
+/// Smallest fraction of the mass that participates in the mode of a flexible structure.
 const MIN_MASS_FRACTION: f64 = 1e-3;
 /// Base shear in the deflected shape, relative to the weight: small, so that nothing yields.
 const BASE_SHEAR_RATIO: f64 = 1e-3;
@@ -36,71 +36,78 @@ const STEPS_PER_PERIOD: f64 = 40.0;
 const WINDOWS_PER_PERIOD: f64 = 6.0;
 /// Number of half periods that are evaluated.
 const EVALUATED_HALF_PERIODS: usize = 10;
-/// Largest number of periods T that the evaluated half periods may take.
+/// Longest evaluated vibration, in periods T.
 const MAX_PERIODS: f64 = 60.0;
-/// Amplitude, relative to the first, at which the evaluation ends.
+/// Amplitude, relative to the initial one, at which the evaluation ends.
 const FINAL_AMPLITUDE_RATIO: f64 = 1e-3;
-/// Misfit of one decaying mode, relative to the amplitude, that is accepted.
+/// Largest accepted misfit of one decaying mode, relative to the amplitude.
 const MISFIT_TOLERANCE: f64 = 0.1;
 
 /// Vibration mode of a structure with fixed contact nodes.
 pub(crate) struct FixedBaseMode {
     /// 2π/ω, s.
     pub(crate) period: f64,
-    /// φᵀC φ/(2ω φᵀM φ).
+    /// Damping ratio φᵀC φ/(2ω φᵀM φ).
     pub(crate) damping: f64,
-    /// η of displacements.
-    row: DofCombination,
-    /// Load p of the deflection.
-    load: DofCombination,
+    /// Amplitude η as a combination of displacements.
+    amplitude: DofCombination,
+    /// Forces p that deflect the structure by φ.
+    forces: DofCombination,
 }
 
 impl FixedBaseMode {
-    /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
+    /// The mode with the largest participating mass along an axis.
+    ///
+    /// `axis` is 0 for x, 1 for y. The result is `None` for a rigid structure.
     pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
-        let n = structure.dofs();
+        let dofs = structure.dofs();
         let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure)?;
-        let damping = SparseMatrix::assembled("damping matrix", &mut Triplets::new(n), &|m| {
+        let damping = SparseMatrix::assembled("damping matrix", &mut Triplets::new(dofs), &|m| {
             structure.damping(m)
         })?;
         let base = structure.base();
-        base.check(n)?;
+        base.check(dofs)?;
         let nodes = base.into_nodes();
         let springs = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
         let mut factor = springs.factor()?;
-        let Some(mut along) = springs.pulls().into_iter().nth([0, 2][axis]) else {
+        // Pulls of the springs by a unit translation: to the right, upwards, in plan away.
+        let Some(mut translation) = springs.pulls().into_iter().nth([0, 2][axis]) else {
             return Ok(None);
         };
-        factor.solve(&mut along);
-        let total = mass.form(&along, &along);
-        let found = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
-        let Some(Eigenpairs { values: squares, vectors: modes }) = found else {
+        factor.solve(&mut translation);
+        let total_mass = mass.form(&translation, &translation);
+        let eigenpairs = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
+        let Some(Eigenpairs { values: squared_frequencies, vectors: modes }) = eigenpairs else {
             return Ok(None);
         };
-        let mut momentum = vec![0.0; n];
-        mass.multiply_add(1.0, &along, &mut momentum);
-        let structural = squares.iter().zip(modes.chunks_exact(n)).filter(|(square, mode)| {
-            stiffness.form(mode, mode) > MAX_BASE_SPRING_FRACTION * **square
-        });
-        let participations = structural.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
-        let largest = participations.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        let Some((participation, square, mode)) = largest else { return Ok(None) };
-        let moves_mass = participation.powi(2) > MIN_MASS_FRACTION * total;
-        if !moves_mass {
+        let mut momentum = vec![0.0; dofs];
+        mass.multiply_add(1.0, &translation, &mut momentum);
+        let structural_modes =
+            squared_frequencies.iter().zip(modes.chunks_exact(dofs)).filter(|(square, mode)| {
+                stiffness.form(mode, mode) > MIN_STRUCTURAL_FRACTION * **square
+            });
+        let candidates =
+            structural_modes.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
+        let dominant = candidates.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let Some((participation, squared_frequency, mode)) = dominant else {
+            return Ok(None);
+        };
+        let has_participation = participation.powi(2) > MIN_MASS_FRACTION * total_mass;
+        if !has_participation {
             return Ok(None);
         }
-        let mut force = vec![0.0; n];
-        stiffness.multiply_add(1.0, mode, &mut force);
-        let energy = dot(mode, &force);
-        let circular = square.sqrt();
-        // Base shear ω² φᵀM r of a unit amplitude.
-        let amplitude =
-            BASE_SHEAR_RATIO * STANDARD_GRAVITY * total / (square * participation.abs());
+        let mut mode_forces = vec![0.0; dofs];
+        stiffness.multiply_add(1.0, mode, &mut mode_forces);
+        let modal_stiffness = dot(mode, &mode_forces);
+        let circular_frequency = squared_frequency.sqrt();
+        // A unit amplitude has the base shear ω² φᵀM r.
+        let amplitude = BASE_SHEAR_RATIO * STANDARD_GRAVITY * total_mass
+            / (squared_frequency * participation.abs());
         Ok(Some(Self {
-            period: TAU / circular,
-            damping: damping.form(mode, mode) / (2.0 * circular),
-            row: scaled(&force, 1.0 / (energy * amplitude)),
-            load: scaled(&force, amplitude),
+            period: TAU / circular_frequency,
+            damping: damping.form(mode, mode) / (2.0 * circular_frequency),
+            amplitude: scaled(&mode_forces, 1.0 / (modal_stiffness * amplitude)),
+            forces: scaled(&mode_forces, amplitude),
         }))
     }
 }
@@ -110,23 +117,32 @@ fn scaled(forces: &[f64], factor: f64) -> DofCombination {
     forces.iter().map(|force| factor * force).enumerate().collect()
 }
 
-/// Period (s) and damping ratio of the free vibration on the ground from the shape of `mode`.
+/// A decaying vibration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DecayingVibration {
+    /// Period of the undamped vibration, 2π/|s| of its pole s, s.
+    pub(crate) period: f64,
+    /// Damping ratio.
+    pub(crate) damping: f64,
+}
+
+/// Free vibration of a structure on its ground, after its release from the shape of `mode`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, not negative")]
 pub(crate) fn free_vibration(
     mut builder: SimulationBuilder,
     mode: &FixedBaseMode,
-) -> Result<[f64; 2]> {
-    let step = builder.time_step.min(mode.period / STEPS_PER_PERIOD);
-    builder.time_step = step;
-    builder.loads = vec![Load::released(mode.load.clone(), 1.0)];
-    builder.probes = vec![Probe::displacement("mode", mode.row.clone())];
+) -> Result<DecayingVibration> {
+    let time_step = builder.time_step.min(mode.period / STEPS_PER_PERIOD);
+    builder.time_step = time_step;
+    builder.loads = vec![Load::released(mode.forces.clone(), 1.0)];
+    builder.probes = vec![Probe::displacement("mode", mode.amplitude.clone())];
     builder.steps = 0;
     builder.displacement.clear();
     builder.velocity.clear();
     if builder.gravity == 0.0 {
         builder.gravity = STANDARD_GRAVITY;
     }
-    let max_steps = (MAX_PERIODS * mode.period / step) as usize;
+    let max_steps = (MAX_PERIODS * mode.period / time_step) as usize;
     let builder = builder
         .gravity_stage(GravityStage::Frictionless)
         .motion(AtRest)
@@ -135,61 +151,70 @@ pub(crate) fn free_vibration(
         .without_energy_balance();
     let mut simulation = builder.build()?;
     // Two moving averages keep the pole and remove the vibration of a light base on its springs.
-    let window = 2 * (mode.period / (2.0 * WINDOWS_PER_PERIOD * step)).round().max(1.0) as usize;
+    let window_steps =
+        2 * (mode.period / (2.0 * WINDOWS_PER_PERIOD * time_step)).round().max(1.0) as usize;
     // Probes are relative to the static state, in which the load acts.
-    let mut raw = vec![1.0];
+    let mut amplitudes = vec![1.0];
     let mut averaged_once = Vec::new();
-    let mut values = Vec::new();
-    // Steps of the changes of sign, and the largest amplitude since the last one.
-    let mut changes = Vec::new();
-    let mut amplitude = 0.0_f64;
-    while raw.len() <= max_steps && changes.len() < EVALUATED_HALF_PERIODS {
-        raw.push(1.0 + simulation.step()?.probes[0]);
-        averaged_once.extend(mean_of_last(&raw, window));
-        values.extend(mean_of_last(&averaged_once, window));
-        let [.., last, now] = values[..] else { continue };
-        amplitude = amplitude.max(now.abs());
-        if last.signum() != now.signum() {
-            changes.push(values.len() - 1);
-            if amplitude < FINAL_AMPLITUDE_RATIO {
+    let mut averaged_twice = Vec::new();
+    let mut sign_changes = Vec::new();
+    // Since the last change of sign.
+    let mut max_amplitude = 0.0_f64;
+    while amplitudes.len() <= max_steps && sign_changes.len() < EVALUATED_HALF_PERIODS {
+        amplitudes.push(1.0 + simulation.step()?.probes[0]);
+        averaged_once.extend(mean_of_last(&amplitudes, window_steps));
+        averaged_twice.extend(mean_of_last(&averaged_once, window_steps));
+        let [.., previous, current] = averaged_twice[..] else { continue };
+        max_amplitude = max_amplitude.max(current.abs());
+        if previous.signum() != current.signum() {
+            sign_changes.push(averaged_twice.len() - 1);
+            if max_amplitude < FINAL_AMPLITUDE_RATIO {
                 break;
             }
-            amplitude = 0.0;
+            max_amplitude = 0.0;
         }
     }
-    decay(&values, &changes, 2 * window, step).ok_or(Error::Scene {
+    fit_decay(&averaged_twice, &sign_changes, 2 * window_steps, time_step).ok_or(Error::Scene {
         quantity: "free vibration of the soil–structure system",
-        needed: "must be that of one decaying mode (does a load of the structure's own act, or is the soil too soft to \
-                 let it vibrate?)",
+        needed: "must be one decaying mode: check that the structure defines no load and that the soil is not so soft \
+                 that the vibration is overdamped",
     })
 }
 
-/// Mean of the last `window` values; `None` if there are fewer.
-fn mean_of_last(values: &[f64], window: usize) -> Option<f64> {
-    let last = values.len().checked_sub(window)?;
-    Some(values[last..].iter().sum::<f64>() / window as f64)
+/// Mean of the last `count` values; `None` if there are fewer.
+fn mean_of_last(values: &[f64], count: usize) -> Option<f64> {
+    let start = values.len().checked_sub(count)?;
+    Some(values[start..].iter().sum::<f64>() / count as f64)
 }
 
-/// Period and damping ratio of a decaying vibration, from values at every step and the places of sign changes.
+/// Fits one decaying mode to values at every step; `None` if they do not follow one.
 ///
-/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares from `settled` steps after the first
-/// change of sign on: until then base and soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), where
-/// the midpoint rule converts the pole s to σ: s = (2/Δt) tanh(σΔt/2).
-fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option<[f64; 2]> {
-    let first = changes.first()?;
-    let last = changes.last()?;
-    let halves = changes.len() - 1;
-    if halves == 0 {
+/// Values m steps apart follow η₊ = a η + b η₋, fitted by least squares. The fit begins `settling_steps` after the
+/// first sign change, when the base and the soil have taken up the load. `sign_changes` are the steps of the sign
+/// changes. The roots of z² = a z + b are exp(±σ m Δt), where the midpoint rule converts the pole s to σ:
+/// s = (2/Δt) tanh(σΔt/2).
+fn fit_decay(
+    values: &[f64],
+    sign_changes: &[usize],
+    settling_steps: usize,
+    time_step: f64,
+) -> Option<DecayingVibration> {
+    let first_change = sign_changes.first()?;
+    let last_change = sign_changes.last()?;
+    let half_periods = sign_changes.len() - 1;
+    if half_periods == 0 {
         return None;
     }
     // A sixth of a period.
-    let apart = ((last - first) / (3 * halves)).max(1);
-    let used = values.get(first + settled..)?;
+    let spacing = ((last_change - first_change) / (3 * half_periods)).max(1);
+    let fitted_values = values.get(first_change + settling_steps..)?;
     let triples = || {
-        used.iter()
-            .zip(&used[apart.min(used.len())..])
-            .zip(used.get(2 * apart..).unwrap_or_default())
+        fitted_values
+            .iter()
+            .zip(&fitted_values[spacing.min(fitted_values.len())..])
+            .zip(fitted_values.get(2 * spacing..).unwrap_or_default())
     };
+    // Sums of the products of η (n), η₋ (b) and η₊ (a).
     let mut sums = [0.0; 5];
     for ((before, now), after) in triples() {
         let products = [now * now, now * before, before * before, now * after, before * after];
@@ -206,23 +231,27 @@ fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option
     if misfit.sqrt() > MISFIT_TOLERANCE * (nn + bb).sqrt() || a * a + 4.0 * b >= 0.0 {
         return None;
     }
-    let decay = 0.5 * (-b).ln();
-    let angle = (-a * a - 4.0 * b).sqrt().atan2(a);
+    // σ m Δt.
+    let log_decay = 0.5 * (-b).ln();
+    let phase_angle = (-a * a - 4.0 * b).sqrt().atan2(a);
+    let half_step_factor = 0.5 / spacing as f64;
     // σΔt/2.
-    let per_step = 0.5 / apart as f64;
-    let half = Complex::new(decay * per_step, angle * per_step);
-    let growth = (half * 2.0).exp();
+    let half_exponent = Complex::new(log_decay * half_step_factor, phase_angle * half_step_factor);
+    let growth = (half_exponent * 2.0).exp();
     let one = Complex::new(1.0, 0.0);
-    let pole = (growth - one) / (growth + one) * (2.0 / step);
-    let circular = pole.abs();
-    Some([TAU / circular, -pole.re / circular])
+    let pole = (growth - one) / (growth + one) * (2.0 / time_step);
+    let circular_frequency = pole.abs();
+    Some(DecayingVibration {
+        period: TAU / circular_frequency,
+        damping: -pole.re / circular_frequency,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A vibration as the midpoint rule computes it from its pole, with and without a second one that decays.
+    /// The fit returns the pole of a midpoint solution, also beside a second mode that decays faster.
     #[test]
     fn a_decaying_vibration_is_read_back() {
         let step = 0.01;
@@ -245,21 +274,21 @@ mod tests {
                 }
                 values
             };
-            let lasting = march(circular, ratio);
-            let dying = march(3.3 * circular, 0.6);
-            for (part, tolerance) in [(0.0, 1e-9), (0.2, 3e-3)] {
+            let slow_mode = march(circular, ratio);
+            let fast_mode = march(3.3 * circular, 0.6);
+            for (fast_amplitude, tolerance) in [(0.0, 1e-9), (0.2, 3e-3)] {
                 let values: Vec<f64> =
-                    lasting.iter().zip(&dying).map(|(x, y)| x + part * y).collect();
-                let changes: Vec<usize> = (1..values.len())
+                    slow_mode.iter().zip(&fast_mode).map(|(x, y)| x + fast_amplitude * y).collect();
+                let sign_changes: Vec<usize> = (1..values.len())
                     .filter(|k| values[*k].signum() != values[k - 1].signum())
                     .take(EVALUATED_HALF_PERIODS)
                     .collect();
-                let end = changes[changes.len() - 1];
-                let [found, damping] = decay(&values[..=end], &changes, 0, step).unwrap();
-                assert!((found / period - 1.0).abs() < tolerance, "{found} for {period}");
-                assert!((damping - ratio).abs() < tolerance, "{damping} for {ratio}");
+                let end = sign_changes[sign_changes.len() - 1];
+                let fit = fit_decay(&values[..=end], &sign_changes, 0, step).unwrap();
+                assert!((fit.period / period - 1.0).abs() < tolerance, "{fit:?} for {period}");
+                assert!((fit.damping - ratio).abs() < tolerance, "{fit:?} for {ratio}");
             }
         }
-        assert_eq!(decay(&[1.0; 50], &[], 0, step), None);
+        assert_eq!(fit_decay(&[1.0; 50], &[], 0, step), None);
     }
 }

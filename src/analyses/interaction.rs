@@ -60,18 +60,18 @@ pub struct Interaction {
     pub modes: Vec<SystemMode>,
 }
 
-/// Runs a scene on its ground and on a fixed base.
+/// Runs a scene on its ground and on a fixed base, and compares both.
 ///
-/// It also computes T̃/T and the system's damping.
+/// The function also computes T̃/T and the system's damping.
 ///
 /// `scene` must make a builder of the same scene at each call; both runs last `duration` (s). The second run uses
 /// [`SimulationBuilder::on_fixed_base`], with the same model, loads and motion.
 ///
-/// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; for a nonlinear
-/// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode
-/// and released: they are the period and the decay of the free vibration that follows, by Midpoint steps of T/40
-/// or shorter. The soil is linear: give it the moduli of the design motion (ASCE 7, table 19.3-2). Springs in
-/// series confirm the period: T̃/T = √(1 + k/k_x + k h²/k_θ).
+/// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes. A nonlinear
+/// structure has its initial tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
+/// released. T̃ and β₀ are the period and the damping ratio of the free vibration that follows, computed with Midpoint
+/// steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the design motion (ASCE 7,
+/// table 19.3-2). Compare the period with that of springs in series: T̃/T = √(1 + k/k_x + k h²/k_θ).
 ///
 /// ```
 /// use basemat::analyses::interaction;
@@ -83,7 +83,7 @@ pub struct Interaction {
 /// use basemat::structure::{ShearBuilding, Storey};
 /// use basemat::{Simulation, Soil};
 ///
-/// let found = interaction(6.0, || {
+/// let comparison = interaction(6.0, || {
 ///     let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
 ///     let building =
 ///         ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
@@ -94,17 +94,17 @@ pub struct Interaction {
 ///         .interface(Coulomb::new(0.5)?)
 ///         .motion(el_centro_1940()))
 /// })?;
-/// println!("{found}");
-/// let mode = &found.modes[0];
+/// println!("{comparison}");
+/// let mode = &comparison.modes[0];
 /// assert!(mode.period_ratio() > 1.05 && mode.damping > mode.fixed_damping);
-/// assert!(found.ratio(Quantity::BaseShear) < 1.0);
+/// assert!(comparison.ratio(Quantity::BaseShear) < 1.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) unless the duration is finite and not negative;
 /// [`Error::Scene`](crate::Error::Scene) if the vibration after the deflection is not one decaying mode, for
-/// example under a load of the structure's own; as for [`SimulationBuilder::build`] and
+/// example because the structure itself defines a load; as for [`SimulationBuilder::build`] and
 /// [`Simulation::run`](crate::Simulation::run).
 pub fn interaction(
     duration: f64,
@@ -117,14 +117,16 @@ pub fn interaction(
     for axis in on_ground.axes() {
         let builder = scene()?;
         let Some(structure) = builder.structure.as_deref() else { continue };
-        let Some(fixed) = FixedBaseMode::dominant(structure, axis)? else { continue };
-        let [period, damping] = free_vibration(builder, &fixed)?;
+        let Some(fixed_base_mode) = FixedBaseMode::dominant(structure, axis)? else {
+            continue;
+        };
+        let vibration = free_vibration(builder, &fixed_base_mode)?;
         modes.push(SystemMode {
             axis: axis_name(on_ground.in_plan, axis),
-            fixed_period: fixed.period,
-            fixed_damping: fixed.damping,
-            period,
-            damping,
+            fixed_period: fixed_base_mode.period,
+            fixed_damping: fixed_base_mode.damping,
+            period: vibration.period,
+            damping: vibration.damping,
         });
     }
     Ok(Interaction { on_ground, on_fixed_base, modes })
@@ -136,22 +138,22 @@ fn run_for(duration: f64, builder: SimulationBuilder) -> Result<Run> {
     simulation.run(simulation.steps_for(duration), |_| {})
 }
 
-/// Ratio of responses above which the one on the fixed base is rounding, and the ratio says nothing.
+/// Largest printed ratio of responses; above it the response on the fixed base is only rounding.
 const MAX_PRINTED_RATIO: f64 = 1e6;
 
 /// Ratio of largest magnitudes; NaN if both are zero.
-fn ratio(on_ground: &Extremes, on_fixed_base: &Extremes) -> f64 {
+fn magnitude_ratio(on_ground: &Extremes, on_fixed_base: &Extremes) -> f64 {
     on_ground.magnitude() / on_fixed_base.magnitude()
 }
 
-/// Name, unit, largest magnitudes on the ground and on the fixed base, and their ratio.
+/// Row of the table: name, unit, largest magnitudes on the ground and on the fixed base, and their ratio.
 fn comparison_row(
     name: &str,
     unit: PrintedUnit<'_>,
     on_ground: &Extremes,
     on_fixed_base: &Extremes,
 ) -> Vec<String> {
-    let ratio = ratio(on_ground, on_fixed_base);
+    let ratio = magnitude_ratio(on_ground, on_fixed_base);
     vec![
         name.to_owned(),
         unit.symbol.to_owned(),
@@ -168,7 +170,7 @@ impl Interaction {
     pub fn ratio(&self, quantity: Quantity) -> f64 {
         let on_ground = self.on_ground.whole.extremes(quantity);
         let on_fixed_base = self.on_fixed_base.whole.extremes(quantity);
-        ratio(&on_ground, &on_fixed_base)
+        magnitude_ratio(&on_ground, &on_fixed_base)
     }
 
     /// Largest magnitude of a probe on the ground over its value on the fixed base.
@@ -176,10 +178,10 @@ impl Interaction {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe is called `name`.
     pub fn probe_ratio(&self, name: &str) -> Result<f64> {
-        Ok(ratio(&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?))
+        Ok(magnitude_ratio(&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?))
     }
 
-    /// Rows of forces and of probes: name, unit, largest value on the ground and on the fixed base, ratio.
+    /// Table of forces and probes on the ground and on the fixed base.
     fn table(&self) -> Table {
         let Self { on_ground, on_fixed_base, .. } = self;
         let in_plan = on_ground.in_plan;

@@ -1,14 +1,14 @@
 //! Analyses that build and run a scene several times, through the public interface of [`Simulation`](crate::Simulation).
 //!
-//! Each takes a closure that builds the scene, so that it works for every structure, ground and law.
+//! Each analysis takes a closure that builds the scene. It therefore works for every structure, ground and law.
 //!
 //! | function | result |
 //! |---|---|
-//! | [`refine()`], [`refine_each`] | errors of mesh and time step, beside the run time |
-//! | [`sensitivity()`] | number of digits of a peak that are certain |
+//! | [`refine()`], [`refine_each`] | errors of mesh and time step, and the run time |
+//! | [`sensitivity()`] | number of reliable digits of a peak |
 //! | [`largest_convergent_step`] | the longest time step whose contact problems all have a solution |
-//! | [`interaction()`] | change of forces, period and damping by the ground, against a fixed base |
-//! | [`push_over()`] | the static load that the foundation carries, and the path to it |
+//! | [`interaction()`] | forces, period and damping on the ground and on a fixed base |
+//! | [`push_over()`] | the largest static load of the foundation, and the path to it |
 
 mod base_rotations;
 mod convergent_step;

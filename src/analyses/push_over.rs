@@ -6,28 +6,30 @@ use crate::error::{Error, Result, StabilityError, at_least, finite, require};
 use crate::linalg::largest;
 use crate::structure::DofCombination;
 
-/// Width of the bracket of the largest force, relative to it, at which the search ends.
+/// Relative width of the bracket of the largest force at which the search ends.
 const LIMIT_TOLERANCE: f64 = 1e-4;
-/// Largest difference of a displacement from its target, relative to it.
+/// Largest accepted difference of a displacement from its target, relative to the target.
 const DISPLACEMENT_TOLERANCE: f64 = 1e-4;
-/// Shear that counts as rounding, relative to the largest traction.
-const ROUNDING_OF_SHEAR: f64 = 1e-9;
-/// Largest number of static states for one target.
-const MAX_STATES: usize = 60;
-/// Largest factor by which a force grows in a step towards a target that lies beyond all known states.
-const MAX_GROWTH: f64 = 4.0;
+/// Shear traction that counts as rounding, relative to the largest traction.
+const SHEAR_ROUNDING_TOLERANCE: f64 = 1e-9;
+/// Largest number of static states for one target displacement; the secant search needs about ten.
+const MAX_STATES_PER_TARGET: usize = 60;
+/// Largest growth of the force in one extrapolation, so that a soft start does not overshoot the limit.
+const MAX_FORCE_GROWTH: f64 = 4.0;
 
-/// Path of a [`push_over`]: forces or displacements.
+/// Loading path of a [`push_over`]: forces or displacements.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum PushControl {
-    /// By these forces, N (N/m in the plane), in this order.
+    /// The forces of the path, N (N/m in the plane), in this order.
     Forces(Vec<f64>),
-    /// By these displacements of the controlled degree of freedom, m or rad, in ascending order of size and one sense.
+    /// Displacements of the controlled degree of freedom, m or rad.
+    ///
+    /// Their magnitudes ascend, and all have the same sign.
     Displacements {
-        /// The displacements, beside that without force.
+        /// The displacements, relative to the state without force.
         targets: Vec<f64>,
-        /// Force of the first trial; its sign is the sense of all forces.
+        /// Force of the first trial, N (N/m in the plane); all forces have its sign.
         first_force: f64,
     },
 }
@@ -38,11 +40,11 @@ pub enum PushControl {
 pub struct PushPoint {
     /// Factor of the load pattern: the force that the scene was built with.
     pub force: f64,
-    /// Displacement of the controlled degree of freedom beside that without force, m or rad.
+    /// Displacement of the controlled degree of freedom, relative to the state without force, m or rad.
     pub displacement: f64,
-    /// Rotation of the base beside that without force, counter-clockwise, rad.
+    /// Rotation of the base, relative to the state without force, counter-clockwise, rad.
     ///
-    /// In plan about the axis along y by the right-hand rule. Of several foundations the largest.
+    /// In plan it is about the axis along y by the right-hand rule. With several foundations it is the largest rotation.
     pub base_rotation: f64,
     /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad; zero in the plane.
     pub rotation_across: f64,
@@ -62,27 +64,28 @@ pub struct PushPoint {
 pub struct PushOver {
     /// States along the path, the one without force first.
     pub points: Vec<PushPoint>,
-    /// Largest force with an equilibrium that was found, and smallest without one, if the push-over came to its limit.
+    /// Largest force with an equilibrium, and smallest force without one.
+    ///
+    /// `None` if the push-over did not reach its limit.
     pub limit: Option<[f64; 2]>,
-    /// Text of the error of the first force without equilibrium: what the loads do to the structure.
+    /// Error text of the first force without equilibrium; it names the cause of the failure.
     pub cause: Option<String>,
 }
 
 /// Pushes a structure on its ground with growing static forces.
 ///
-/// `scene` builds a simulation in which the load pattern has this force in the static state, for example by
-/// [`Load::constant`](crate::coupled::Load::constant) on one degree of freedom or, for a pattern over the height, on a sum of
-/// them. Weight acts first, as its [`GravityStage`](crate::coupled::GravityStage) says, then the load, in increments if
-/// elements slide or yield: each state follows from the load growing from zero. The structure is the one of the
-/// scene, with P–Δ and [nonlinear forces](crate::structure::NonlinearForce) if it has them; inner variables of these
-/// have their values before the load. `control` is a degree of freedom of the structure, or a sum of them, whose
-/// displacement is reported.
+/// `scene` builds a simulation in which the load pattern has the force of its argument in the static state. Use
+/// [`Load::constant`](crate::coupled::Load::constant) on one degree of freedom or, for a pattern over the height, on a
+/// weighted sum of degrees of freedom. The weight acts first, as the [`GravityStage`](crate::coupled::GravityStage)
+/// defines. The load follows, in increments if elements slide or yield. In each state the load has grown from zero.
+/// The structure has P–Δ and [nonlinear forces](crate::structure::NonlinearForce) as the scene defines. The internal
+/// variables of the nonlinear forces keep their values before the load. `control` is a degree of freedom of the
+/// structure, or a weighted sum of degrees of freedom, whose displacement is reported.
 ///
-/// Where there is no equilibrium, because the load overturns the structure or pushes it off, the curve ends, and the
-/// limit is found between two forces that differ by a ten-thousandth. Elements bear at their middles, so that a base of
-/// n elements overturns at (1 − 1/n) of W b/2. A curve that falls beyond its peak is not
-/// followed: it ends at the peak. On a half-plane in the plane displacements have no datum: control a rotation or a
-/// drift there.
+/// The curve ends at the first force without equilibrium, for example because the structure overturns or slides away.
+/// The limit then lies between two forces that differ by a ten-thousandth. Elements bear at their middles, so that a
+/// base of n elements overturns at (1 − 1/n) of W b/2. A curve with a falling branch ends at its peak. On a half-plane
+/// displacements have no datum: control a rotation or a drift there.
 ///
 /// ```
 /// use basemat::analyses::{PushControl, push_over};
@@ -104,7 +107,7 @@ pub struct PushOver {
 ///         .load(Load::constant(top.clone(), force))
 ///         .build()
 /// })?;
-/// // It cannot carry more than W b/2 over the height, here 157 kN/m.
+/// // The block overturns at W b/2 over its height, here 157 kN/m.
 /// let overturning = 48.0e3 * 9.81 * 2.0 / 6.0;
 /// let last = curve.points.last().unwrap();
 /// assert!(last.uplifted_fraction > 0.5 && last.force < overturning);
@@ -114,35 +117,35 @@ pub struct PushOver {
 /// # Errors
 /// [`Error::Size`] without forces or displacements; [`Error::Input`] for numbers that are not finite, displacements
 /// out of order, or a first force of zero; [`Error::Index`] for a degree of freedom that the structure does not have;
-/// any error of `scene` without force, and any of its errors that is not the lack of an equilibrium.
+/// any error of `scene` without force, and any other error of `scene` except that of a missing equilibrium.
 pub fn push_over(
     control: &DofCombination,
     path: &PushControl,
     scene: impl FnMut(f64) -> Result<Simulation>,
 ) -> Result<PushOver> {
-    check(path)?;
-    let mut push = Push::new(control, scene)?;
+    check_path(path)?;
+    let mut analysis = PushOverAnalysis::new(control, scene)?;
     match path {
         PushControl::Forces(forces) => {
             for &force in forces {
-                if !push.reach_force(force)? {
+                if !analysis.add_force(force)? {
                     break;
                 }
             }
         }
         PushControl::Displacements { targets, first_force } => {
             for &target in targets {
-                if !push.reach_displacement(target, *first_force)? {
+                if !analysis.add_displacement(target, *first_force)? {
                     break;
                 }
             }
         }
     }
-    Ok(push.curve)
+    Ok(analysis.curve)
 }
 
 /// Error for numbers that are not finite or out of order.
-fn check(path: &PushControl) -> Result<()> {
+fn check_path(path: &PushControl) -> Result<()> {
     match path {
         PushControl::Forces(forces) => {
             at_least("forces of the push-over", forces.len(), 1)?;
@@ -158,82 +161,104 @@ fn check(path: &PushControl) -> Result<()> {
                 quantity,
                 *first_force,
                 *first_force != 0.0,
-                "other than zero: its sign is the sense of all",
+                "other than zero: all forces have its sign",
             )?;
-            let mut before = 0.0;
+            let mut previous_magnitude = 0.0;
             for &target in targets {
                 finite("displacement of the push-over", target)?;
-                let grows = target.abs() > before && target * targets[0] > 0.0;
-                let needed = "larger than the one before, in the same sense";
-                require("displacement of the push-over", target, grows, needed)?;
-                before = target.abs();
+                let is_ascending = target.abs() > previous_magnitude && target * targets[0] > 0.0;
+                let needed = "larger in magnitude than the one before, with the same sign";
+                require("displacement of the push-over", target, is_ascending, needed)?;
+                previous_magnitude = target.abs();
             }
             Ok(())
         }
     }
 }
 
-/// A push-over under way.
-struct Push<'a, S> {
-    control: &'a DofCombination,
-    scene: S,
-    /// Displacement and rotations of the base without force.
-    datum: [f64; 3],
-    curve: PushOver,
-    /// Force and displacement of the last state.
-    last: [f64; 2],
+/// Displacements of a static state that a push-over reports.
+#[derive(Clone, Copy, Default)]
+struct ReportedMotion {
+    /// Displacement of the controlled degree of freedom, m or rad.
+    displacement: f64,
+    /// Rotations of the base about the axes along y and x, rad.
+    base_rotations: [f64; 2],
 }
 
-impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
+/// Force and displacement of a static state.
+#[derive(Clone, Copy)]
+struct ForceDisplacement {
+    force: f64,
+    displacement: f64,
+}
+
+/// State of a push-over: its curve so far, and what it needs to continue.
+struct PushOverAnalysis<'a, S> {
+    control: &'a DofCombination,
+    scene: S,
+    /// Motion without force, from which all reported motions count.
+    datum: ReportedMotion,
+    curve: PushOver,
+    last_state: ForceDisplacement,
+}
+
+impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
     fn new(control: &'a DofCombination, mut scene: S) -> Result<Self> {
-        let rest = scene(0.0)?;
-        control.check("degree of freedom of the push-over", rest.structure().dofs())?;
+        let unloaded = scene(0.0)?;
+        control.check("degree of freedom of the push-over", unloaded.structure().dofs())?;
         let curve = PushOver { points: Vec::new(), limit: None, cause: None };
-        let mut push = Self { control, scene, datum: [0.0; 3], curve, last: [0.0; 2] };
-        push.datum = push.motions(&rest);
-        let point = push.point(0.0, &rest);
-        push.curve.points.push(point);
-        Ok(push)
+        let datum = ReportedMotion::default();
+        let last_state = ForceDisplacement { force: 0.0, displacement: 0.0 };
+        let mut analysis = Self { control, scene, datum, curve, last_state };
+        analysis.datum = analysis.reported_motion(&unloaded);
+        let point = analysis.point(0.0, &unloaded);
+        analysis.curve.points.push(point);
+        Ok(analysis)
     }
 
-    /// Displacement of the control and rotations of the base, the weight's part included.
-    fn motions(&self, simulation: &Simulation) -> [f64; 3] {
+    /// Displacement of the control and rotations of the base, under weight and load.
+    fn reported_motion(&self, simulation: &Simulation) -> ReportedMotion {
         let displacement = simulation.static_displacement();
-        let [rotation, across] = base_rotations(simulation.structure(), displacement);
-        [self.control.value(displacement), rotation, across]
+        ReportedMotion {
+            displacement: self.control.value(displacement),
+            base_rotations: base_rotations(simulation.structure(), displacement),
+        }
     }
 
+    /// Point of the curve for the static state of a simulation.
     fn point(&self, force: f64, simulation: &Simulation) -> PushPoint {
-        let motions = self.motions(simulation);
+        let motion = self.reported_motion(simulation);
         let state = simulation.state();
         let areas = simulation.elements().areas();
-        // A state begins with elements that stick where the load has left them.
+        // The modes of `state` are those at the start of the first step, in which elements stick after sliding.
         let static_state = &simulation.scene.static_state;
         let modes = &static_state.modes;
         let traction = &static_state.traction;
-        let rounding = ROUNDING_OF_SHEAR * largest(traction);
-        // Under a weight without friction all elements may slide, and none bears shear.
-        let bears_shear = |element: usize| {
+        let shear_rounding = SHEAR_ROUNDING_TOLERANCE * largest(traction);
+        // Under a weight without friction all elements may be in slip without any shear.
+        let has_shear = |element: usize| {
             let mut shears = traction[modes.len()..].iter().skip(element).step_by(modes.len());
-            shears.any(|shear| shear.abs() > rounding)
+            shears.any(|shear| shear.abs() > shear_rounding)
         };
         let elements = modes.iter().zip(areas).enumerate();
-        let sliding =
-            elements.filter(|(element, (mode, _))| mode.is_slip() && bears_shear(*element));
+        let sliding_elements =
+            elements.filter(|(element, (mode, _))| mode.is_slip() && has_shear(*element));
         PushPoint {
             force,
-            displacement: motions[0] - self.datum[0],
-            base_rotation: motions[1] - self.datum[1],
-            rotation_across: motions[2] - self.datum[2],
+            displacement: motion.displacement - self.datum.displacement,
+            base_rotation: motion.base_rotations[0] - self.datum.base_rotations[0],
+            rotation_across: motion.base_rotations[1] - self.datum.base_rotations[1],
             uplifted_fraction: state.uplifted_fraction,
-            sliding_fraction: sliding.fold(0.0, |sum, (_, (_, area))| sum + area)
+            sliding_fraction: sliding_elements.fold(0.0, |sum, (_, (_, area))| sum + area)
                 / areas.iter().sum::<f64>(),
             base_shear: state.base_shear,
             base_moment: state.base_moment,
         }
     }
 
-    /// The state under a force; `None` without equilibrium, whose cause is kept.
+    /// Computes the static state under a force.
+    ///
+    /// Without equilibrium the result is `None`, and the curve stores the first cause.
     fn state(&mut self, force: f64) -> Result<Option<PushPoint>> {
         match (self.scene)(force) {
             Ok(simulation) => Ok(Some(self.point(force, &simulation))),
@@ -245,61 +270,54 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
         }
     }
 
+    /// Adds a point to the curve.
     fn add(&mut self, point: PushPoint) {
-        self.last = [point.force, point.displacement];
+        self.last_state =
+            ForceDisplacement { force: point.force, displacement: point.displacement };
         self.curve.points.push(point);
     }
 
-    /// Adds the state under a force; `false` beyond the limit, which is then found.
-    fn reach_force(&mut self, force: f64) -> Result<bool> {
+    /// Ends the curve at its limit: with the last point below it, if that point is new.
+    fn end_at_limit(&mut self, last_point: Option<PushPoint>, carried: f64, failed: f64) {
+        self.curve.points.extend(last_point);
+        self.curve.limit = Some([carried, failed]);
+    }
+
+    /// Adds the state under a force to the curve.
+    ///
+    /// Without equilibrium it bisects the force, ends the curve at its limit and returns `false`.
+    fn add_force(&mut self, force: f64) -> Result<bool> {
         if let Some(point) = self.state(force)? {
             self.add(point);
             return Ok(true);
         }
-        let mut bracket = [self.last[0], force];
-        let mut best = None;
-        while (bracket[1] - bracket[0]).abs() > LIMIT_TOLERANCE * bracket[1].abs() {
-            let middle = 0.5 * (bracket[0] + bracket[1]);
+        let mut carried_force = self.last_state.force;
+        let mut failed_force = force;
+        let mut last_point = None;
+        while (failed_force - carried_force).abs() > LIMIT_TOLERANCE * failed_force.abs() {
+            let middle = 0.5 * (carried_force + failed_force);
             match self.state(middle)? {
                 Some(point) => {
-                    bracket[0] = middle;
-                    best = Some(point);
+                    carried_force = middle;
+                    last_point = Some(point);
                 }
-                None => bracket[1] = middle,
+                None => failed_force = middle,
             }
         }
-        self.curve.points.extend(best);
-        self.curve.limit = Some(bracket);
+        self.end_at_limit(last_point, carried_force, failed_force);
         Ok(false)
     }
 
-    /// Adds the state with a displacement; `false` if the limit comes before.
-    ///
-    /// Regula falsi with halved weights (Illinois) between two forces; beyond all known states the force grows with
-    /// the last slope.
-    fn reach_displacement(&mut self, target: f64, first: f64) -> Result<bool> {
-        let mut below = self.last;
-        let mut below_point = None;
-        let mut above: Option<[f64; 2]> = None;
-        let mut failed = None;
-        let mut weights = [1.0, 1.0];
-        let mut last_was_above = None;
-        for _ in 0..MAX_STATES {
-            let force = match (above, failed) {
-                (Some(above), _) => {
-                    let low = weights[0] * (target - below[1]);
-                    let high = weights[1] * (above[1] - target);
-                    (below[0] * high + above[0] * low) / (high + low)
-                }
-                (None, Some(failed)) => 0.5 * (below[0] + failed),
-                (None, None) if below[1] == 0.0 => below[0] + first,
-                (None, None) => below[0] * (target / below[1]).min(MAX_GROWTH),
-            };
+    /// Adds the state with a displacement to the curve; `false` if the curve ends at its limit before.
+    fn add_displacement(&mut self, target: f64, first_force: f64) -> Result<bool> {
+        let mut search = DisplacementSearch::new(target, first_force, self.last_state);
+        let mut lower_point = None;
+        for _ in 0..MAX_STATES_PER_TARGET {
+            let force = search.next_force();
             let Some(point) = self.state(force)? else {
-                failed = Some(force);
-                if (force - below[0]).abs() <= LIMIT_TOLERANCE * force.abs() {
-                    self.curve.points.extend(below_point);
-                    self.curve.limit = Some([below[0], force]);
+                search.failed_force = Some(force);
+                if search.is_limit(force, force) {
+                    self.end_at_limit(lower_point, search.lower.force, force);
                     return Ok(false);
                 }
                 continue;
@@ -309,31 +327,96 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
                 self.add(point);
                 return Ok(true);
             }
-            let is_above = displacement / target > 1.0;
-            let repeats = last_was_above.replace(is_above) == Some(is_above);
-            let other = if repeats { 0.5 } else { 1.0 };
-            if is_above {
-                above = Some([force, displacement]);
-                weights = [other * weights[0], 1.0];
-            } else {
-                below = [force, displacement];
-                below_point = Some(point);
-                weights = [1.0, other * weights[1]];
-                if let Some(failed) = failed.filter(|_| above.is_none())
-                    && (failed - force).abs() <= LIMIT_TOLERANCE * force.abs()
-                {
-                    self.curve.points.extend(below_point);
-                    self.curve.limit = Some([force, failed]);
-                    return Ok(false);
-                }
+            if search.update(ForceDisplacement { force, displacement }) {
+                continue;
+            }
+            lower_point = Some(point);
+            if let Some(failed_force) = search.failed_force.filter(|_| search.upper.is_none())
+                && search.is_limit(failed_force, force)
+            {
+                self.end_at_limit(lower_point, force, failed_force);
+                return Ok(false);
             }
         }
-        let reason = format!("no force was found for it in {MAX_STATES} static states");
+        let reason = format!("no force was found for it in {MAX_STATES_PER_TARGET} static states");
         Err(Error::part(format!("displacement {target} of the push-over"), reason))
     }
 }
 
-/// Whether an error says that the loads have no equilibrium.
+/// Search for the force of a target displacement.
+///
+/// Between two states it is the regula falsi with halved weights (Illinois method). Beyond all states the force grows
+/// with the last secant stiffness.
+struct DisplacementSearch {
+    target: f64,
+    first_force: f64,
+    /// Last state below the target.
+    lower: ForceDisplacement,
+    /// Last state above the target.
+    upper: Option<ForceDisplacement>,
+    /// Last force without equilibrium.
+    failed_force: Option<f64>,
+    /// Weights of the residuals of the lower and the upper state.
+    lower_weight: f64,
+    upper_weight: f64,
+    /// Whether the previous state was above the target.
+    was_above: Option<bool>,
+}
+
+impl DisplacementSearch {
+    fn new(target: f64, first_force: f64, lower: ForceDisplacement) -> Self {
+        Self {
+            target,
+            first_force,
+            lower,
+            upper: None,
+            failed_force: None,
+            lower_weight: 1.0,
+            upper_weight: 1.0,
+            was_above: None,
+        }
+    }
+
+    /// Force of the next trial.
+    fn next_force(&self) -> f64 {
+        let lower = self.lower;
+        match (self.upper, self.failed_force) {
+            (Some(upper), _) => {
+                let lower_residual = self.lower_weight * (self.target - lower.displacement);
+                let upper_residual = self.upper_weight * (upper.displacement - self.target);
+                (lower.force * upper_residual + upper.force * lower_residual)
+                    / (upper_residual + lower_residual)
+            }
+            (None, Some(failed_force)) => 0.5 * (lower.force + failed_force),
+            (None, None) if lower.displacement == 0.0 => lower.force + self.first_force,
+            (None, None) => lower.force * (self.target / lower.displacement).min(MAX_FORCE_GROWTH),
+        }
+    }
+
+    /// Replaces the lower or the upper state; returns whether it is above the target.
+    fn update(&mut self, state: ForceDisplacement) -> bool {
+        let is_above = state.displacement / self.target > 1.0;
+        let is_repeated = self.was_above.replace(is_above) == Some(is_above);
+        let weight_factor = if is_repeated { 0.5 } else { 1.0 };
+        if is_above {
+            self.upper = Some(state);
+            self.lower_weight *= weight_factor;
+            self.upper_weight = 1.0;
+        } else {
+            self.lower = state;
+            self.lower_weight = 1.0;
+            self.upper_weight *= weight_factor;
+        }
+        is_above
+    }
+
+    /// Whether the forces with and without equilibrium agree to the tolerance, relative to `force`.
+    fn is_limit(&self, failed_force: f64, force: f64) -> bool {
+        (failed_force - self.lower.force).abs() <= LIMIT_TOLERANCE * force.abs()
+    }
+}
+
+/// Whether an error states that the loads have no equilibrium.
 fn is_without_equilibrium(error: &Error) -> bool {
     match error {
         Error::Preload { .. } => true,

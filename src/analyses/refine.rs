@@ -7,11 +7,27 @@ use crate::coupled::run::clock;
 use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
-/// Orders of convergence for extrapolation; a convergent method has no others.
+/// Plausible orders of convergence: those of the methods in use, and of results with a kink.
 const CONVERGENCE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
-/// Mesh and step of each run, as numbers of halvings of element length and time step.
-const SETTING_HALVINGS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
+/// Refinement of a setting relative to the coarsest one.
+#[derive(Clone, Copy)]
+struct Halvings {
+    /// Number of halvings of the element length.
+    mesh: u32,
+    /// Number of halvings of the time step.
+    step: u32,
+}
+
+/// Refinement of each of the six settings.
+const SETTING_HALVINGS: [Halvings; 6] = [
+    Halvings { mesh: 0, step: 0 },
+    Halvings { mesh: 0, step: 1 },
+    Halvings { mesh: 0, step: 2 },
+    Halvings { mesh: 1, step: 0 },
+    Halvings { mesh: 2, step: 0 },
+    Halvings { mesh: 1, step: 1 },
+];
 
 /// Name of a scene's results in errors.
 const RESULTS_NAME: &str = "list of a scene's results";
@@ -22,14 +38,14 @@ const RESULTS_NAME: &str = "list of a scene's results";
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Setting {
-    /// Number of elements, or of cells along a side if the scene counts these.
+    /// Number of elements; if the scene counts cells along a side, number of these cells.
     pub elements: usize,
     /// Time step, s.
     pub time_step: f64,
-    /// Estimated error of the results, relative to their size (root of the sum of squares).
+    /// Estimated relative error of the results, in the norm of the root of the sum of squares.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub error: f64,
-    /// Wall time of building and running, zero without a clock (WebAssembly).
+    /// Wall time of building and running; zero without a clock (WebAssembly).
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
     pub wall: Duration,
     /// The results.
@@ -55,9 +71,9 @@ pub struct Refinement {
     /// Observed order of convergence in the time step; NaN if the results do not depend on it.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub step_order: f64,
-    /// Difference of the last setting's results from a prediction, relative to the results' size.
+    /// Relative difference between the last setting's results and their prediction.
     ///
-    /// The prediction adds the errors of mesh and step. Estimated errors below it are not reliable.
+    /// The prediction adds the errors of mesh and step. Estimated errors below the mismatch are not reliable.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub mismatch: f64,
 }
@@ -68,10 +84,10 @@ pub struct Refinement {
 /// Computational Science and Engineering*, 1998, § 5.
 ///
 /// `scene` builds and runs with a number of elements and a time step (s), and returns results: a peak, some peaks,
-/// or a time series at the times of the coarsest setting. Twice the number halves the elements' length: in plan it
-/// is the number of cells along the shorter side, as in
-/// [`ElasticGround::under`](crate::bem::ElasticGround::under). Few cells may not resolve the motion excited with
-/// long steps, and errors of both then compensate each other: refine both. The error is the root of the sum of
+/// or a time series at the times of the coarsest setting. Twice the number of elements must halve their
+/// length: in plan, use the number of cells along the shorter side, as in
+/// [`ElasticGround::under`](crate::bem::ElasticGround::under). With few cells and
+/// long steps the errors of mesh and step may compensate each other: refine both. The error is the root of the sum of
 /// squares relative to the extrapolated results, so use separate calls for results of different units. Time series
 /// converge evenly; peaks, and quantities that depend on the instant of an impact, less so.
 ///
@@ -103,8 +119,8 @@ pub struct Refinement {
 ///     // The rotation of the base every 0.02 s.
 ///     let mut rotation = Vec::new();
 ///     simulation.run(simulation.steps_for(4.0), |state| {
-///         let place = state.time / 0.02;
-///         if (place - place.round()).abs() < 1e-6 {
+///         let sample = state.time / 0.02;
+///         if (sample - sample.round()).abs() < 1e-6 {
 ///             rotation.push(state.base_rotation);
 ///         }
 ///     })?;
@@ -137,12 +153,12 @@ pub(crate) fn settings(
     positive("number of elements", elements as f64)?;
     positive("time step", time_step)?;
     let mut settings: Vec<Setting> = Vec::with_capacity(SETTING_HALVINGS.len());
-    for [mesh, step] in SETTING_HALVINGS {
+    for Halvings { mesh, step } in SETTING_HALVINGS {
         let elements = elements.saturating_mul(1 << mesh);
         let time_step = time_step / f64::from(1 << step);
-        let begin = clock();
+        let start = clock();
         let results = scene(elements, time_step)?;
-        let wall = begin.map_or(Duration::ZERO, |begin| begin.elapsed());
+        let wall = start.map_or(Duration::ZERO, |start| start.elapsed());
         at_least(RESULTS_NAME, results.len(), 1)?;
         if let Some(first) = settings.first() {
             same_length(RESULTS_NAME, results.len(), first.results.len())?;
@@ -162,21 +178,22 @@ struct SeriesErrors {
 }
 
 impl SeriesErrors {
+    /// Extrapolates the results of three settings.
     fn of(coarse: &Setting, middle: &Setting, fine: &Setting) -> Self {
         let results = [&coarse.results, &middle.results, &fine.results];
         let order = (distance(results[0], results[1]) / distance(results[1], results[2])).log2();
         // The error of the finest result is the change by infinitely many halvings with this order.
-        let used = if order.is_nan() {
+        let clamped_order = if order.is_nan() {
             1.0
         } else {
             order.clamp(*CONVERGENCE_ORDERS.start(), *CONVERGENCE_ORDERS.end())
         };
-        let factor = (used.exp2() - 1.0).recip();
+        let extrapolation_factor = (clamped_order.exp2() - 1.0).recip();
         let errors = results.map(|values| {
             let mut errors = Vec::with_capacity(values.len());
             for (k, value) in values.iter().enumerate() {
                 let last_change = results[1][k] - results[2][k];
-                errors.push(value - results[2][k] + factor * last_change);
+                errors.push(value - results[2][k] + extrapolation_factor * last_change);
             }
             errors
         });
@@ -184,26 +201,28 @@ impl SeriesErrors {
     }
 }
 
+/// Euclidean norm of the difference of two lists of results.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(a.iter().zip(b).map(|(a, b)| a - b))
 }
 
-/// Root of the sum of squares, for numbers of any size.
+/// Root of the sum of squares, without overflow.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::hypot)
 }
 
-/// A distance of results relative to their size; zero for equal results of any size.
-fn relative(distance: f64, size: f64) -> f64 {
-    if distance == 0.0 { 0.0 } else { distance / size }
+/// Distance of results relative to their norm; zero for equal results of any norm.
+fn relative(distance: f64, results_norm: f64) -> f64 {
+    if distance == 0.0 { 0.0 } else { distance / results_norm }
 }
 
-/// Whether an observed order belongs to a convergent method, or the results do not change.
+/// Whether an observed order is plausible, or the results do not change.
 fn is_regular_order(order: f64) -> bool {
     order.is_nan() || CONVERGENCE_ORDERS.contains(&order)
 }
 
 impl Refinement {
+    /// Extrapolates the results of the six settings and sets the settings' errors.
     pub(crate) fn from_settings(mut settings: Vec<Setting>) -> Self {
         let steps = SeriesErrors::of(&settings[0], &settings[1], &settings[2]);
         let meshes = SeriesErrors::of(&settings[0], &settings[3], &settings[4]);
@@ -216,11 +235,11 @@ impl Refinement {
         for (k, value) in predicted.iter_mut().enumerate() {
             *value = *value + meshes.errors[1][k] + steps.errors[1][k];
         }
-        let size = norm(extrapolated.iter().copied());
-        let mismatch = relative(distance(&settings[5].results, &predicted), size);
-        for (setting, [mesh, step]) in settings.iter_mut().zip(SETTING_HALVINGS) {
-            let both = meshes.errors[mesh as usize].iter().zip(&steps.errors[step as usize]);
-            setting.error = relative(norm(both.map(|(a, b)| a + b)), size);
+        let results_norm = norm(extrapolated.iter().copied());
+        let mismatch = relative(distance(&settings[5].results, &predicted), results_norm);
+        for (setting, Halvings { mesh, step }) in settings.iter_mut().zip(SETTING_HALVINGS) {
+            let error_pairs = meshes.errors[mesh as usize].iter().zip(&steps.errors[step as usize]);
+            setting.error = relative(norm(error_pairs.map(|(a, b)| a + b)), results_norm);
         }
         let mesh_order = meshes.order;
         let step_order = steps.order;
@@ -229,8 +248,8 @@ impl Refinement {
 
     /// Whether the estimate is reliable.
     ///
-    /// Both orders must be between a half and four (or the results independent), and the coarsest error above the
-    /// mismatch.
+    /// Both orders must be between a half and four, unless the results do not depend on mesh or step. The coarsest
+    /// error must be above the mismatch.
     pub fn is_regular(&self) -> bool {
         let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
         is_regular_order(self.mesh_order)
@@ -246,14 +265,14 @@ impl Refinement {
              time step; mismatch {mismatch:.1e}"
         );
         if !self.is_regular() {
-            notes += "\nnot regular: refine further before you trust these errors (on layers, fix the number of \
-                      stages: by rule it changes with the step)";
+            notes += "\nnot regular: refine further before you trust these errors (on layered ground, fix the number of \
+                      Runge–Kutta stages, which otherwise depends on the step)";
         }
         notes
     }
 }
 
-/// Settings in rows, with value and error of each named refinement.
+/// Table with a row for each setting, and value and error of each named refinement.
 pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     let mut heading = ["elements", "step, s", "run time, s"].map(String::from).to_vec();
     let settings = refinements.first().map_or(&[][..], |(_, first)| &first.settings);
@@ -262,26 +281,26 @@ pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
         let wall = format!("{:.3}", wall.as_secs_f64());
         rows.push(vec![elements.to_string(), format!("{time_step:.3e}"), wall]);
     }
-    let mut last = vec!["extrapolated".to_owned(), String::new(), String::new()];
+    let mut last_row = vec!["extrapolated".to_owned(), String::new(), String::new()];
     let mut has_values = false;
     for (name, refinement) in refinements {
         // A time series does not fit into a cell.
         if let [extrapolated] = refinement.extrapolated[..] {
             has_values = true;
             heading.push((*name).to_owned());
-            last.push(format!("{extrapolated:.4e}"));
+            last_row.push(format!("{extrapolated:.4e}"));
             for (row, setting) in rows.iter_mut().zip(&refinement.settings) {
                 row.extend(setting.results.iter().map(|value| format!("{value:.4e}")));
             }
         }
         heading.push("error".to_owned());
-        last.push(String::new());
+        last_row.push(String::new());
         for (row, setting) in rows.iter_mut().zip(&refinement.settings) {
             row.push(format!("{:.1e}", setting.error));
         }
     }
     if has_values {
-        rows.push(last);
+        rows.push(last_row);
     }
     Table { heading, repeated: 2, rows }.text()
 }
@@ -298,43 +317,46 @@ mod tests {
 
     #[test]
     fn errors_of_known_orders_are_found() {
-        // Errors 3 h² and −0.5 Δt in one result, 1 h² and 2 Δt in another; no clock matters.
+        // One result has the errors 3 h² and −0.5 Δt, the other h² and 2 Δt.
         let truth = [7.0, -2.0];
-        let found = refine(10, 0.1, |elements, step| {
+        let refinement = refine(10, 0.1, |elements, step| {
             let h = 1.0 / elements as f64;
             Ok(vec![truth[0] + 3.0 * h * h - 0.5 * step, truth[1] + h * h + 2.0 * step])
         })
         .unwrap();
-        assert!((found.mesh_order - 2.0).abs() < 1e-9 && (found.step_order - 1.0).abs() < 1e-9);
-        assert!(found.mismatch < 1e-12 && found.is_regular());
-        for setting in &found.settings {
-            let known = distance(&setting.results, &truth) / norm(truth.into_iter());
-            assert!((setting.error - known).abs() < 1e-9 * known, "{setting:?}");
+        assert!(
+            (refinement.mesh_order - 2.0).abs() < 1e-9
+                && (refinement.step_order - 1.0).abs() < 1e-9
+        );
+        assert!(refinement.mismatch < 1e-12 && refinement.is_regular());
+        for setting in &refinement.settings {
+            let expected = distance(&setting.results, &truth) / norm(truth.into_iter());
+            assert!((setting.error - expected).abs() < 1e-9 * expected, "{setting:?}");
         }
-        assert!(distance(&found.extrapolated, &truth) < 1e-12);
+        assert!(distance(&refinement.extrapolated, &truth) < 1e-12);
     }
 
     #[test]
-    fn results_that_do_not_converge_are_told() {
+    fn results_that_do_not_converge_are_not_regular() {
         let mut calls = 0.0;
-        let found = refine(10, 0.1, |_, _| {
+        let refinement = refine(10, 0.1, |_, _| {
             calls += 1.0;
             Ok(vec![1.0 + 0.1 * f64::sin(calls * calls)])
         })
         .unwrap();
-        assert!(!found.is_regular() && found.to_string().contains("not regular"));
+        assert!(!refinement.is_regular() && refinement.to_string().contains("not regular"));
     }
 
     #[test]
-    fn results_that_depend_on_nothing_have_no_error() {
-        let found = refine(10, 0.1, |_, _| Ok(vec![0.0, 3.0])).unwrap();
-        assert!(found.settings.iter().all(|setting| setting.error == 0.0));
-        assert!(found.mesh_order.is_nan() && found.is_regular());
-        assert_eq!(found.extrapolated, [0.0, 3.0]);
+    fn constant_results_have_no_error() {
+        let refinement = refine(10, 0.1, |_, _| Ok(vec![0.0, 3.0])).unwrap();
+        assert!(refinement.settings.iter().all(|setting| setting.error == 0.0));
+        assert!(refinement.mesh_order.is_nan() && refinement.is_regular());
+        assert_eq!(refinement.extrapolated, [0.0, 3.0]);
     }
 
     #[test]
-    fn bad_results_are_refused() {
+    fn bad_results_are_errors() {
         assert!(refine(0, 0.1, |_, _| Ok(vec![1.0])).is_err());
         assert!(refine(1, f64::NAN, |_, _| Ok(vec![1.0])).is_err());
         assert!(refine(1, 0.1, |_, _| Ok(vec![])).is_err());

@@ -18,12 +18,14 @@ pub struct Refinements {
     pub peaks: Vec<(String, Refinement)>,
 }
 
-/// Names of a scene's peaks, the same and in the same order for every run.
+/// Names of a scene's peaks; every run must return them in the same order.
 #[derive(Default)]
-pub(crate) struct Names(pub(crate) Vec<String>);
+pub(crate) struct PeakNames(pub(crate) Vec<String>);
 
-impl Names {
-    /// Values of one run's peaks; an error if the names differ from the first run's.
+impl PeakNames {
+    /// Returns the values of one run's peaks.
+    ///
+    /// The first call stores the names. Later calls return an error for other names.
     pub(crate) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
         at_least(PEAKS_NAME, peaks.len(), 1)?;
         let (names, values): (Vec<String>, Vec<f64>) =
@@ -38,7 +40,7 @@ impl Names {
             return Ok(values);
         }
         same_length(PEAKS_NAME, names.len(), self.0.len())?;
-        match names.iter().zip(&self.0).find(|(name, first)| name != first) {
+        match names.iter().zip(&self.0).find(|(name, expected)| name != expected) {
             None => Ok(values),
             Some((name, _)) => Err(Error::no_name("peak", name, self.0.iter())),
         }
@@ -47,10 +49,10 @@ impl Names {
 
 /// Estimates the errors of several peaks of a scene from six settings.
 ///
-/// As [`refine`](super::refine()) does for one.
+/// [`refine`](super::refine()) does this for one result.
 ///
 /// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each peak is
-/// extrapolated alone: units may differ, and a peak that does not converge does not affect the others.
+/// extrapolated alone. Their units may differ, and a peak that does not converge does not affect the others.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -85,32 +87,33 @@ pub fn refine_each<N: Into<String>>(
     time_step: f64,
     mut scene: impl FnMut(usize, f64) -> Result<Vec<(N, f64)>>,
 ) -> Result<Refinements> {
-    let mut names = Names::default();
+    let mut names = PeakNames::default();
     let mut run = |elements: usize, step: f64| names.values(scene(elements, step)?);
-    let all = settings(elements, time_step, &mut run)?;
-    Ok(Refinements::each(names.0, &all))
+    let settings = settings(elements, time_step, &mut run)?;
+    Ok(Refinements::from_settings(names.0, &settings))
 }
 
 impl Refinements {
-    /// Splits a refinement into its results.
+    /// Splits a refinement into one refinement for each of its results.
     ///
-    /// Each gets one of the `names` and a separate error.
+    /// The results receive the `names` in order, and each has an error of its own.
     ///
     /// # Errors
     /// [`Error::Size`] unless there are as many names as results.
     pub fn named(names: Vec<String>, refinement: &Refinement) -> Result<Self> {
         same_length("list of names", names.len(), refinement.extrapolated.len())?;
-        Ok(Self::each(names, &refinement.settings))
+        Ok(Self::from_settings(names, &refinement.settings))
     }
 
-    fn each(names: Vec<String>, settings: &[Setting]) -> Self {
+    /// Makes a refinement for each result of the settings.
+    fn from_settings(names: Vec<String>, settings: &[Setting]) -> Self {
         let mut peaks = Vec::with_capacity(names.len());
         for (k, name) in names.into_iter().enumerate() {
-            let mut settings = settings.to_vec();
-            for setting in &mut settings {
+            let mut peak_settings = settings.to_vec();
+            for setting in &mut peak_settings {
                 setting.results = vec![setting.results[k]];
             }
-            peaks.push((name, Refinement::from_settings(settings)));
+            peaks.push((name, Refinement::from_settings(peak_settings)));
         }
         Self { peaks }
     }
@@ -129,10 +132,11 @@ impl Refinements {
 
 impl fmt::Display for Refinements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<_> =
+        let named: Vec<_> =
             self.peaks.iter().map(|(name, refinement)| (name.as_str(), refinement)).collect();
-        f.write_str(&table(&all))?;
-        all.iter()
+        f.write_str(&table(&named))?;
+        named
+            .iter()
             .try_for_each(|(name, refinement)| write!(f, "\n{name}: {}", refinement.notes()))
     }
 }
@@ -141,32 +145,32 @@ impl fmt::Display for Refinements {
 mod tests {
     use super::*;
 
-    /// Each peak has the refinement that `refine` finds for it alone.
+    /// Each peak has the refinement that `refine` computes for it alone.
     #[test]
     fn peaks_are_refined_one_by_one() {
         let value = |k: usize, elements: usize, step: f64| match k {
             0 => 1e6 * (7.0 + 3.0 / (elements as f64).powi(2) - 0.5 * step),
             _ => 1e-3 * (2.0 - (elements as f64).recip() + step * step),
         };
-        let found = refine_each(10, 0.1, |elements, step| {
+        let refinements = refine_each(10, 0.1, |elements, step| {
             Ok([0, 1].map(|k| (format!("peak {k}"), value(k, elements, step))).to_vec())
         })
         .unwrap();
         for k in 0..2 {
             let alone =
                 super::super::refine(10, 0.1, |elements, step| Ok(vec![value(k, elements, step)]));
-            let mut together = found.peaks[k].1.clone();
+            let mut together = refinements.peaks[k].1.clone();
             let mut alone = alone.unwrap();
             for setting in together.settings.iter_mut().chain(&mut alone.settings) {
                 setting.wall = std::time::Duration::ZERO;
             }
             assert_eq!(together, alone);
         }
-        let page = found.to_string();
+        let page = refinements.to_string();
         for text in ["peak 0", "peak 1", "extrapolated", "peak 1: order of convergence: 1.0"] {
             assert!(page.contains(text), "{page}");
         }
-        assert!(found.peak("peak 1").is_ok() && found.peak("peak").is_err());
+        assert!(refinements.peak("peak 1").is_ok() && refinements.peak("peak").is_err());
     }
 
     #[test]
@@ -180,7 +184,7 @@ mod tests {
         let twice = refine_each(1, 0.1, |_, _| Ok(vec![("a", 1.0), ("a", 2.0)]));
         assert!(matches!(twice, Err(Error::DuplicateName { .. })));
         assert!(refine_each(1, 0.1, |_, _| Ok(Vec::<(&str, f64)>::new())).is_err());
-        let count = |n: usize, _| Ok((0..n).map(|k| (k.to_string(), 1.0)).collect());
-        assert!(matches!(refine_each(1, 0.1, count), Err(Error::Size { .. })));
+        let peak_per_element = |n: usize, _| Ok((0..n).map(|k| (k.to_string(), 1.0)).collect());
+        assert!(matches!(refine_each(1, 0.1, peak_per_element), Err(Error::Size { .. })));
     }
 }

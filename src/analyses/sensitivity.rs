@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use crate::analyses::refine_each::{Names, PEAKS_NAME};
+use crate::analyses::refine_each::{PEAKS_NAME, PeakNames};
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
-/// Time step of the first twin, relative to the run's time step.
+/// Time step of the first twin, relative to the run's time step: so close that results should agree.
 const TWIN_STEP_FACTOR: f64 = 0.99;
-/// Largest number of digits that twins may confirm.
+/// Largest number of confirmed digits; more would be a coincidence of three twins.
 const MAX_CONFIRMED_DIGITS: u32 = 6;
 
 /// Value of a peak in a run and in its twins.
@@ -38,23 +38,24 @@ impl PeakTwins {
             .fold(0.0, |spread, twin| f64::max(spread, (twin - self.value).abs()))
     }
 
-    /// Number of significant digits that hold, six at most.
+    /// Number of reliable significant digits, six at most.
     ///
-    /// Half a unit of the last digit is the spread or more. Zero if twins do not agree on the first digit.
+    /// Half a unit of the last reliable digit is not smaller than the spread. The number is zero if the twins disagree
+    /// on the first digit.
     pub fn digits(&self) -> u32 {
         let spread = self.spread();
         if spread == 0.0 {
             return MAX_CONFIRMED_DIGITS;
         }
         // Power of ten of the first digit.
-        let first = self.value.abs().log10().floor();
-        let digits = (first + 1.0 - (2.0 * spread).log10()).floor();
+        let exponent = self.value.abs().log10().floor();
+        let digits = (exponent + 1.0 - (2.0 * spread).log10()).floor();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let digits = digits.clamp(0.0, f64::from(MAX_CONFIRMED_DIGITS)) as u32;
         digits
     }
 
-    /// The value in as many digits as hold; "–" for zero digits.
+    /// The value with its reliable digits; "–" if there are none.
     fn quoted(&self) -> String {
         match self.digits() {
             0 => "–".to_owned(),
@@ -79,12 +80,12 @@ pub struct Sensitivity {
 /// builds and runs for a duration with a number of elements (in plan: of cells along the shorter side) and a time
 /// step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
 ///
-/// If a peak converges, its twins differ from it by about its error. The motion of a body that rocks on its
-/// corners, and twists on them, may become independent of its start: a change too small to matter decides on which
-/// corner it lands. Its peaks then belong to one motion out of many, and no finer setting makes them converge;
-/// state the range over many motions. The twins take less time than two further runs, in plan about one and a
-/// half; the six settings of `refine_each` take tens of them. Changes in the last bits of a scene need many
-/// impacts to grow, and show less.
+/// If a peak converges, its twins differ from it by about its error. A body that rocks and twists on its corners
+/// may move chaotically: a negligible change decides on which corner it lands. Its peaks then belong to one motion out
+/// of many, and no finer setting makes them converge; state the range over many motions. The three twins take less
+/// time than two further runs, in plan about that of one and a half. The six settings of `refine_each` take the time
+/// of tens of runs. A comparison with changes in the last bits of a scene detects less, since such changes need many
+/// impacts to grow.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -93,7 +94,7 @@ pub struct Sensitivity {
 /// use basemat::structure::RigidBlock;
 /// use basemat::{Simulation, analyses};
 ///
-/// let found = analyses::sensitivity(16, 0.005, |elements, time_step| {
+/// let sensitivity = analyses::sensitivity(16, 0.005, |elements, time_step| {
 ///     let mut simulation = Simulation::builder(time_step)
 ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?.with_dashpots(4e5, 2e5)?)
@@ -103,8 +104,8 @@ pub struct Sensitivity {
 ///     let run = simulation.run(simulation.steps_for(8.0), |_| {})?;
 ///     Ok(vec![("shear, N/m", run.whole.base_shear.magnitude())])
 /// })?;
-/// println!("{found}");
-/// assert!(found.peak("shear, N/m")?.digits() >= 1);
+/// println!("{sensitivity}");
+/// assert!(sensitivity.peak("shear, N/m")?.digits() >= 1);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
@@ -120,7 +121,7 @@ pub fn sensitivity<N: Into<String>>(
 ) -> Result<Sensitivity> {
     at_least("list of elements", elements, 2)?;
     positive("time step", time_step)?;
-    let mut names = Names::default();
+    let mut names = PeakNames::default();
     let mut run = |elements: usize, step: f64| -> Result<Vec<f64>> {
         let values = names.values(scene(elements, step)?)?;
         all_finite(PEAKS_NAME, &values)?;
@@ -149,8 +150,8 @@ impl Sensitivity {
     /// # Errors
     /// [`Error::Name`] if no peak has this name.
     pub fn peak(&self, name: &str) -> Result<&PeakTwins> {
-        let found = self.peaks.iter().find(|peak| peak.name == name);
-        found.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|peak| &peak.name)))
+        let peak = self.peaks.iter().find(|peak| peak.name == name);
+        peak.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|peak| &peak.name)))
     }
 }
 
@@ -182,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_are_those_that_twins_share() {
+    fn digits_are_common_to_all_twins() {
         for (value, twin, digits, quoted) in [
             (3478.0, 3717.0, 1, "3e3"),
             (3478.0, 5916.0, 0, "–"),
@@ -191,15 +192,15 @@ mod tests {
             (0.02, 0.02, 6, "2.00000e-2"),
             (0.0, 1e-9, 0, "–"),
         ] {
-            let found = twins(value, twin);
-            assert_eq!((found.digits(), found.quoted().as_str()), (digits, quoted), "{value}");
+            let peak = twins(value, twin);
+            assert_eq!((peak.digits(), peak.quoted().as_str()), (digits, quoted), "{value}");
         }
     }
 
     #[test]
     fn twins_change_step_and_elements_by_little() {
         let mut runs = Vec::new();
-        let found = sensitivity(9, 0.1, |elements, step| {
+        let sensitivity_of_sum = sensitivity(9, 0.1, |elements, step| {
             runs.push((elements, step));
             Ok(vec![("sum", elements as f64 + step)])
         })
@@ -207,11 +208,12 @@ mod tests {
         let elements: Vec<usize> = runs.iter().map(|run| run.0).collect();
         assert_eq!(elements, [9, 9, 7, 5]);
         assert_eq!((runs[0].1, runs[1].1, runs[2].1), (0.1, 0.99 * 0.1, 0.1));
-        let sum = found.peak("sum").unwrap();
+        let sum = sensitivity_of_sum.peak("sum").unwrap();
         assert_eq!((sum.value, sum.three_quarters, sum.half, sum.digits()), (9.1, 7.1, 5.1, 0));
-        assert!(found.to_string().contains("½ elements") && found.peak("none").is_err());
-        for bad in [(1, 0.1), (4, 0.0), (4, f64::NAN)] {
-            assert!(sensitivity(bad.0, bad.1, |_, _| Ok(vec![("a", 1.0)])).is_err());
+        let page = sensitivity_of_sum.to_string();
+        assert!(page.contains("½ elements") && sensitivity_of_sum.peak("none").is_err());
+        for (elements, step) in [(1, 0.1), (4, 0.0), (4, f64::NAN)] {
+            assert!(sensitivity(elements, step, |_, _| Ok(vec![("a", 1.0)])).is_err());
         }
         assert!(sensitivity(4, 0.1, |_, _| Ok(vec![("a", f64::NAN)])).is_err());
     }
