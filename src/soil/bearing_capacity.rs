@@ -74,7 +74,7 @@ pub struct RockingCapacity {
     pub moments: [f64; 2],
 }
 
-/// Products of the factors of tilt, shape and inclination, as those of [`BearingFactors`].
+/// Products of the factors of tilt, shape and inclination, for each of the [`BearingFactors`].
 struct FactorProducts {
     cohesion: f64,
     surcharge: f64,
@@ -247,7 +247,7 @@ impl ShallowFooting {
     ///
     /// The soil carries the force by its bearing pressure q (Pa) on the critical contact area A_c at the edge, so that
     /// the moment of a rectangle of length L is (V L/2)(1 − A_c/A) (Gajan and Kutter, Journal of Geotechnical and
-    /// Geoenvironmental Engineering 134 (2008), 1129–1141); of a circle it is that of a segment. Eccentricity and
+    /// Geoenvironmental Engineering 134 (2008), 1129–1141); for a circle A_c is a segment. Eccentricity and
     /// inclination of the footing's load have no effect.
     ///
     /// # Errors
@@ -321,7 +321,7 @@ impl ShallowFooting {
         Ok(horizontal / resistance)
     }
 
-    /// Exponent m of the inclination factors, between those of loads along B′ and along L′.
+    /// Exponent m of the inclination factors: m_B for a load along B′, m_L along L′, and values in between.
     fn inclination_exponent(&self) -> f64 {
         let ratio = self.side_ratio();
         let along_shorter = (2.0 + ratio) / (1.0 + ratio);

@@ -32,7 +32,7 @@ pub struct BearingFactors {
 impl BearingFactors {
     /// Factors for a friction angle (rad), by EN 1997-1:2004, D.4.
     ///
-    /// N_γ is that of a rough base, whose friction angle is at least φ/2.
+    /// N_γ holds for a rough base, whose friction angle is at least φ/2.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an angle below zero or not below π/2, and for one so close to π/2 that

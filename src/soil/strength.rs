@@ -6,9 +6,9 @@ use crate::error::{Result, not_negative, require};
 
 /// Strength of drained soil: friction angle φ, cohesion c, and friction angle δ between soil and a wall.
 ///
-/// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) follows from it, and the pressures on a wall:
-/// they follow from Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
-/// friction they are Rankine's. Strengths and stresses are effective ones of drained soil.
+/// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from it.
+/// The latter are pressures of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
+/// friction they are Rankine's. Strengths and stresses are effective ones.
 ///
 /// ```
 /// use basemat::soil::SoilStrength;
