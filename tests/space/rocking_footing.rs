@@ -36,7 +36,8 @@ fn measured_packets_of_the_test() {
 
 /// The other program's moments and settlements of a bearing pressure alone on G = 30 MPa.
 ///
-/// Its settlements are printed with four digits after the point. Its Poisson's ratio is not stated; ν = ⅓ here.
+/// Its settlements are printed with four digits after the point. Its Poisson's ratio is not stated. Here ν = 0.35; from 0.3
+/// to 0.37 the moments are within 3 %, and the last settlement varies by a quarter.
 #[test]
 fn a_bearing_pressure_alone_on_the_half_space() {
     let test = SlowRockingTest::with_amplitudes(&measured_packets());

@@ -34,7 +34,7 @@ pub(crate) struct RockingFootingOptions {
     #[arg(long, default_value_t = 1)]
     cells_across: usize,
     /// Poisson's ratio of the half-space.
-    #[arg(long, default_value_t = 1.0 / 3.0)]
+    #[arg(long, default_value_t = 0.35)]
     poisson: f64,
     /// Friction coefficient between footing and sand.
     #[arg(long, default_value_t = 0.6)]

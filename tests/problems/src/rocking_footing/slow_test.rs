@@ -72,13 +72,13 @@ pub struct SlowRockingRun {
 }
 
 impl SlowRockingTest {
-    /// The test with the amplitudes of some packets, on 16 strips of a half-space of G = 30 MPa and ν = 1/3.
+    /// The test with the amplitudes of some packets, on 16 strips of a half-space of G = 30 MPa and ν = 0.35.
     pub fn with_amplitudes(packets: &[RockingPacket]) -> Self {
         let packets =
             packets.iter().map(|packet| (packet.name.clone(), packet.rotation_amplitude()));
         Self {
             shear_modulus: 30.0e6,
-            poisson: 1.0 / 3.0,
+            poisson: 0.35,
             cells: [16, 1],
             steps_per_cycle: 200,
             packets: packets.collect(),
