@@ -119,7 +119,7 @@
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
-//! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
+//! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers, strength, bearing capacity |
 //! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any convolution weights |
 //! | [`bem::layered`] | convolution weights of layered ground, impedances of strips on it |
 //! | [`bem::plan`] | mats in three dimensions: cells of a ground, impedances |

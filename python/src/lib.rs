@@ -39,6 +39,7 @@ macro_rules! extracts {
 
 mod array;
 mod base_node;
+mod bearing_capacity;
 mod cases;
 mod dof_names;
 mod error;
@@ -73,6 +74,7 @@ mod _core {
     use crate::{
         array::{memory_limit, set_memory_limit},
         base_node::{PyBaseFaces, PyBaseNode},
+        bearing_capacity::{PyBearingFactors, PyShallowFooting},
         cases::{PyCaseFile, case_numbers, merge_cases},
         error::collect_warnings,
         ground::{

@@ -78,8 +78,8 @@ impl PySoil {
     }
 }
 
-/// Strength of the soil beside a wall, for `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion`` (Pa; 0
-/// by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+/// Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion``
+/// (Pa; 0 by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
 ///
 /// Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
 /// passive pressure.

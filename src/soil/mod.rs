@@ -1,5 +1,7 @@
-//! Soil: elastic constants, damping laws and profiles of horizontal layers, in plane strain.
+//! Soil: elastic constants, damping laws, profiles of horizontal layers, strength and bearing capacity.
 
+mod bearing_capacity;
+mod bearing_factors;
 #[cfg(feature = "serde")]
 mod damping_form;
 mod maxwell;
@@ -11,6 +13,8 @@ mod strength;
 
 #[doc(inline)]
 pub use crate::error::SoilError;
+pub use bearing_capacity::{FootingLoad, RockingCapacity, ShallowFooting};
+pub use bearing_factors::BearingFactors;
 pub use maxwell::GeneralizedMaxwell;
 pub(crate) use profile::layer_name;
 pub use profile::{Bedrock, SoilLayer, SoilProfile};

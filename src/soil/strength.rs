@@ -1,13 +1,14 @@
-//! Strength of soil, and the earth pressures on a wall that follow from it.
+//! Strength of drained soil, and the earth pressures on a wall that follow from it.
 
 use std::f64::consts::FRAC_PI_2;
 
 use crate::error::{Result, not_negative, require};
 
-/// Strength of the soil beside a wall: friction angle φ, cohesion c, and friction angle δ between soil and wall.
+/// Strength of drained soil: friction angle φ, cohesion c, and friction angle δ between soil and a wall.
 ///
-/// Pressures follow from Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
-/// friction they are Rankine's. Strengths and stresses are effective ones of drained soil.
+/// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from it.
+/// The latter are pressures of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
+/// friction they are Rankine's. Strengths and stresses are effective ones.
 ///
 /// ```
 /// use basemat::soil::SoilStrength;
@@ -77,6 +78,16 @@ impl SoilStrength {
         let needed = "less: no plane wedge slides at the passive limit";
         require("friction angle of the wall (rad)", angle, strength.root() < 1.0, needed)?;
         Ok(strength)
+    }
+
+    /// Friction angle φ, rad.
+    pub fn friction_angle(&self) -> f64 {
+        self.friction_angle
+    }
+
+    /// Cohesion c, Pa.
+    pub fn cohesion(&self) -> f64 {
+        self.cohesion
     }
 
     /// √(sin(φ + δ) sin φ / cos δ).

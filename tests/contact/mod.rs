@@ -1,6 +1,7 @@
 //! Contact: the problem of a step, its laws, and events inside a step.
 
 mod adhesion;
+mod bearing_capacity;
 mod chatter;
 mod contact_problems;
 mod earth_pressure;

@@ -6,7 +6,7 @@ use basemat::Error;
 use basemat::coupled::Theta;
 use basemat::interface::{Coulomb, EarthPressure, UnilateralCondition};
 use basemat::motion::{Baseline, Record, RickerDisplacement};
-use basemat::soil::SoilStrength;
+use basemat::soil::{BearingFactors, FootingLoad, ShallowFooting, SoilStrength};
 
 use super::{NEGATIVE_OR_NOT_FINITE, NOT_FINITE, NOT_POSITIVE_FINITE, assert_refused, error_with};
 
@@ -35,6 +35,63 @@ fn laws_and_schemes_refuse_bad_numbers() {
         sand.with_wall_friction(x)
     });
     assert_refused("theta", &[0.0, 0.49, 1.01, f64::NAN], Theta::new);
+}
+
+#[test]
+fn footings_refuse_bad_numbers() {
+    assert_refused("side of a footing along x", &NOT_POSITIVE_FINITE, |x| {
+        ShallowFooting::rectangle([x, 1.0])
+    });
+    assert_refused("side of a footing along y", &NOT_POSITIVE_FINITE, |x| {
+        ShallowFooting::rectangle([1.0, x])
+    });
+    assert_refused("diameter", &NOT_POSITIVE_FINITE, ShallowFooting::circle);
+    assert_refused("width of a strip", &NOT_POSITIVE_FINITE, ShallowFooting::strip);
+    assert_refused("friction angle", &[-0.1, 1.6, f64::NAN], BearingFactors::new);
+    assert_refused("factor of the unit weight", &[f64::INFINITY], |_| {
+        BearingFactors::new(std::f64::consts::FRAC_PI_2.next_down())
+    });
+    let footing = ShallowFooting::rectangle([2.0, 3.0]).unwrap();
+    assert_refused("pressure of the soil beside", &NEGATIVE_OR_NOT_FINITE, |x| {
+        footing.with_surcharge(x)
+    });
+    assert_refused("eccentricity", &[1.0, -1.0, f64::NAN, f64::INFINITY], |x| {
+        footing.with_eccentricity([x, 0.0])
+    });
+    let circle = ShallowFooting::circle(2.0).unwrap();
+    assert_refused("eccentricity", &[0.1], |x| circle.with_eccentricity([0.0, x]));
+    assert_refused("tilt of the base", &[-0.1, 0.8, f64::NAN], |x| footing.with_base_tilt(x));
+    let load = FootingLoad { vertical: 1e5, horizontal: [0.0; 2] };
+    assert_refused("vertical force", &NEGATIVE_OR_NOT_FINITE, |vertical| {
+        footing.with_load(FootingLoad { vertical, ..load })
+    });
+    assert_refused("horizontal force", &NOT_FINITE, |x| {
+        footing.with_load(FootingLoad { horizontal: [0.0, x], ..load })
+    });
+    let sand = SoilStrength::new(0.6).unwrap();
+    assert_refused("unit weight", &NEGATIVE_OR_NOT_FINITE, |x| footing.drained_pressure(&sand, x));
+    assert_refused("unit weight", &NEGATIVE_OR_NOT_FINITE, |x| footing.pressure_growth(&sand, x));
+    assert_refused("friction angle of drained soil", &[0.0], |x| {
+        footing.drained_pressure(&SoilStrength::new(x).unwrap(), 1e4)
+    });
+    // On weightless sand without a surcharge.
+    assert_refused("bearing pressure", &[0.0], |x| footing.drained_pressure(&sand, x));
+    assert_refused("horizontal force", &[1e5, 2e5], |x| {
+        let pushed = footing.with_load(FootingLoad { horizontal: [x, 0.0], ..load }).unwrap();
+        pushed.drained_pressure(&sand, 1e4)
+    });
+    assert_refused("undrained strength", &NOT_POSITIVE_FINITE, |x| footing.undrained_pressure(x));
+    assert_refused("horizontal force", &[1e5], |x| {
+        let pushed = footing.with_load(FootingLoad { horizontal: [x, 0.0], ..load }).unwrap();
+        pushed.undrained_pressure(1e4)
+    });
+    let tilted = footing.with_base_tilt(0.7).unwrap();
+    assert_refused("tilt of the base", &[0.7], |_| {
+        tilted.drained_pressure(&SoilStrength::new(1.0).unwrap(), 1e4)
+    });
+    assert_refused("vertical force", &NOT_POSITIVE_FINITE, |x| footing.rocking_capacity(x, 1e5));
+    assert_refused("bearing pressure", &NOT_POSITIVE_FINITE, |x| footing.rocking_capacity(1e5, x));
+    assert_refused("vertical force", &[6.1e5], |x| footing.rocking_capacity(x, 1e5));
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod reduced;
 mod refused;
 mod result_pictures;
 mod results;
+mod rocking_footing;
 mod sections;
 mod several;
 mod shells;

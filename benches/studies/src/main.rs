@@ -31,6 +31,7 @@ mod paper_scheme;
 mod passivity;
 mod performance;
 mod precision;
+mod rocking_footing;
 mod stability;
 mod validation;
 
@@ -65,6 +66,7 @@ enum Study {
     Mats(mats::MatsOptions),
     Elements(elements::ElementsOptions),
     Embedded(embedded::EmbeddedOptions),
+    RockingFooting(rocking_footing::RockingFootingOptions),
 }
 
 fn main() -> ExitCode {
@@ -93,6 +95,7 @@ fn main() -> ExitCode {
         Study::Mats(options) => mats::run(&options),
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
+        Study::RockingFooting(options) => rocking_footing::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -178,6 +178,80 @@ class BaseFaces:
     def __iter__(self) -> Iterator[list[BaseNode]]: ...
 
 @final
+class BearingFactors:
+    """Bearing capacity factors of drained soil of a ``friction_angle`` (rad) under a rough strip, by EN 1997-1:2004, D.4."""
+
+    def __new__(cls, friction_angle: float) -> Self: ...
+    @property
+    def cohesion(self) -> float:
+        """N_c of the cohesion, a number; π + 2 without friction."""
+    @property
+    def surcharge(self) -> float:
+        """N_q of the pressure of the soil beside the base, a number."""
+    @property
+    def unit_weight(self) -> float:
+        """N_γ of the weight of the soil below the base, a number."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class ShallowFooting:
+    """Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D, without partial factors: of a rectangle, or
+    `circle`.
+
+    ``sides`` along x and y (m); with ``math.inf`` along y it is a strip, whose forces are per metre. ``surcharge``: vertical
+    pressure of the soil beside the base at its level (Pa; 0 by default), unit weight times depth. ``eccentricity`` of the
+    load along x and y (m; (0, 0) by default). ``vertical_force`` and ``horizontal_force`` (along x and y) of a load whose
+    inclination reduces the capacity (N; 0 by default). ``base_tilt`` of the base against the horizontal (rad; 0 by default).
+
+    The drained pressure is the bearing pressure of `Yielding`.
+    """
+
+    def __new__(
+        cls,
+        sides: Sequence[float],
+        *,
+        surcharge: float = 0.0,
+        eccentricity: tuple[float, float] = (0.0, 0.0),
+        vertical_force: float = 0.0,
+        horizontal_force: tuple[float, float] = (0.0, 0.0),
+        base_tilt: float = 0.0,
+    ) -> Self: ...
+    @staticmethod
+    def circle(
+        diameter: float,
+        *,
+        surcharge: float = 0.0,
+        vertical_force: float = 0.0,
+        horizontal_force: tuple[float, float] = (0.0, 0.0),
+        base_tilt: float = 0.0,
+    ) -> ShallowFooting:
+        """Circle of a ``diameter`` (m), loaded in its middle. ``surcharge``, ``vertical_force``, ``horizontal_force`` and
+        ``base_tilt`` are as in the constructor.
+        """
+    @property
+    def effective_sides(self) -> list[float]:
+        """Effective sides along x and y, m."""
+    @property
+    def effective_area(self) -> float:
+        """Effective area, m²; of a strip its effective width, m²/m."""
+    def drained_pressure(self, strength: SoilStrength, unit_weight: float) -> float:
+        """Bearing pressure (Pa) of drained soil of a ``strength`` (`SoilStrength`) on the effective area. ``unit_weight`` of the
+        soil below the base, N/m³.
+        """
+    def pressure_growth(self, strength: SoilStrength, unit_weight: float) -> float:
+        """Growth of the drained bearing pressure as the base sinks (Pa/m), for a ``strength`` and ``unit_weight`` as in
+        `drained_pressure`: N_q times the unit weight, and the factors of shape, inclination and tilt.
+        """
+    def undrained_pressure(self, undrained_strength: float) -> float:
+        """Bearing pressure (Pa) of undrained soil of an ``undrained_strength`` (Pa) on the effective area."""
+    def rocking_capacity(self, vertical_force: float, bearing_pressure: float) -> tuple[float, list[float]]:
+        """Critical contact area over the area of the base, and the moments (N·m) that make the footing rock along x and along y
+        under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2 (1 − A_c/A) (Gajan and
+        Kutter 2008).
+        """
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
 class _CaseFile:
     """The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run."""
 
@@ -2568,8 +2642,8 @@ class Soil:
 
 @final
 class SoilStrength:
-    """Strength of the soil beside a wall, for `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion`` (Pa; 0
-    by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+    """Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion``
+    (Pa; 0 by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
 
     Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
     passive pressure.

@@ -31,6 +31,7 @@ pub mod prescribed;
 pub mod profiles;
 pub mod rigid_strip;
 pub mod rocking;
+pub mod rocking_footing;
 pub mod sampled_block;
 pub mod scenes;
 pub mod space_beams;

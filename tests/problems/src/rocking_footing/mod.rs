@@ -1,0 +1,88 @@
+//! The slow cyclic test SSG02_03 of a footing that rocks on dry sand: measured, and computed with any interface law.
+//!
+//! `tests/data/rocking/README.md` has the source of the rows, their licence, and the facts of the test.
+
+mod measured;
+mod slow_test;
+
+pub use measured::measured_packets;
+pub use slow_test::{SlowRockingRun, SlowRockingTest};
+
+/// Sides of the base along the load and across it, m.
+pub const FOOTING_SIDES: [f64; 2] = [2.8, 0.65];
+/// Force P on the soil, N.
+pub const VERTICAL_FORCE: f64 = 285.0e3;
+/// Height of the actuator above the base, m.
+pub const ACTUATOR_HEIGHT: f64 = 4.9;
+/// Height of the centre of gravity above the base, m: P Δ of the measured moments.
+pub const GRAVITY_CENTER_HEIGHT: f64 = 4.52;
+/// Bearing pressure of the sand under the footing, Pa.
+pub const BEARING_PRESSURE: f64 = 814.0e3;
+/// kg/m³.
+pub const SAND_DENSITY: f64 = 1657.0;
+/// Cycles of a packet.
+pub const CYCLES_PER_PACKET: usize = 3;
+
+/// The footing at an instant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FootingRow {
+    /// V/P.
+    pub shear: f64,
+    /// 2M/(P L) about the middle of the base.
+    pub moment: f64,
+    /// s/L, down positive, of the middle of the base.
+    pub settlement: f64,
+    /// u/L.
+    pub sliding: f64,
+    /// rad.
+    pub rotation: f64,
+}
+
+/// Three cycles of one amplitude.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RockingPacket {
+    pub name: String,
+    pub rows: Vec<FootingRow>,
+}
+
+impl RockingPacket {
+    /// Half the range of 2M/(P L): the mean of the moments both ways.
+    pub fn moment(&self) -> f64 {
+        self.half_range(|row| row.moment)
+    }
+
+    /// Half the range of the rotation, rad.
+    pub fn rotation_amplitude(&self) -> f64 {
+        self.half_range(|row| row.rotation)
+    }
+
+    /// s/L at the end.
+    pub fn settlement(&self) -> f64 {
+        self.rows.last().map_or(f64::NAN, |row| row.settlement)
+    }
+
+    /// ∫ M dθ over P L/2, by the trapezoidal rule.
+    pub fn dissipated_energy(&self) -> f64 {
+        let pairs = self.rows.windows(2);
+        pairs
+            .map(|pair| {
+                0.5 * (pair[0].moment + pair[1].moment) * (pair[1].rotation - pair[0].rotation)
+            })
+            .sum()
+    }
+
+    /// Equivalent viscous damping ratio of a cycle, ΔW/(2π M θ) with the amplitudes of the packet.
+    ///
+    /// ΔW is a third of the packet's energy. Packets do not end at the load of their beginning, so that stored energy is a
+    /// part of it.
+    pub fn equivalent_damping(&self) -> f64 {
+        let cycle_energy = self.dissipated_energy() / CYCLES_PER_PACKET as f64;
+        cycle_energy / (std::f64::consts::TAU * self.moment() * self.rotation_amplitude())
+    }
+
+    fn half_range(&self, value: impl Fn(&FootingRow) -> f64) -> f64 {
+        let highest = self.rows.iter().map(&value).fold(f64::NEG_INFINITY, f64::max);
+        let lowest = self.rows.iter().map(&value).fold(f64::INFINITY, f64::min);
+        0.5 * (highest - lowest)
+    }
+}
