@@ -24,14 +24,14 @@ pub enum StepError {
         /// 65 536 sets.
         sets: Option<usize>,
     },
-    /// In plan: no contact forces were found that satisfy the interface laws.
+    /// In plan, or on soil that hardens: no contact forces were found that satisfy the interface laws.
     #[error(
         "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
          (`analyses::largest_convergent_step` finds a time step that gets through)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Number of sweeps and Newton iterations, including the proximal method's.
+        /// Number of sweeps and Newton iterations, including the proximal method's; on soil that hardens, of its tangents.
         iterations: usize,
         /// Largest difference of an element's force from the force that its law allows at its displacement,
         /// relative to the largest force.
