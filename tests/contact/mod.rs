@@ -3,6 +3,7 @@
 mod adhesion;
 mod chatter;
 mod contact_problems;
+mod cyclic_yielding;
 mod earth_pressure;
 mod events;
 mod extreme_layers;

@@ -27,6 +27,8 @@ mod refused;
 mod result_pictures;
 mod results;
 mod sections;
+mod settling;
+mod settling_scenes;
 mod several;
 mod shells;
 mod slabs;

@@ -33,6 +33,8 @@ pub mod rigid_strip;
 pub mod rocking;
 pub mod sampled_block;
 pub mod scenes;
+pub mod settling_law;
+pub mod settling_strips;
 pub mod space_beams;
 pub mod stiff_element;
 pub mod supported;
