@@ -10,7 +10,7 @@ use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::{HistoryMethod, HistoryOptions};
-use basemat::interface::{Bonded, Cohesive, InPlane, InterfaceLaw, Yielding};
+use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
@@ -168,6 +168,12 @@ fn bonded_tower() -> SimulationBuilder {
     base().structure(tower(SI_UNITS, None)).interface(Bonded)
 }
 
+/// Soil that settles in every cycle.
+fn cyclic_yielding() -> CyclicYielding {
+    let law = CyclicYielding::new(4e5, 3e-3, 0.3).unwrap();
+    law.with_elastic_range(0.1).unwrap().with_depth_gradient(1e6).unwrap()
+}
+
 /// Scenes in the plane.
 fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
     let modes = Coordinates::Modes;
@@ -199,6 +205,7 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
                 .load(Load::new(0, |t: f64| 3e4 * (40.0 * t).sin()))
                 .load(Load::table([(1, 2.0)], &[0.0, 0.5, 9.0], &[0.0, 1e4, 0.0]).unwrap()),
         ),
+        ("cyclic yielding", base().structure(block.clone()).interface(cyclic_yielding())),
         (
             "loads, modes",
             sliding_tower()
@@ -218,6 +225,9 @@ fn plan_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ("plan, bed", on_a_bed(friction(0.3))),
         ("plan, bed, uplift", on_a_bed(friction(f64::INFINITY))),
         ("plan, yielding", in_plan(Yielding::new(2.5e5, 0.3).unwrap())),
+        ("plan, cyclic yielding", in_plan(cyclic_yielding())),
+        ("plan, bed, cyclic yielding", on_a_bed(cyclic_yielding())),
+        ("plan, many cells, cyclic yielding", on_many_cells(cyclic_yielding())),
         ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
     ]
 }

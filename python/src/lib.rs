@@ -82,8 +82,8 @@ mod _core {
             PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,
         },
         interface::{
-            PyBonded, PyCohesive, PyCoulomb, PyEarthPressure, PyInterfaceLaw, PyThinLayer,
-            PyVariableFriction, PyYielding,
+            PyBonded, PyCohesive, PyCoulomb, PyCyclicYielding, PyEarthPressure, PyInterfaceLaw,
+            PyThinLayer, PyVariableFriction, PyYielding,
         },
         motion::{
             PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,

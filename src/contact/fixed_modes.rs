@@ -73,6 +73,7 @@ impl FixedModeSolver {
             laws,
             length_scale: 0.0,
             bonds: &[],
+            trial_settlements: &[],
             frictionless: false,
         };
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
@@ -218,6 +219,11 @@ impl FixedModeSolver {
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
             traction[i] = *value;
         }
+    }
+
+    /// Whether an element yields in a `mode` of the last trial on soil whose pressure grows with the settlement.
+    pub(super) fn hardens(&self, element: usize, mode: Mode) -> bool {
+        mode.is_yield() && self.conditions[element][0].gap != 0.0
     }
 
     /// Tolerance of comparisons, from the rounding of the last trial.

@@ -8,6 +8,7 @@ mod contact_problem;
 mod delassus;
 mod element;
 mod fixed_modes;
+mod linearisation;
 mod on_bed;
 mod path;
 mod problem;

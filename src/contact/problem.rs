@@ -12,8 +12,8 @@
 use super::delassus::Delassus;
 use crate::error::{Error, LawError};
 use crate::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
-    law_of,
+    Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, PreviousContacts,
+    Tolerance, law_of,
 };
 
 /// State of an element's bond in the search for the modes of a step.
@@ -44,6 +44,8 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
+    /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
+    pub(crate) trial_settlements: &'a [f64],
     /// In plan, whether friction and cohesion are left out, as while the weight comes on.
     pub(crate) frictionless: bool,
 }
@@ -64,7 +66,23 @@ impl ContactInput<'_> {
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.element(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
+        if let Some(settlement) = self.trial_settlements.get(element) {
+            start.trial_settlement = *settlement;
+        }
         start
+    }
+
+    /// Limits of an element's law, linearised at a settlement in the step (m), and checked.
+    pub(super) fn limits(&self, element: usize, settlement: f64) -> Result<Limits, LawError> {
+        let mut start = self.start.element(element);
+        start.trial_settlement = settlement;
+        let mode = start.mode.word();
+        let limits = self
+            .law(element)
+            .limits(&start)
+            .and_then(Limits::checked)
+            .map_err(|reason| LawError { element, mode, reason: Box::new(reason) })?;
+        Ok(if self.frictionless { limits.frictionless() } else { limits })
     }
 
     /// Modes allowed for an element.

@@ -46,6 +46,8 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
+    /// Settlements at which the laws are linearised, m.
+    trial_settlements: Vec<f64>,
     /// Number of trials of this search so far.
     trials: usize,
     /// Number of all sets of modes, if the last search tried all of them without success.
@@ -64,6 +66,7 @@ impl ModeSearch {
             path: Path::new(count),
             bonds: vec![Bond::Free; count],
             overloads: Vec::with_capacity(count),
+            trial_settlements: vec![0.0; count],
             trials: 0,
             sets: None,
             search,
@@ -84,13 +87,11 @@ impl ModeSearch {
         if is_bonded && self.solver.trial(input, modes)? {
             return Ok((1, SearchMethod::ActiveSet));
         }
-        let mut bonds = std::mem::take(&mut self.bonds);
-        let found = self.break_bonds(input, modes, &mut bonds);
-        self.bonds = bonds;
-        match found? {
-            Some(method) => Ok((self.trials, method)),
-            None => Err(self.failure(input, modes)),
-        }
+        let mut trial_settlements = std::mem::take(&mut self.trial_settlements);
+        trial_settlements.fill(0.0);
+        let method = self.follow_curves(input, modes, &mut trial_settlements);
+        self.trial_settlements = trial_settlements;
+        Ok((self.trials, method?))
     }
 
     /// Finds modes with all bonds intact, breaks the most overloaded bonds, and repeats.
@@ -347,5 +348,6 @@ impl ModeSearch {
     }
 }
 
+mod curves;
 #[cfg(test)]
 mod tests;

@@ -9,16 +9,19 @@ use crate::error::{Error, Result, finite, not_negative, require};
 ///
 /// | | |
 /// |---|---|
-/// | pressure p | −`tension` ≤ p ≤ `pressure_cap` |
-/// | gap g | `gap_offset` or more where p = −`tension`, less where p is at the cap, else `gap_offset` |
+/// | pressure p | −`tension` ≤ p ≤ `pressure_cap` + `hardening` · settlement |
+/// | gap g | `gap_offset` or more where p = −`tension`, less where p is at the upper bound, else `gap_offset` |
+/// | settlement | `gap_offset` − g ≥ 0 of soil that yields; 0 else |
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
 /// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane an
 /// element that slides under more tension than its attraction opens.
 /// Elastic layers are in addition to these limits: see
-/// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. The default is
-/// frictionless and hard contact.
+/// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. Hardening is linear in a step; a law
+/// whose pressure is a curve returns the tangent at
+/// [`PreviousContact::trial_settlement`](super::PreviousContact::trial_settlement). The default is frictionless and hard
+/// contact.
 ///
 /// ```
 /// use basemat::interface::{Coulomb, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
@@ -41,8 +44,11 @@ pub struct Limits {
     pub shear_strength: f64,
     /// Tensile strength, Pa.
     pub tension: f64,
-    /// Largest pressure, Pa; infinite if there is no bound.
+    /// Largest pressure of soil that does not settle in the step, Pa; infinite if there is no bound.
     pub pressure_cap: f64,
+    /// Growth of the largest pressure with the settlement of the soil in the step, Pa/m; zero or more.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub hardening: f64,
     /// Gap of a closed element, m; −∞ if the element cannot close in this step.
     pub gap_offset: f64,
     /// Whether base and soil neither separate nor slide, for any tractions.
@@ -57,6 +63,7 @@ impl Default for Limits {
             shear_strength: 0.0,
             tension: 0.0,
             pressure_cap: f64::INFINITY,
+            hardening: 0.0,
             gap_offset: 0.0,
             bonded: false,
         }
@@ -97,6 +104,7 @@ impl Limits {
         not_negative("attraction of the interface", self.attraction)?;
         not_negative("shear strength of the interface", self.shear_strength)?;
         not_negative("tensile strength of the interface", self.tension)?;
+        not_negative("hardening of the soil", self.hardening)?;
         if self.gap_offset != f64::NEG_INFINITY {
             finite("gap of a closed element", self.gap_offset)?;
         }
@@ -129,11 +137,22 @@ impl Limits {
             return open;
         }
         let yields = mode.is_yield() && self.pressure_cap.is_finite();
-        let normal = if yields { Condition::pressure_is(self.pressure_cap) } else { closed };
+        let normal = if yields { self.yield_condition(compliance[0]) } else { closed };
         match mode.elastic() {
             Mode::SlipRight => [normal, self.slip_condition(1.0)],
             Mode::SlipLeft => [normal, self.slip_condition(-1.0)],
             _ => [normal, sticks],
+        }
+    }
+
+    /// p = cap + hardening · settlement, with the settlement of the soil below a layer of this normal `compliance`.
+    fn yield_condition(&self, compliance: f64) -> Condition {
+        let Self { pressure_cap, hardening, gap_offset, .. } = *self;
+        Condition {
+            gap: hardening,
+            pressure: 1.0 + hardening * compliance,
+            value: pressure_cap + hardening * gap_offset,
+            ..Condition::default()
         }
     }
 

@@ -8,6 +8,7 @@
 mod cohesive;
 mod condition;
 mod coulomb;
+mod cyclic_yielding;
 mod earth_pressure;
 mod law_form;
 mod limits;
@@ -23,6 +24,7 @@ pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
+pub use cyclic_yielding::CyclicYielding;
 pub use earth_pressure::EarthPressure;
 pub(crate) use law_form::LawForm;
 pub use limits::Limits;

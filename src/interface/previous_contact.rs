@@ -26,6 +26,13 @@ pub struct PreviousContact<'a> {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
+    /// Settlement of the yielding soil in the present trial of the step, m; zero in its first trial.
+    ///
+    /// A law whose pressure is a curve over the settlement returns the curve's tangent at it, as
+    /// [`Limits::pressure_cap`](super::Limits::pressure_cap) and [`Limits::hardening`](super::Limits::hardening). The step
+    /// is solved again until the pressure is on the curve. The curve rises, and its slope falls. Other laws need not use
+    /// it: with a hardening of zero at a settlement of zero there is no other trial.
+    pub trial_settlement: f64,
     /// State variables of the law for this element ([`InterfaceLaw::state_variables`]); empty for a
     /// law without state variables.
     pub state_variables: &'a [f64],
@@ -56,6 +63,7 @@ impl<'a> PreviousContact<'a> {
             slip_rate: 0.0,
             static_pressure: state.pressure,
             time_step,
+            trial_settlement: 0.0,
             state_variables: &[],
         }
     }
@@ -71,7 +79,6 @@ impl<'a> PreviousContact<'a> {
 
     fn without_state_variables(&self) -> PreviousContact<'static> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = *self;
-        let state_variables = &[];
         PreviousContact {
             state,
             mode,
@@ -79,7 +86,8 @@ impl<'a> PreviousContact<'a> {
             slip_rate,
             static_pressure,
             time_step,
-            state_variables,
+            trial_settlement: 0.0,
+            state_variables: &[],
         }
     }
 

@@ -4,6 +4,7 @@ mod adhesion;
 mod bearing_capacity;
 mod chatter;
 mod contact_problems;
+mod cyclic_yielding;
 mod earth_pressure;
 mod events;
 mod extreme_layers;

@@ -15,8 +15,8 @@ use basemat::coupled::{
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::HistoryMethod;
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, UnilateralCondition,
-    Yielding,
+    Bonded, Cohesive, Coulomb, CyclicYielding, FrictionLimit, Mode, SlipSense, ThinLayer,
+    UnilateralCondition, Yielding,
 };
 use basemat::motion::{
     AccelerationUnit, AfadFormat, AlongLinesFormat, Baseline, ColumnFormat, CosmosFormat,
@@ -166,6 +166,20 @@ fn interface_laws() {
         json!({"bearing_pressure": 0.0, "friction": 0.6}),
         "bearing pressure",
     );
+    let law = CyclicYielding::new(3e5, 5e-3, f64::INFINITY).unwrap();
+    let mut form = json!({
+        "bearing_pressure": 3e5, "reference_settlement": 5e-3, "elastic_range": 1.0,
+        "depth_gradient": 0.0, "friction": "inf",
+    });
+    assert_form(&law, form.clone());
+    form["elastic_range"] = json!(0.0);
+    assert_refused::<CyclicYielding>(form.clone(), "elastic range");
+    form["elastic_range"] = json!(0.1);
+    form["depth_gradient"] = json!(-1.0);
+    assert_refused::<CyclicYielding>(form.clone(), "growth of the bearing pressure");
+    form["depth_gradient"] = json!(1e6);
+    form["reference_settlement"] = json!(-1.0);
+    assert_refused::<CyclicYielding>(form, "reference settlement");
     let layer = ThinLayer::from_stiffness(1e9, 3e8, 0.4).unwrap();
     assert_round_trip(&layer);
     let layer = layer.with_thickness_ratio(0.1).unwrap().with_debonded_ratio(0.0).unwrap();

@@ -22,12 +22,13 @@ fn valid() -> Limits {
     Limits { friction: 0.4, ..Limits::default() }
 }
 
-const WRONG_LIMITS: [WrongLimit; 6] = [
+const WRONG_LIMITS: [WrongLimit; 7] = [
     ("friction coefficient", NOT_A_COEFFICIENT, |friction| Limits { friction, ..valid() }),
     ("greatest pressure", NOT_A_COEFFICIENT, |pressure_cap| Limits { pressure_cap, ..valid() }),
     ("attraction", NOT_A_STRENGTH, |attraction| Limits { attraction, ..valid() }),
     ("shear strength", NOT_A_STRENGTH, |shear_strength| Limits { shear_strength, ..valid() }),
     ("tensile strength", NOT_A_STRENGTH, |tension| Limits { tension, ..valid() }),
+    ("hardening of the soil", NOT_A_STRENGTH, |hardening| Limits { hardening, ..valid() }),
     ("gap of a closed", &[f64::NAN, f64::INFINITY], |gap_offset| Limits {
         gap_offset,
         ..valid()

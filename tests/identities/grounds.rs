@@ -7,8 +7,8 @@ use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Ground, SharedKernels, SpringGround};
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, EarthPressure, InterfaceLaw, SlipSense, ThinLayer, VariableFriction,
-    Yielding,
+    Bonded, Cohesive, Coulomb, CyclicYielding, EarthPressure, InterfaceLaw, SlipSense, ThinLayer,
+    VariableFriction, Yielding,
 };
 use basemat::motion::{
     AtRest, FreeField, FreeFieldFn, PlaneWave, Record, RickerDisplacement, TravellingWave,
@@ -117,6 +117,12 @@ pub(crate) fn law(kind: LawPart, numbers: &Numbers, view: &View) -> Result<Box<d
         }
         LawPart::Cohesive => Box::new(Cohesive::new(0.3 * pressure, 0.5 * pressure, friction)?),
         LawPart::Yielding => Box::new(Yielding::new(4.0 * pressure, friction)?),
+        LawPart::Cyclic => {
+            let settlement = pressure / stiffness;
+            let law = CyclicYielding::new(4.0 * pressure, settlement, friction)?;
+            let law = law.with_elastic_range(0.2)?.with_depth_gradient(stiffness)?;
+            Box::new(law)
+        }
         // Soil that stands without the wall, so that the law suits the base too.
         LawPart::Earth => Box::new(EarthPressure::new(0.0, 6.0 * pressure, friction)?),
         LawPart::Layer => {

@@ -85,6 +85,7 @@ parts! {
         Tension, "Coulomb with tension", [Plane, Plan], ["Coulomb"];
         Cohesive, "cohesive", [Plane, Plan], ["Cohesive"];
         Yielding, "yielding", [Plane, Plan, Trench], ["Yielding"];
+        Cyclic, "cyclic yielding", [Plane, Plan, Trench], ["CyclicYielding"];
         Earth, "earth pressure", [Trench], ["EarthPressure"];
         Layer, "thin layer", [Plane, Plan], ["ThinLayer"];
         Varying, "variable friction", [Plane, Plan, Trench], ["VariableFriction"];

@@ -28,6 +28,8 @@ mod result_pictures;
 mod results;
 mod rocking_footing;
 mod sections;
+mod settling;
+mod settling_scenes;
 mod several;
 mod shells;
 mod slabs;

@@ -675,6 +675,29 @@ class Yielding(InterfaceLaw):
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
 
 @final
+class CyclicYielding(InterfaceLaw):
+    """Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and bears at most its
+    ``bearing_pressure`` (Pa).
+
+    Under virgin load half of that acts at the ``reference_settlement`` (m; 0 or more). ``elastic_range``: rise of pressure
+    without yielding, relative to the bearing pressure, above 0 and at most 1; 1, soil that remembers its largest pressure,
+    unless given. ``depth_gradient``: growth of the bearing pressure with the settlement, Pa/m; 0 unless given. State
+    variables of an element: settlement (m), and pressure above which it yields (Pa).
+    """
+
+    def __new__(
+        cls,
+        bearing_pressure: float,
+        reference_settlement: float,
+        friction: float,
+        *,
+        elastic_range: float = 1.0,
+        depth_gradient: float = 0.0,
+    ) -> Self: ...
+    def virgin_settlement(self, pressure: float) -> float:
+        """Settlement (m) of soil that has borne nothing before under a ``pressure`` (Pa), without the elastic ground."""
+
+@final
 class EarthPressure(InterfaceLaw):
     """Coulomb friction of a wall, of a coefficient ``friction``, on soil that follows a wall that moves away, at its
     ``active`` pressure (Pa), and yields to a wall that is pushed in, at its ``passive`` pressure (Pa).
@@ -3779,8 +3802,8 @@ class PreviousContact(ContactState):
     """An element at the start of a step: its `ContactState`, and the rest of its past.
 
     A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
-    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
-    ``state_variables`` (array of shape (m,); none unless given).
+    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by
+    default) and the law's ``state_variables`` (array of shape (m,); none unless given).
     """
 
     def __new__(
@@ -3790,6 +3813,7 @@ class PreviousContact(ContactState):
         time_step: float,
         *,
         slip_rate: float = 0.0,
+        trial_settlement: float = 0.0,
         state_variables: ArrayLike | None = None,
     ) -> Self: ...
     @property
@@ -3808,6 +3832,13 @@ class PreviousContact(ContactState):
     def time_step(self) -> float:
         """Time step, s."""
     @property
+    def trial_settlement(self) -> float:
+        """Settlement of the yielding soil in the present trial of the step, m; 0 in its first trial.
+
+        A law whose pressure is a curve over the settlement returns the curve's tangent there, as ``pressure_cap`` and
+        ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
+        """
+    @property
     def state_variables(self) -> list[float]:
         """State variables of the law: list of numbers."""
 
@@ -3815,7 +3846,8 @@ class PreviousContact(ContactState):
 class Limits:
     """Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
 
-    Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
+    Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default), which grows
+    by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step; the shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
     ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
     ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
@@ -3830,6 +3862,7 @@ class Limits:
         shear_strength: float = 0.0,
         tension: float = 0.0,
         pressure_cap: float = 1e999,
+        hardening: float = 0.0,
         gap_offset: float = 0.0,
         bonded: bool = False,
     ) -> Self: ...
@@ -3847,7 +3880,10 @@ class Limits:
         """Tensile strength, Pa."""
     @property
     def pressure_cap(self) -> float:
-        """Largest pressure, Pa."""
+        """Largest pressure of soil that does not settle in the step, Pa."""
+    @property
+    def hardening(self) -> float:
+        """Growth of the largest pressure with the settlement in the step, Pa/m."""
     @property
     def gap_offset(self) -> float:
         """Gap of a closed element, m."""

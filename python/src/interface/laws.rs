@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, EarthPressure, PreviousContact, ThinLayer, UnilateralCondition,
+    Bonded, Cohesive, Coulomb, CyclicYielding, EarthPressure, PreviousContact, ThinLayer, UnilateralCondition,
     VariableFriction, Yielding,
 };
 use pyo3::prelude::*;
@@ -85,6 +85,40 @@ impl PyYielding {
     fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self))
+    }
+}
+
+/// Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and bears at most its
+/// ``bearing_pressure`` (Pa).
+///
+/// Under virgin load half of that acts at the ``reference_settlement`` (m; 0 or more). ``elastic_range``: rise of pressure
+/// without yielding, relative to the bearing pressure, above 0 and at most 1; 1, soil that remembers its largest pressure,
+/// unless given. ``depth_gradient``: growth of the bearing pressure with the settlement, Pa/m; 0 unless given. State
+/// variables of an element: settlement (m), and pressure above which it yields (Pa).
+#[pyclass(name = "CyclicYielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
+pub(crate) struct PyCyclicYielding(CyclicYielding);
+
+#[pymethods]
+impl PyCyclicYielding {
+    #[pyo3(signature = (bearing_pressure, reference_settlement, friction, *, elastic_range=1.0, depth_gradient=0.0))]
+    #[new]
+    fn new(
+        bearing_pressure: f64,
+        reference_settlement: f64,
+        friction: f64,
+        elastic_range: f64,
+        depth_gradient: f64,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let law = CyclicYielding::new(bearing_pressure, reference_settlement, friction)
+            .and_then(|law| law.with_elastic_range(elastic_range))
+            .and_then(|law| law.with_depth_gradient(depth_gradient))
+            .or_raise()?;
+        Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self(law)))
+    }
+
+    /// Settlement (m) of soil that has borne nothing before under a ``pressure`` (Pa), without the elastic ground.
+    fn virgin_settlement(&self, pressure: f64) -> f64 {
+        self.0.virgin_settlement(pressure)
     }
 }
 

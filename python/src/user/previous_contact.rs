@@ -66,8 +66,8 @@ impl PyContactState {
 /// An element at the start of a step: its `ContactState`, and the rest of its past.
 ///
 /// A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
-/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
-/// ``state_variables`` (array of shape (m,); none unless given).
+/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by
+/// default) and the law's ``state_variables`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
     /// Previous contact, without the law's state variables.
@@ -81,6 +81,7 @@ impl PyPreviousContact {
         previous.has_opened = start.has_opened;
         previous.slip_rate = start.slip_rate;
         previous.static_pressure = start.static_pressure;
+        previous.trial_settlement = start.trial_settlement;
         let state_variables = start.state_variables.to_vec();
         let base = PyClassInitializer::from(PyContactState(start.state));
         Py::new(py, base.add_subclass(Self { previous, state_variables }))
@@ -96,17 +97,19 @@ impl PyPreviousContact {
 
 #[pymethods]
 impl PyPreviousContact {
-    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, state_variables=None))]
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, trial_settlement=0.0, state_variables=None))]
     #[new]
     fn new(
         state: &PyContactState,
         mode: &str,
         time_step: f64,
         slip_rate: f64,
+        trial_settlement: f64,
         state_variables: Option<Numbers>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mut previous = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
         previous.slip_rate = slip_rate;
+        previous.trial_settlement = trial_settlement;
         let state_variables = state_variables.map_or_else(Vec::new, |numbers| numbers.0);
         let base = PyClassInitializer::from(PyContactState(state.0));
         Ok(base.add_subclass(Self { previous, state_variables }))
@@ -142,6 +145,15 @@ impl PyPreviousContact {
         self.previous.time_step
     }
 
+    /// Settlement of the yielding soil in the present trial of the step, m; 0 in its first trial.
+    ///
+    /// A law whose pressure is a curve over the settlement returns the curve's tangent there, as ``pressure_cap`` and
+    /// ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
+    #[getter]
+    fn trial_settlement(&self) -> f64 {
+        self.previous.trial_settlement
+    }
+
     /// State variables of the law: list of numbers.
     #[getter]
     fn state_variables(&self) -> Vec<f64> {
@@ -151,7 +163,8 @@ impl PyPreviousContact {
 
 /// Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
 ///
-/// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
+/// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default), which grows
+/// by ``hardening`` (Pa/m; 0 by default) with the settlement of yielding soil in the step; the shear
 /// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
 /// ``shear_strength`` (Pa, both 0 by default), and slip is along it. ``gap_offset`` (m; 0 by default): gap of a closed element,
 /// ``-math.inf`` for one that cannot close in this step. ``bonded`` (False by default): neither separates nor slides. An
@@ -163,8 +176,8 @@ pub(crate) struct PyLimits(pub(crate) Limits);
 #[pymethods]
 impl PyLimits {
     #[pyo3(
-        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, gap_offset=0.0, bonded=false),
-        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, gap_offset=0.0, bonded=False)"
+        signature = (friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=f64::INFINITY, hardening=0.0, gap_offset=0.0, bonded=false),
+        text_signature = "(friction=0.0, *, attraction=0.0, shear_strength=0.0, tension=0.0, pressure_cap=1e999, hardening=0.0, gap_offset=0.0, bonded=False)"
     )]
     #[new]
     fn new(
@@ -173,6 +186,7 @@ impl PyLimits {
         shear_strength: f64,
         tension: f64,
         pressure_cap: f64,
+        hardening: f64,
         gap_offset: f64,
         bonded: bool,
     ) -> Self {
@@ -182,6 +196,7 @@ impl PyLimits {
             shear_strength,
             tension,
             pressure_cap,
+            hardening,
             gap_offset,
             bonded,
         })
@@ -211,10 +226,16 @@ impl PyLimits {
         self.0.tension
     }
 
-    /// Largest pressure, Pa.
+    /// Largest pressure of soil that does not settle in the step, Pa.
     #[getter]
     fn pressure_cap(&self) -> f64 {
         self.0.pressure_cap
+    }
+
+    /// Growth of the largest pressure with the settlement in the step, Pa/m.
+    #[getter]
+    fn hardening(&self) -> f64 {
+        self.0.hardening
     }
 
     /// Gap of a closed element, m.

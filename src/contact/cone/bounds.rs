@@ -1,5 +1,9 @@
 //! Bounds of an element's force: pressure, friction, strength.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+
+use super::status::Normal;
+
 /// Friction coefficient that replaces infinite friction on an element with a bond, and in methods that need a disc.
 pub(super) const SUBSTITUTED_FRICTION: f64 = 1e4;
 
@@ -14,8 +18,10 @@ pub(super) struct Bounds {
     pub(super) attraction: f64,
     /// Shear force that adds to friction, N.
     pub(super) strength: f64,
-    /// Smallest and largest p, N.
+    /// Smallest and largest p, N; the latter of soil that does not settle.
     pub(super) interval: [f64; 2],
+    /// Growth of the largest p with the settlement, N/m.
+    pub(super) hardening: f64,
     /// Gap when closed, m.
     pub(super) offset: f64,
     /// Whether the element neither slides nor opens.
@@ -29,6 +35,7 @@ impl Bounds {
         attraction: 0.0,
         strength: 0.0,
         interval: [0.0, f64::INFINITY],
+        hardening: 0.0,
         offset: 0.0,
         bonded: false,
     };
@@ -68,9 +75,29 @@ impl Bounds {
         Self { attraction: 0.0, strength: 0.0, interval, ..self }
     }
 
-    /// Projects a trial p on its interval.
-    pub(super) fn project_pressure(&self, p: f64) -> f64 {
-        if self.bonded { p } else { p.max(self.interval[0]).min(self.interval[1]) }
+    /// Projects a trial p with the stiffness ρ on its interval, which settlement widens.
+    #[inline(always)]
+    pub(super) fn project_pressure(&self, p: f64, stiffness: f64) -> f64 {
+        if self.bonded {
+            return p;
+        }
+        let projected = p.max(self.interval[0]).min(self.interval[1]);
+        let excess = p - self.interval[1];
+        if self.hardening > 0.0 && excess > 0.0 {
+            projected + excess * self.hardening_fraction(stiffness)
+        } else {
+            projected
+        }
+    }
+
+    /// Part of a trial's excess over the largest p that hardening soil bears, for the stiffness ρ.
+    pub(super) fn hardening_fraction(&self, stiffness: f64) -> f64 {
+        if self.hardening > 0.0 { 1.0 / (1.0 + stiffness / self.hardening) } else { 0.0 }
+    }
+
+    /// Status along the normal of an element at its largest p.
+    pub(super) fn status_at_cap(&self) -> Normal {
+        if self.hardening > 0.0 { Normal::Hardening(self.hardening) } else { Normal::Capped }
     }
 
     /// Projects a trial t of this `size` on the disc of the projected p.

@@ -23,6 +23,9 @@ pub(super) struct Group {
     /// Smallest and largest p, and the gap when closed.
     pub(super) interval: [Lane; 2],
     pub(super) offset: Lane,
+    /// Part of a trial's excess over the largest p that hardening soil bears, and whether any is above zero.
+    pub(super) hardening_fraction: Lane,
+    pub(super) hardens: bool,
     /// Friction, and forces that add to p and to the radius.
     pub(super) friction: Lane,
     pub(super) attraction: Lane,
@@ -41,6 +44,8 @@ impl Group {
             turned: [zero; 2],
             interval: [zero; 2],
             offset: zero,
+            hardening_fraction: zero,
+            hardens: false,
             friction: zero,
             attraction: zero,
             strength: zero,
@@ -93,7 +98,12 @@ impl Group {
         let gap = simd.sub_f64s(y[0], read::<S>(&self.offset, part));
         let trial = simd.sub_f64s(start[0], simd.mul_f64s(read::<S>(&self.rho[0], part), gap));
         let p = simd.max_f64s(trial, read::<S>(&self.interval[0], part));
-        let mut r = [simd.min_f64s(p, read::<S>(&self.interval[1], part)), zero, zero];
+        let cap = read::<S>(&self.interval[1], part);
+        let mut r = [simd.min_f64s(p, cap), zero, zero];
+        if self.hardens {
+            let excess = simd.max_f64s(simd.sub_f64s(p, cap), zero);
+            r[0] = simd.mul_add_e_f64s(read::<S>(&self.hardening_fraction, part), excess, r[0]);
+        }
         let pressed = simd.sub_f64s(r[0], start[0]);
         let rho = read::<S>(&self.rho[1], part);
         for k in 1..3 {

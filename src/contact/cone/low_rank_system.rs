@@ -12,7 +12,7 @@
 
 use super::low_rank::LowRank;
 use super::problem::{Bounds, ConeProblem};
-use super::status::{Status, Tangential};
+use super::status::{Normal, Status, Tangential};
 use crate::linalg::DenseFactor;
 
 /// Corrections of an element: δr₀ and M.
@@ -40,6 +40,13 @@ impl PressureResponse {
         diagonal: f64,
         is_unpressed: bool,
     ) -> Option<Self> {
+        if let Normal::Hardening(stiffness) = status.normal {
+            // p = cap + stiffness (offset − gap).
+            let difference = stiffness * (bounds.offset - gap) + bounds.interval[1] - p;
+            let by_gap = stiffness / (1.0 + stiffness * diagonal);
+            let change = difference / (1.0 + stiffness * diagonal);
+            return (!is_unpressed).then_some(Self { change, by_gap });
+        }
         match status.bound(bounds.interval) {
             Some(_) if is_unpressed => None,
             Some(bound) => Some(Self { change: bound - p, by_gap: 0.0 }),

@@ -35,12 +35,14 @@ mod sweeps;
 mod system;
 #[cfg(test)]
 mod tests;
+mod unknown;
 mod wide;
 
 use super::SearchMethod;
+use super::linearisation::Linearisation;
 use super::problem::ContactInput;
 use super::response::ContactResponse;
-use crate::error::StepError;
+use crate::error::{LawError, StepError};
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::Mode;
 use newton::Newton;
@@ -66,6 +68,10 @@ pub(crate) struct ForceSearch {
     has_valid_operator: bool,
     /// Elements whose bonds have broken in this step.
     broken: Vec<bool>,
+    /// Whether an element's largest pressure grows with its settlement in this step.
+    hardens: bool,
+    /// Settlements at which the laws are linearised, m; without meaning if nothing hardens.
+    trial_settlements: Vec<f64>,
     /// Initial forces of a search, and forces that solve with less friction.
     start: Vec<f64>,
     limited: Vec<f64>,
@@ -86,6 +92,8 @@ impl ForceSearch {
             layers: vec![[0.0; 2]; count],
             has_valid_operator: false,
             broken: vec![false; count],
+            hardens: false,
+            trial_settlements: vec![0.0; count],
             start: vec![0.0; 3 * count],
             limited: vec![0.0; 3 * count],
             is_linear,
@@ -115,24 +123,101 @@ impl ForceSearch {
         let mut trials = usize::from(tried);
         if !(tried && self.problem.is_solved()) {
             self.set_initial_forces(input);
-            loop {
-                let is_constant = self.has_constant_operator(input);
-                let Self { problem, newton, proximal, start, limited, .. } = self;
-                let outcome = search(problem, newton, proximal, start, limited, is_constant);
-                trials += outcome.iterations;
-                let Some(found) = outcome.method else { return Err(self.failure(trials)) };
-                method = method.max(found);
-                self.newton.classify(&self.problem, false);
-                if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
-                    break;
-                }
-            }
+            method = self.search_forces(input, &mut trials)?;
             self.write_modes(modes);
+        }
+        if self.hardens {
+            method = method.max(self.follow_curves(input, modes, &mut trials)?);
         }
         self.update_traction(input)?;
         self.update_jump(input);
         self.response.update_states(input);
         Ok((trials, method))
+    }
+
+    /// Finds forces from the present ones, and breaks overloaded bonds; returns the last method used.
+    fn search_forces(
+        &mut self,
+        input: &ContactInput<'_>,
+        trials: &mut usize,
+    ) -> Result<SearchMethod, StepError> {
+        let mut method = SearchMethod::ActiveSet;
+        loop {
+            let is_constant = self.has_constant_operator(input);
+            let Self { problem, newton, proximal, start, limited, .. } = self;
+            let outcome = search(problem, newton, proximal, start, limited, is_constant);
+            *trials += outcome.iterations;
+            let Some(found) = outcome.method else { return Err(self.failure(*trials)) };
+            method = method.max(found);
+            self.newton.classify(&self.problem, false);
+            if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
+                return Ok(method);
+            }
+        }
+    }
+
+    /// Solves with other tangents until the pressures are on the curves of their laws.
+    fn follow_curves(
+        &mut self,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        trials: &mut usize,
+    ) -> Result<SearchMethod, StepError> {
+        let mut method = SearchMethod::ActiveSet;
+        let mut linearisation = Linearisation::new();
+        loop {
+            self.compare_with_curves(input, &mut linearisation)?;
+            if linearisation.is_done()? {
+                return Ok(method);
+            }
+            for e in 0..self.areas.len() {
+                if self.problem.bounds[e].hardening > 0.0 || self.trial_settlements[e] > 0.0 {
+                    self.linearise(input, e)?;
+                }
+            }
+            method = method.max(self.solve_again(input, trials)?);
+            self.write_modes(modes);
+        }
+    }
+
+    /// Compares the present forces with the curves of the laws, and moves the trial settlements.
+    fn compare_with_curves(
+        &mut self,
+        input: &ContactInput<'_>,
+        linearisation: &mut Linearisation,
+    ) -> Result<(), LawError> {
+        linearisation.begin();
+        for e in 0..self.areas.len() {
+            let solution = self.tangent_solution(input, e);
+            let hardens = self.problem.bounds[e].hardening > 0.0;
+            if self.trial_settlements[e] > 0.0 || hardens && solution.yields {
+                linearisation.compare(input, &solution, &mut self.trial_settlements[e])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds forces from a solution whose bounds have changed a little.
+    fn solve_again(
+        &mut self,
+        input: &ContactInput<'_>,
+        trials: &mut usize,
+    ) -> Result<SearchMethod, StepError> {
+        let Self { problem, newton, .. } = self;
+        // Sweeps of many elements take less time than a factorization.
+        if problem.near_field.is_none() && problem.acceleration.is_none() {
+            let outcome = newton.solve_again(problem);
+            *trials += outcome.iterations;
+            if outcome.is_solved {
+                newton.classify(problem, false);
+                if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
+                    return Ok(SearchMethod::Newton);
+                }
+            } else {
+                self.set_initial_forces(input);
+            }
+        }
+        self.search_forces(input, trials)
     }
 
     /// Computes the changes of traction for the present forces.
@@ -187,7 +272,7 @@ impl ForceSearch {
                 Mode::Open if !bounds.bonded => Status::OPEN_FREE,
                 _ if mode.is_slip() && !is_frictionless && !bounds.bonded => return false,
                 _ => Status {
-                    normal: if mode.is_yield() { Normal::Capped } else { Normal::Closed },
+                    normal: if mode.is_yield() { bounds.status_at_cap() } else { Normal::Closed },
                     tangential: if is_frictionless && !bounds.bonded {
                         Tangential::Free
                     } else {
@@ -195,7 +280,7 @@ impl ForceSearch {
                     },
                 },
             };
-            let capped = status.normal == Normal::Capped;
+            let capped = status.is_yield();
             let is_swept = problem.near_field.is_some() && *status != Status::CLOSED_STICKING;
             if is_swept || capped && bounds.interval[1] == f64::INFINITY {
                 return false;
@@ -238,7 +323,7 @@ impl ForceSearch {
             let closed = if slides { Mode::Slip } else { Mode::Stick };
             *mode = match status.normal {
                 Normal::Open if !has_bond => Mode::Open,
-                Normal::Capped => closed.yielding(),
+                Normal::Capped | Normal::Hardening(_) => closed.yielding(),
                 _ => closed,
             };
         }

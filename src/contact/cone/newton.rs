@@ -34,7 +34,7 @@ pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: StatusSystem,
     /// Kinds of the statuses and changes of force in the previous iteration.
-    kinds: Vec<(Normal, Discriminant<Tangential>)>,
+    kinds: Vec<(Discriminant<Normal>, Discriminant<Tangential>)>,
     before: Vec<f64>,
 }
 
@@ -92,6 +92,25 @@ impl Newton {
             if !self.step(problem) {
                 return SolveOutcome::new(iteration + 1, false);
             }
+        }
+        SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
+    }
+
+    /// Iterates from a solution whose bounds have changed a little, at first with the factors of the same step.
+    pub(super) fn solve_again(&mut self, problem: &mut ConeProblem) -> SolveOutcome {
+        let mut previous_residual = f64::INFINITY;
+        for iteration in 0..MAX_NEWTON_ITERATIONS {
+            let residual = problem.residual();
+            if residual <= problem.tolerance() {
+                return SolveOutcome::new(iteration, true);
+            }
+            self.classify(problem, false);
+            let falls = residual <= MIN_REDUCTION * previous_residual;
+            let is_near = falls && residual <= NEAR_RESIDUAL * problem.largest_force();
+            if !self.solve_system(problem, is_near) {
+                return SolveOutcome::new(iteration + 1, false);
+            }
+            previous_residual = residual;
         }
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
@@ -237,7 +256,8 @@ fn status_with_infinite_friction(problem: &ConeProblem, e: usize) -> Status {
     match problem.infinite_friction_status(e) {
         InfiniteFriction::Open => Status::OPEN_FREE,
         InfiniteFriction::Stick if trial[0] >= problem.bounds[e].interval[1] => {
-            Status { normal: Normal::Capped, tangential: Tangential::Stick }
+            let normal = problem.bounds[e].status_at_cap();
+            Status { normal, tangential: Tangential::Stick }
         }
         InfiniteFriction::Stick => Status::CLOSED_STICKING,
         InfiniteFriction::Slip(direction) => {
@@ -259,11 +279,15 @@ fn status_with_finite_friction(problem: &ConeProblem, e: usize, ahead: bool) -> 
     let normal = if trial[0] <= bounds.interval[0] {
         Normal::Open
     } else if trial[0] >= bounds.interval[1] {
-        Normal::Capped
+        bounds.status_at_cap()
     } else {
         Normal::Closed
     };
-    let pressure = if ahead { bounds.project_pressure(trial[0]) } else { problem.force(e) };
+    let pressure = if ahead {
+        bounds.project_pressure(trial[0], problem.rho[e][0])
+    } else {
+        problem.force(e)
+    };
     let radius = bounds.radius(pressure);
     let size = trial[1].hypot(trial[2]);
     let tangential = if radius == 0.0 && (normal == Normal::Open || bounds.friction == 0.0) {

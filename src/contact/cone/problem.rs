@@ -9,7 +9,8 @@
 //!
 //! Solutions are fixed points of r ← P(r − ρ y): p on the interval from −tension to the cap against y minus the
 //! offset of a closed gap, then t on the disc. This is Signorini's and Coulomb's law in terms of displacements,
-//! with elastic layers in W's diagonal.
+//! with elastic layers in W's diagonal. On soil that hardens by k per settlement, a trial above the cap is projected on cap +
+//! (trial − cap) k/(k + ρ), where p = cap + k (offset − y).
 //!
 //! Infinite friction is the limit: y = 0 where there is pressure; elsewhere no force, or a closed gap with a shear
 //! against the slip, which needs no pressure.
@@ -153,6 +154,10 @@ impl ConeProblem {
             let free = [f64::NEG_INFINITY, f64::INFINITY];
             let interval = if bounds.bonded { free } else { bounds.interval };
             (0..2).for_each(|k| all.interval[k][lane] = interval[k]);
+            if bounds.hardening > 0.0 && !bounds.bonded {
+                all.hardening_fraction[lane] = bounds.hardening_fraction(self.rho[e][0]);
+                all.hardens = true;
+            }
             all.offset[lane] = bounds.offset;
             all.friction[lane] = if bounds.bonded { 0.0 } else { bounds.effective_friction() };
             all.attraction[lane] = bounds.attraction;
@@ -267,7 +272,8 @@ impl ConeProblem {
         let open = (force[0] - bounds.interval[0]).abs();
         match self.infinite_friction_status(e) {
             InfiniteFriction::Stick => {
-                (bounds.project_pressure(trial[0]) - force[0]).abs() + tx.abs() + ty.abs()
+                let pressure = bounds.project_pressure(trial[0], self.rho[e][0]);
+                (pressure - force[0]).abs() + tx.abs() + ty.abs()
             }
             InfiniteFriction::Open => open + p.max(0.0) + force[1].abs() + force[2].abs(),
             InfiniteFriction::Slip([c, s]) => {
@@ -287,7 +293,7 @@ impl ConeProblem {
         let bounds = &self.bounds[e];
         let trial = self.trial(e);
         let force = self.places(e).map(|i| self.force(i));
-        let p = bounds.project_pressure(trial[0]);
+        let p = bounds.project_pressure(trial[0], self.rho[e][0]);
         let shear = bounds.project_shear(p, [trial[1], trial[2]], trial[1].hypot(trial[2]));
         let differences = [p - force[0], shear[0] - force[1], shear[1] - force[2]];
         // A sum of magnitudes preserves NaN.

@@ -6,10 +6,14 @@ use super::newton::Newton;
 use super::problem::{Bounds, ConeProblem};
 use super::wide::DenseLattice;
 use crate::contact::OnBed;
+use crate::contact::linearisation::{TangentSolution, settlement_on_curve};
 use crate::contact::problem::ContactInput;
 use crate::error::LawError;
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
+
+/// Error of a solution in units of the residual at which it is accepted.
+const ROUNDING_FACTOR: f64 = 10.0;
 
 impl ForceSearch {
     /// Reads W, q and the limits of the laws.
@@ -21,9 +25,11 @@ impl ForceSearch {
         }
         let Self { problem, areas, layers, .. } = self;
         self.broken.fill(false);
+        self.hardens = false;
         for (e, &area) in areas.iter().enumerate() {
             let start = input.start.element(e);
-            problem.bounds[e] = bounds(&limits(input, e)?, area);
+            problem.bounds[e] = bounds(&input.limits(e, 0.0)?, area);
+            self.hardens |= problem.bounds[e].hardening > 0.0;
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 problem.anchor[i] = area * input.static_traction[i];
                 problem.q[i] = input.free_jump[i];
@@ -41,6 +47,53 @@ impl ForceSearch {
         // Rounding of lengths that are not normal numbers is larger.
         let length = input.length_scale.max(f64::MIN_POSITIVE / f64::EPSILON);
         problem.rounding_residual = 4.0 * f64::EPSILON * length * stiffest;
+        if self.hardens {
+            self.predict_settlements(input)?;
+        }
+        Ok(())
+    }
+
+    /// Linearises the laws at the settlements that each element alone would have under its present force.
+    fn predict_settlements(&mut self, input: &ContactInput<'_>) -> Result<(), LawError> {
+        self.trial_settlements.fill(0.0);
+        self.set_initial_forces(input);
+        self.problem.update_motions();
+        for e in 0..self.areas.len() {
+            if self.problem.bounds[e].hardening > 0.0 {
+                let solution = TangentSolution { yields: true, ..self.tangent_solution(input, e) };
+                let guess = solution.settlement.max(0.0);
+                self.trial_settlements[e] = settlement_on_curve(input, &solution, guess)?;
+                self.linearise(input, e)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Solution of an element in its present status.
+    pub(super) fn tangent_solution(&self, input: &ContactInput<'_>, e: usize) -> TangentSolution {
+        let Self { problem, newton, areas, .. } = self;
+        let area = areas[e];
+        let [stiffness, _] = problem.rho[e];
+        // A solution is accepted with this residual, which is a force or a gap times ρ.
+        let residual = ROUNDING_FACTOR * problem.tolerance();
+        let rounding_of_length = 4.0 * f64::EPSILON * input.length_scale;
+        TangentSolution {
+            element: e,
+            pressure: problem.force(e) / area,
+            settlement: problem.bounds[e].offset - problem.y[e],
+            yields: newton.statuses[e].is_yield(),
+            stiffness: stiffness / area,
+            pressure_rounding: residual / area,
+            settlement_rounding: rounding_of_length + residual / stiffness,
+        }
+    }
+
+    /// Replaces the pressure of yielding soil by the tangent at the element's trial settlement.
+    pub(super) fn linearise(&mut self, input: &ContactInput<'_>, e: usize) -> Result<(), LawError> {
+        let tangent = bounds(&input.limits(e, self.trial_settlements[e])?, self.areas[e]);
+        let bounds = &mut self.problem.bounds[e];
+        bounds.interval[1] = tangent.interval[1];
+        bounds.hardening = tangent.hardening;
         Ok(())
     }
 
@@ -131,19 +184,6 @@ impl ForceSearch {
     }
 }
 
-/// Limits of an element's law, checked.
-fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
-    let law = input.law(element);
-    let start = input.start.element(element);
-    let mode = start.mode.word();
-    let limits = law.limits(&start).and_then(Limits::checked).map_err(|reason| LawError {
-        element,
-        mode,
-        reason: Box::new(reason),
-    })?;
-    Ok(if input.frictionless { limits.frictionless() } else { limits })
-}
-
 /// Bounds of the forces on an area, m².
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
@@ -152,6 +192,7 @@ fn bounds(limits: &Limits, area: f64) -> Bounds {
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],
+        hardening: limits.hardening * area,
         offset: limits.gap_offset,
         bonded: limits.bonded,
     }

@@ -10,13 +10,15 @@ pub(super) struct Status {
 }
 
 /// Status along the normal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Normal {
     /// No pressure, or a bond at its strength.
     Open,
     Closed,
     /// The pressure is at its cap.
     Capped,
+    /// The pressure is above its cap, and grows with the settlement by this stiffness, N/m.
+    Hardening(f64),
 }
 
 /// Status along the base.
@@ -35,8 +37,13 @@ pub(super) enum Tangential {
 
 impl Status {
     /// Kind of the status, without its numbers.
-    pub(super) fn kind(&self) -> (Normal, Discriminant<Tangential>) {
-        (self.normal, discriminant(&self.tangential))
+    pub(super) fn kind(&self) -> (Discriminant<Normal>, Discriminant<Tangential>) {
+        (discriminant(&self.normal), discriminant(&self.tangential))
+    }
+
+    /// Whether the soil yields.
+    pub(super) fn is_yield(&self) -> bool {
+        matches!(self.normal, Normal::Capped | Normal::Hardening(_))
     }
 
     /// Whether the element slips and its friction is below `friction`.
@@ -50,11 +57,11 @@ impl Status {
     /// Open, without any force.
     pub(super) const OPEN_FREE: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
-    /// Prescribed p of an open or capped element; `None` if closed.
+    /// Prescribed p of an open or capped element; `None` if closed or on soil that hardens.
     pub(super) fn bound(&self, interval: [f64; 2]) -> Option<f64> {
         match self.normal {
             Normal::Open => Some(interval[0]),
-            Normal::Closed => None,
+            Normal::Closed | Normal::Hardening(_) => None,
             Normal::Capped => Some(interval[1]),
         }
     }
@@ -66,7 +73,11 @@ impl Status {
             Tangential::Stick => [2, 0],
             Tangential::Slip { .. } => [1, 2],
         };
-        let closed = usize::from(self.normal == Normal::Closed);
-        [tangential[0] + closed, tangential[1] + 1 - closed]
+        let normal = match self.normal {
+            Normal::Closed => [1, 0],
+            Normal::Open | Normal::Capped => [0, 1],
+            Normal::Hardening(_) => [1, 1],
+        };
+        [tangential[0] + normal[0], tangential[1] + normal[1]]
     }
 }

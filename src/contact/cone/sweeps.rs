@@ -296,7 +296,7 @@ fn relaxed_force(
 ) -> [f64; 3] {
     let mut r = start;
     for projection in 0..MAX_LOCAL_PROJECTIONS {
-        let p = bounds.project_pressure(r[0] - normal * (y[0] - bounds.offset));
+        let p = bounds.project_pressure(r[0] - normal * (y[0] - bounds.offset), normal);
         let pressed = p - r[0];
         if pressed != 0.0 {
             (0..3).for_each(|k| y[k] += block[k][0] * pressed);

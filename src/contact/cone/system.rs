@@ -7,6 +7,7 @@
 //! |---|---|---|
 //! | closed | p, with the shear that it lets slip: y = offset | |
 //! | open or capped | | y: p = its bound |
+//! | hardens by k | p, as if closed: y + (p − cap)/k = offset | y: p + k y = cap + k offset |
 //! | sticks | both: y = 0 | |
 //! | free | | both: t = 0 |
 //! | slips along d | | y·d: t·d = friction (p + attraction) + strength |
@@ -19,51 +20,14 @@
 //! of W itself solve.
 
 use super::problem::ConeProblem;
-use super::status::{Status, Tangential};
+use super::status::{Normal, Status, Tangential};
+use super::unknown::{Mix, Unknown};
 use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 
 /// Number of columns of W⁻¹ that are solved together.
 const INVERSE_BLOCK_COLUMNS: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE_COST_FACTOR: f64 = 4.0;
-
-/// A weighted sum of components: one with weight 1, or the three of an element.
-#[derive(Clone, Copy)]
-struct Mix {
-    places: [usize; 3],
-    weights: [f64; 3],
-}
-
-impl Mix {
-    fn single(place: usize) -> Self {
-        Self { places: [place; 3], weights: [1.0, 0.0, 0.0] }
-    }
-
-    fn is_single(&self) -> bool {
-        self.places[1] == self.places[0]
-    }
-
-    fn sum(&self, values: &[f64]) -> f64 {
-        self.weights[0] * values[self.places[0]]
-            + self.weights[1] * values[self.places[1]]
-            + self.weights[2] * values[self.places[2]]
-    }
-
-    fn add_to(&self, values: &mut [f64], factor: f64) {
-        for (place, weight) in self.places.into_iter().zip(self.weights) {
-            values[place] += factor * weight;
-        }
-    }
-}
-
-/// An unknown and its condition. x are the unknown forces or motions, A x the quantities of the other kind. The
-/// unknown adds multiples of `column` to x, and row · A x + coefficient column · x = goal.
-struct Unknown {
-    row: Mix,
-    column: Mix,
-    coefficient: f64,
-    goal: f64,
-}
 
 /// The system, its factors and W⁻¹.
 #[allow(clippy::struct_excessive_bools, reason = "each says of one matrix whether it is there")]
@@ -258,7 +222,7 @@ impl System {
         let known = &mut self.known;
         let dofs = &mut self.dofs;
         let mut add = |row, column, coefficient, goal| {
-            dofs.push(Unknown { row, column, coefficient, goal });
+            dofs.push(Unknown::new(row, column, coefficient, goal));
         };
         let places = problem.places(e);
         let [n, x, y] = places;
@@ -269,8 +233,14 @@ impl System {
         match bound {
             Some(bound) if motions => add(Mix::single(n), Mix::single(n), 0.0, bound - p_0),
             Some(bound) => known[n] = bound - p,
-            None if motions => known[n] = bounds.offset - problem.y[n],
-            None => {}
+            None if !motions => {}
+            None => match status.normal {
+                Normal::Hardening(stiffness) => {
+                    let goal = bounds.interval[1] + stiffness * bounds.offset - p_0;
+                    add(Mix::single(n), Mix::single(n), stiffness, goal);
+                }
+                _ => known[n] = bounds.offset - problem.y[n],
+            },
         }
         // The force p, and the shear that p allows in slip.
         let mut pressing = Mix::single(n);
@@ -319,7 +289,13 @@ impl System {
             }
         }
         if bound.is_none() && !motions {
-            add(Mix::single(n), pressing, 0.0, bounds.offset);
+            let mut pressed = Unknown::new(Mix::single(n), pressing, 0.0, bounds.offset);
+            if let Normal::Hardening(stiffness) = status.normal {
+                pressed.coefficient = stiffness.recip();
+                pressed.weighted = Mix::single(n);
+                pressed.goal += (bounds.interval[1] - p_0) * pressed.coefficient;
+            }
+            dofs.push(pressed);
         }
     }
 
@@ -336,7 +312,7 @@ impl System {
         mixed_rows.clear();
         mixed_rows.extend(dofs[single_count..].iter().map(|unknown| unknown.row));
         factor.factor_columns(dofs.len(), |j, values| {
-            let Unknown { column: Mix { places, weights }, coefficient, .. } = &dofs[j];
+            let Mix { places, weights } = &dofs[j].column;
             // It is symmetric: its rows are its columns.
             let [first, second, third] = places.map(|place| &matrix[place * size..][..size]);
             let column = if dofs[j].column.is_single() {
@@ -352,7 +328,7 @@ impl System {
             let begin = values.len();
             values.extend(rows.iter().map(|place| column[*place]));
             values.extend(mixed_rows.iter().map(|row| row.sum(column)));
-            values[begin + j] += coefficient;
+            values[begin + j] += dofs[j].diagonal();
         })
     }
 
@@ -380,8 +356,8 @@ impl System {
         }
         rhs.clear();
         rhs.extend(dofs.iter().map(|unknown| {
-            let Unknown { row, column, coefficient, goal } = unknown;
-            goal - row.sum(products) - coefficient * column.sum(solved)
+            let Unknown { row, coefficient, weighted, goal, .. } = unknown;
+            goal - row.sum(products) - coefficient * weighted.sum(solved)
         }));
         factor.solve(rhs);
         let sum = if self.by_motions { &mut *known } else { solved };

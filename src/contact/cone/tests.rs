@@ -27,6 +27,7 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> ConeProblem {
         }
         if random.chance(0.3) {
             bounds.interval[1] = random.within(0.1, 0.6);
+            bounds.hardening = if bounds.interval[1] < 0.35 { 2.0 } else { 0.0 };
         }
         if random.chance(0.3) {
             bounds.offset = random.within(-0.2, 0.2);
@@ -93,7 +94,13 @@ fn forces(
         };
         match (component, kinds[e]) {
             (0, (NormalState::Closed, _)) => moves(bounds.offset),
-            (0, (NormalState::Capped, _)) => (row[i], row[size]) = (1.0, bounds.interval[1]),
+            (0, (NormalState::Capped, _)) => {
+                // p = cap + hardening (offset − y).
+                moves(bounds.offset);
+                row.iter_mut().for_each(|entry| *entry *= bounds.hardening);
+                row[i] += 1.0;
+                row[size] += bounds.interval[1];
+            }
             (0, _) => row[i] = 1.0,
             (_, (_, false)) => moves(0.0),
             // The limit of infinite friction: shear along the slip without pressure, in a closed gap.

@@ -63,6 +63,7 @@ impl Problem {
             laws: &self.laws,
             length_scale: self.free_jump.iter().fold(0.0, |m, j| m.max(j.abs())),
             bonds: &[],
+            trial_settlements: &[],
             frictionless: false,
         }
     }

@@ -175,6 +175,7 @@ impl Standing<'_> {
             laws,
             length_scale: largest(&free_jump),
             bonds: &[],
+            trial_settlements: &[],
             frictionless: self.frictionless,
         };
         match solver.solve(&input, &mut state.modes) {

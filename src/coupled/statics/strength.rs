@@ -10,6 +10,8 @@ const ZERO_TRACTION_FRACTION: f64 = 1e-6;
 const INFINITE_FRICTION_RATIO: f64 = 1e6;
 /// Pressure at which cohesion is negligible, Pa.
 const NEGLIGIBLE_COHESION_PRESSURE: f64 = 1e9;
+/// Settlement that no foundation reaches, at which hardening soil has its whole strength, m.
+const UNLIMITED_SETTLEMENT: f64 = 1e12;
 
 /// Strength of a law on an element that has not moved so far.
 pub(crate) struct Strength {
@@ -67,7 +69,11 @@ impl Strength {
             pulls: !limits.bonded && limits.tension > 0.0,
             coheres: !limits.bonded && cohesion > 0.0,
             friction: if limits.bonded { f64::INFINITY } else { friction },
-            bearing_pressure: limits.pressure_cap,
+            bearing_pressure: if limits.hardening > 0.0 {
+                hardened_pressure(law)
+            } else {
+                limits.pressure_cap
+            },
         }
     }
 }
@@ -153,6 +159,25 @@ fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
     let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     let yielding = law.modes().iter().filter(|mode| mode.is_yield());
     let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
-    let pressures = conditions.filter_map(|c| c.pressure_alone());
-    pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
+    let mut max_pressure = None::<f64>;
+    for condition in conditions {
+        let pressure = if condition.gap == 0.0 {
+            condition.pressure_alone()
+        } else {
+            Some(hardened_pressure(law))
+        };
+        max_pressure = max_pressure.into_iter().chain(pressure).reduce(f64::max);
+    }
+    max_pressure.unwrap_or(f64::INFINITY)
+}
+
+/// Pressure of a law after a settlement without limit, Pa; infinite for a law without limits.
+fn hardened_pressure(law: &dyn InterfaceLaw) -> f64 {
+    let mut start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    start.trial_settlement = UNLIMITED_SETTLEMENT;
+    let state_variables = start.first_state_variables(law);
+    law.limits(&start.with_state_variables(&state_variables))
+        .map_or(f64::INFINITY, |limits| {
+            limits.pressure_cap + limits.hardening * UNLIMITED_SETTLEMENT
+        })
 }

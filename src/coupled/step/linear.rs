@@ -157,6 +157,7 @@ impl LinearStep {
             laws: &scene.laws,
             length_scale,
             bonds: &[],
+            trial_settlements: &[],
             frictionless: false,
         };
         increment.modes.copy_from_slice(&state.modes);

@@ -34,6 +34,8 @@ pub mod rocking;
 pub mod rocking_footing;
 pub mod sampled_block;
 pub mod scenes;
+pub mod settling_law;
+pub mod settling_strips;
 pub mod space_beams;
 pub mod stiff_element;
 pub mod supported;

@@ -26,14 +26,14 @@ pub enum StepError {
         /// `None` for more than 65 536 sets.
         sets: Option<usize>,
     },
-    /// In plan: the iteration found no contact forces that satisfy the interface laws.
+    /// In plan, or on soil that hardens: the iteration found no contact forces that satisfy the interface laws.
     #[error(
         "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
          (`analyses::largest_convergent_step` finds a time step that converges)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
-        /// Number of sweeps and Newton iterations, including those of the proximal method.
+        /// Number of sweeps and Newton iterations, including the proximal method's; on soil that hardens, of its tangents.
         iterations: usize,
         /// Largest difference between an element's force and the force by its law, relative to the largest force.
         residual: f64,

@@ -62,6 +62,9 @@ fn problem(random: &mut Random, friction: f64) -> ConeProblem {
             + [0.25 * arm[0] - 0.1 * arm[1], 0.5, 0.3][i / ELEMENT_COUNT] * random.within(0.9, 1.1);
     }
     problem.bounds.fill(Bounds { friction, ..Bounds::WITHOUT_FRICTION });
+    for bounds in problem.bounds.iter_mut().step_by(3) {
+        (bounds.interval[1], bounds.hardening) = (1.2, 0.8);
+    }
     problem.min_force_scale = 1.0;
     problem.update_scales();
     problem

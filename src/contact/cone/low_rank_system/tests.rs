@@ -45,6 +45,7 @@ fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [C
         }
         if random.chance(0.2) {
             bounds.interval[1] = random.within(0.1, 0.6);
+            bounds.hardening = if bounds.interval[1] < 0.35 { 2.0 } else { 0.0 };
         }
         if random.chance(0.2) {
             bounds.offset = random.within(-0.2, 0.2);
@@ -122,8 +123,13 @@ fn corrections_are_those_of_all_entries() {
         let rank = 3 + case % 4;
         let mut both = problems(&mut random, count, rank, 0.5);
         let mut status = |e: usize| {
-            let normal =
-                random.pick(&[Normal::Open, Normal::Closed, Normal::Closed, Normal::Capped]);
+            let normal = random.pick(&[
+                Normal::Open,
+                Normal::Closed,
+                Normal::Closed,
+                Normal::Capped,
+                Normal::Hardening(0.7),
+            ]);
             let angle: f64 = random.within(0.0, 6.0);
             let direction = [angle.cos(), angle.sin()];
             let turn = random.within(0.0, 1.0);

@@ -16,8 +16,8 @@ fn forces_or_motions_meet_the_conditions_of_statuses() {
         let mut problem = problem(&mut random, count, 0.5);
         problem.anchor.iter_mut().for_each(|force| *force = random.within(-1.0, 1.0));
         let mut status = |e: usize| {
-            let normal =
-                if e > 3 { [Normal::Open, Normal::Capped][case % 2] } else { Normal::Closed };
+            let bound = [Normal::Open, Normal::Capped, Normal::Hardening(0.7)][case % 3];
+            let normal = if e > 3 { bound } else { Normal::Closed };
             let angle: f64 = random.within(0.0, 6.0);
             let turn = random.within(0.0, 1.0);
             let slope = random.pick(&[0.0, 0.4, 3.0, 1e4]);
@@ -70,6 +70,7 @@ fn forces_or_motions_meet_the_conditions_of_statuses() {
                     Normal::Open => p - bounds.interval[0],
                     Normal::Closed => gap - bounds.offset,
                     Normal::Capped => p - bounds.interval[1],
+                    Normal::Hardening(k) => p - bounds.interval[1] - k * (bounds.offset - gap),
                 };
                 let shear = match status.tangential {
                     Tangential::Free => [tx, ty],

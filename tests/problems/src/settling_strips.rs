@@ -1,0 +1,208 @@
+//! A rigid rectangle that rocks without inertia on strips of soil that settle in every cycle, above an elastic half-space.
+//!
+//! Strips across the base, each with a uniform pressure, move the surface by Love's solution (1929), which is averaged over
+//! each strip. The settlement of each strip is in series. The base carries its weight, and its rotation is prescribed.
+
+use std::f64::consts::PI;
+
+/// Points along each side of a strip over which its displacement is averaged.
+const SAMPLE_COUNT: usize = 16;
+
+/// A law of strips: backbone q h/(h + w), with q = `bearing_pressure` + `depth_gradient` · settlement, and memory.
+#[derive(Debug, Clone, Copy)]
+pub struct StripLaw {
+    /// Pa.
+    pub bearing_pressure: f64,
+    /// Pa/m.
+    pub depth_gradient: f64,
+    /// w, m.
+    pub reference_settlement: f64,
+    /// Pressure above the present one up to which a strip does not yield, relative to q.
+    pub elastic_range: f64,
+}
+
+/// The base: length along the rotation and width, m; weight, N.
+#[derive(Debug, Clone, Copy)]
+pub struct RockingBase {
+    pub length: f64,
+    pub width: f64,
+    pub weight: f64,
+}
+
+/// Strips under the base, and its last position.
+pub struct SettlingStrips {
+    base: RockingBase,
+    law: StripLaw,
+    middles: Vec<f64>,
+    /// Displacement of each strip by a unit pressure on each, m/Pa, row by row.
+    compliance: Vec<f64>,
+    levels: Vec<f64>,
+    thresholds: Vec<f64>,
+    pressures: Vec<f64>,
+    /// Of the middle of the base, down, m.
+    pub settlement: f64,
+}
+
+/// ∬ dA/r over a rectangle from a corner at the origin to (a, b).
+fn corner_integral(a: f64, b: f64) -> f64 {
+    let r = a.hypot(b);
+    let term = |a: f64, b: f64| if a == 0.0 { 0.0 } else { a * ((b + r) / a.abs()).ln() };
+    term(a, b) + term(b, a)
+}
+
+/// Mean over a rectangle of ∬ dA/r over another one of the same `sides`, at a distance along the first side.
+fn mean_integral(distance: f64, sides: [f64; 2]) -> f64 {
+    let points = (0..SAMPLE_COUNT).map(|k| (k as f64 + 0.5) / SAMPLE_COUNT as f64 - 0.5);
+    let mut sum = 0.0;
+    for x in points.clone() {
+        let right = 0.5 * sides[0] - distance - x * sides[0];
+        let left = right - sides[0];
+        for y in points.clone() {
+            let far = (0.5 - y) * sides[1];
+            let near = far - sides[1];
+            sum += corner_integral(right, far)
+                - corner_integral(left, far)
+                - corner_integral(right, near)
+                + corner_integral(left, near);
+        }
+    }
+    sum / (SAMPLE_COUNT * SAMPLE_COUNT) as f64
+}
+
+impl SettlingStrips {
+    /// `count` strips on a half-space of this shear modulus (Pa) and Poisson's ratio, before the weight acts.
+    pub fn new(base: RockingBase, count: usize, soil: [f64; 2], law: StripLaw) -> Self {
+        let side = base.length / count as f64;
+        let middles: Vec<f64> =
+            (0..count).map(|i| (i as f64 + 0.5) * side - 0.5 * base.length).collect();
+        let [modulus, poisson] = soil;
+        let mut compliance = Vec::new();
+        for receiver in &middles {
+            for source in &middles {
+                let integral = mean_integral(receiver - source, [side, base.width]);
+                compliance.push((1.0 - poisson) / (2.0 * PI * modulus) * integral);
+            }
+        }
+        let zero = vec![0.0; count];
+        Self {
+            base,
+            law,
+            middles,
+            compliance,
+            levels: zero.clone(),
+            thresholds: zero.clone(),
+            pressures: zero,
+            settlement: 0.0,
+        }
+    }
+
+    fn bearing_pressure(&self, strip: usize) -> f64 {
+        self.law.bearing_pressure + self.law.depth_gradient * self.levels[strip].max(0.0)
+    }
+
+    /// Settlement at which the backbone of a strip has a pressure.
+    fn virgin_settlement(&self, strip: usize, pressure: f64) -> f64 {
+        let ratio = (pressure / self.bearing_pressure(strip)).min(1.0 - 1e-13);
+        self.law.reference_settlement * ratio / (1.0 - ratio)
+    }
+
+    /// Displacement of a strip by the pressures on the others, m.
+    fn moved_by_others(&self, strip: usize) -> f64 {
+        let row = &self.compliance[strip * self.middles.len()..][..self.middles.len()];
+        let all: f64 = row.iter().zip(&self.pressures).map(|(entry, p)| entry * p).sum();
+        all - row[strip] * self.pressures[strip]
+    }
+
+    /// Pressure of a strip that is pressed by `penetration` (m) beyond its level and the motion by the others.
+    fn strip_pressure(&self, strip: usize, penetration: f64) -> f64 {
+        let compliance = self.compliance[strip * (self.middles.len() + 1)];
+        let elastic = penetration / compliance;
+        let threshold = self.thresholds[strip];
+        if elastic <= threshold {
+            return elastic.max(0.0);
+        }
+        let start = self.virgin_settlement(strip, threshold);
+        let mut low = threshold;
+        let mut high = elastic.min(self.bearing_pressure(strip));
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            let settled = self.virgin_settlement(strip, middle) - start;
+            if compliance * middle + settled < penetration {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// Relaxes the pressures at a position; returns the vertical force on the soil beyond the weight, N.
+    fn relax(&mut self, settlement: f64, rotation: f64) -> f64 {
+        for _ in 0..2000 {
+            let mut largest = 0.0_f64;
+            for strip in 0..self.middles.len() {
+                let moved = self.moved_by_others(strip) + self.levels[strip];
+                let position = settlement + rotation * self.middles[strip];
+                let pressure = self.strip_pressure(strip, position - moved);
+                largest = largest.max((pressure - self.pressures[strip]).abs());
+                self.pressures[strip] = pressure;
+            }
+            if largest < 1e-9 * self.law.bearing_pressure {
+                break;
+            }
+        }
+        self.pressures.iter().sum::<f64>() * self.strip_area() - self.base.weight
+    }
+
+    fn strip_area(&self) -> f64 {
+        self.base.length * self.base.width / self.middles.len() as f64
+    }
+
+    /// Turns the base to a `rotation`; returns the moment about its middle, N m.
+    pub fn turn(&mut self, rotation: f64) -> f64 {
+        let mut low = self.settlement - 1e-5;
+        while self.relax(low, rotation) > 0.0 {
+            low -= 2.0 * (self.settlement - low);
+        }
+        let mut high = self.settlement + 1e-5;
+        while self.relax(high, rotation) < 0.0 {
+            high += 2.0 * (high - self.settlement);
+        }
+        let mut force_low = self.relax(low, rotation);
+        let mut force_high = self.relax(high, rotation);
+        let mut settlement = high;
+        for attempt in 0..100 {
+            let middle = 0.5 * (low + high);
+            let secant = high - force_high * (high - low) / (force_high - force_low);
+            settlement = if attempt % 3 == 2 { middle } else { secant };
+            let force = self.relax(settlement, rotation);
+            if force.abs() < 1e-7 * self.base.weight {
+                break;
+            }
+            if force > 0.0 {
+                (high, force_high) = (settlement, force);
+            } else {
+                (low, force_low) = (settlement, force);
+            }
+        }
+        self.settlement = settlement;
+        self.end_step(rotation);
+        let moments = self.pressures.iter().zip(&self.middles).map(|(p, x)| p * x);
+        moments.sum::<f64>() * self.strip_area()
+    }
+
+    fn end_step(&mut self, rotation: f64) {
+        for strip in 0..self.middles.len() {
+            let pressure = self.pressures[strip];
+            if pressure > self.thresholds[strip] {
+                let compliance = self.compliance[strip * (self.middles.len() + 1)];
+                let surface = self.moved_by_others(strip) + compliance * pressure;
+                let position = self.settlement + rotation * self.middles[strip];
+                self.levels[strip] = self.levels[strip].max(position - surface);
+                self.thresholds[strip] = pressure;
+            }
+            let range = self.law.elastic_range * self.bearing_pressure(strip);
+            self.thresholds[strip] = self.thresholds[strip].min(pressure + range);
+        }
+    }
+}
