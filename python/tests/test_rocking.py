@@ -17,14 +17,14 @@ STIFFNESS = 4.0e7
 def settling(steps: int = 1000, **options: object) -> bm.Run:
     """A block on springs that yield, under slow cycles of a moment of 4 s."""
     block = bm.RigidBlock(4.0, 5.0, 2000.0)
-    ground = bm.SpringGround.under(block, 20, STIFFNESS, STIFFNESS)
-    moment = bm.Load(2, lambda time: 4.4e5 * math.sin(0.5 * math.pi * time))
-    simulation = bm.Simulation(0.01, block, ground, bm.Yielding(2.5e5, 0.6), loads=[moment], **options)  # type: ignore[arg-type]
+    ground = bm.SpringGround.under(block, 40, STIFFNESS, STIFFNESS)
+    moment = bm.Load(2, lambda time: 2.6e5 * math.sin(0.5 * math.pi * time))
+    simulation = bm.Simulation(0.01, block, ground, bm.Yielding(1.5e5, 0.6), loads=[moment], **options)  # type: ignore[arg-type]
     return simulation.run(steps, warn=False, foundations=True)
 
 
 def test_series_of_a_foundation() -> None:
-    run = settling(service_limits=bm.ServiceLimits(settlement=0.01))
+    run = settling(service_limits=bm.ServiceLimits(settlement=1e-3))
     rocking = run.rocking()
     assert list(rocking) == ["time", "rotation", "moment", "settlement", "work"]
     for name, series in (
@@ -37,7 +37,7 @@ def test_series_of_a_foundation() -> None:
         np.testing.assert_array_equal(rocking[name], run[series])
         np.testing.assert_array_equal(run.foundation_series(0)[series], run[series])
     assert run.units["settlement"] == "m" and run.units["rocking_work"] == "J/m"
-    assert run.settlement.highest.value == run["settlement"].max() > 0.02
+    assert run.settlement.highest.value == run["settlement"].max() > 3e-3
     assert run.residual_settlement == run["settlement"][-1] == run.summary()["residual_settlement"]
     assert run.residual_rotation == run["base_rotation"][-1]
     assert run.rocking_work.largest.value == run.extremes("rocking_work").largest.value
@@ -67,7 +67,7 @@ def test_damping_of_cycles() -> None:
     work = rocking["work"][900] - rocking["work"][500] - 0.5 * (moments[0] + moments[-1]) * (turns[-1] - turns[0])
     assert damping == pytest.approx(2.0 * work / (math.pi * np.ptp(turns) * np.ptp(moments)), rel=1e-12)
     # The polygon of the recorded points has nearly this area.
-    assert bm.equivalent_damping(turns, moments) == pytest.approx(damping, abs=0.02)
+    assert bm.equivalent_damping(turns, moments) == pytest.approx(damping, abs=0.01)
     with pytest.raises(bm.InputError, match="number of cycles of the rotation is 2"):
         run.equivalent_damping(1.0, 9.0)
 

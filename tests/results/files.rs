@@ -108,7 +108,7 @@ fn columns_of_probes_differ() {
         "unnamed",
         "input_energy_j_per_m",
     ];
-    assert_eq!(heading[12..], expected);
+    assert_eq!(heading[14..], expected);
 }
 
 #[test]

@@ -99,27 +99,31 @@ fn work_beside_rocking(states: &[State]) -> f64 {
 
 #[test]
 fn soil_that_yields_takes_the_rocking_work() {
-    for (bearing_pressure, least_fraction) in [(2.5e5, 0.7), (1e9, 0.0)] {
-        let moment = |time: f64| 4.2e5 * (TAU * time / 8.0).sin();
+    for (bearing_pressure, yields) in [(1.5e5, true), (1e9, false)] {
+        let half = 0.5 * BASE_WIDTH;
+        let ground = SpringGround::new(-half..half, 40, BEDDING_MODULUS, BEDDING_MODULUS).unwrap();
+        let moment = |time: f64| 2.6e5 * (TAU * time / 4.0).sin();
         let mut simulation = on_springs(Yielding::new(bearing_pressure, 10.0).unwrap())
+            .ground(ground)
             .load(Load::new(DofCombination::from(ROTATION_DOF), moment))
             .build()
             .unwrap();
-        let RecordedRun { time_series, run, states } = recorded(&mut simulation, 1600);
+        let RecordedRun { time_series, run, states } = recorded(&mut simulation, 1200);
         assert!(run.whole.sliding.path == 0.0 && run.energy_error < 1e-9);
         let energy_balance = run.energy_balance;
         let booked = energy_balance.soil + energy_balance.contact + energy_balance.static_contact;
-        let work = time_series.series(Quantity::RockingWork)[1600];
+        let work = time_series.series(Quantity::RockingWork)[1200];
         let found = work + work_beside_rocking(&states);
         let largest = run.whole.rocking_work.magnitude();
         assert!((found - booked).abs() < 1e-9 * largest, "{found} {booked}");
-        // The loops dissipate most of it; soil that does not yield gives it back.
-        assert!(energy_balance.contact >= least_fraction * work, "{energy_balance}");
+        // Soil that does not yield gives the work back.
+        assert!((work > 0.5 * largest) == yields, "{work} {largest}");
+        assert!((energy_balance.contact > work) == yields, "{energy_balance}");
         let settlement = run.whole.residual_settlement;
-        assert!((settlement > 5e-3) == (least_fraction > 0.0), "{settlement}");
-        let rocking = time_series.rocking(0).unwrap().between(2.0..10.0).unwrap();
-        let damping = rocking.equivalent_damping().unwrap();
-        assert!((damping > 0.02) == (least_fraction > 0.0), "{damping}");
+        assert!((settlement > 3e-3) == yields, "{settlement}");
+        let cycle = time_series.rocking(0).unwrap().between(5.0..9.0).unwrap();
+        let damping = cycle.equivalent_damping().unwrap();
+        assert!(if yields { damping > 0.03 } else { damping.abs() < 1e-4 }, "{damping}");
     }
 }
 
@@ -253,11 +257,18 @@ fn what_is_no_cycle_is_refused() {
     let mut simulation = on_springs(Bonded).build().unwrap();
     let time_series = recorded(&mut simulation, 10).time_series;
     let rocking = time_series.rocking(0).unwrap();
-    for window in [0.05..0.01, 7.0..8.0, f64::NAN..1.0, 0.0..f64::NAN] {
+    for window in [0.05..0.01, 7.0..8.0] {
         let found = rocking.between(window.clone());
         assert!(matches!(found, Err(Error::Size { found: 0, .. })), "{window:?}");
     }
+    for window in [f64::NAN..1.0, 0.0..f64::NAN, 0.0..f64::INFINITY] {
+        let found = rocking.between(window.clone());
+        assert!(matches!(found, Err(Error::Input { .. })), "{window:?}");
+    }
     assert_eq!(rocking.between(0.03..0.05).unwrap().times.len(), 3);
+    let mut shortened = rocking;
+    shortened.work = &[];
+    assert!(shortened.between(0.0..0.1).unwrap().equivalent_damping().is_err());
     assert!(matches!(time_series.rocking_across(0), Err(Error::Scene { .. })));
     assert!(matches!(time_series.rocking(1), Err(Error::Index { index: 1, bound: 1, .. })));
 }
