@@ -75,6 +75,10 @@ fn main() -> Result<()> {
         save(name, &plot::time_series("Tower under El Centro 1940", &series, quantity)?)?;
     }
     save("roof", &plot::probe_time_series("Roof acceleration", &series, "roof")?)?;
+    let rocking =
+        [("bonded", bonded.series.rocking(0)?), ("uplift and slip", free.series.rocking(0)?)];
+    save("moment_rotation", &plot::moment_rotation("Rocking of the base", &rocking, &[])?)?;
+    save("settlement_rotation", &plot::settlement_rotation("Rocking of the base", &rocking, &[])?)?;
     save("modes", &plot::mode_map("Contact modes", &free.series)?)?;
     save("pressure", &plot::pressure_envelope("Pressure under the base", &free.run)?)?;
     save("energy", &plot::energy("Energy", &free.series)?)?;

@@ -98,6 +98,7 @@
 //! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; in plan of the whole body: N, N·m, kg; tractions in Pa |
 //! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; kernels alone use z down |
 //! | rotations, moments | positive counter-clockwise; in plan vectors by the right-hand rule: `base_moment` and `base_rotation` about y, `moment_across` and `rotation_across` about x, `torque` and `twist` about z ([`coupled::State::moment_vector`]) |
+//! | settlement | positive downwards, of a foundation's centre since the static state |
 //! | pressure | positive in compression |
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |

@@ -278,7 +278,7 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     // From modes, the state itself has to make the degrees of freedom of a frame.
     let builder = builder.coordinates(Coordinates::Physical);
     let mut simulation = builder.expected_steps(ALL_STEPS).build().unwrap();
-    let recorder = Recorder::new().contact(2).motion(3);
+    let recorder = Recorder::new().contact(2).motion(3).foundations();
     let mut time_series = recorder.start(&simulation).unwrap();
     for _ in 0..WARM_UP_STEPS {
         time_series.record(simulation.step().unwrap()).unwrap();

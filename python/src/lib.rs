@@ -96,7 +96,7 @@ mod _core {
         restored::restored,
         results::{
             PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun,
-            PyServiceCheck, PySummary, PySystemMode,
+            PyServiceCheck, PySummary, PySystemMode, equivalent_damping,
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{

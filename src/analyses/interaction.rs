@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::analyses::free_vibration::{FixedBaseMode, free_vibration};
 use crate::coupled::SimulationBuilder;
-use crate::coupled::run::quantity::ShownIn;
+use crate::coupled::run::quantity_row::ShownIn;
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
 use crate::results::{Extremes, Quantity, Run};

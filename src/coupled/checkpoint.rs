@@ -17,7 +17,7 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
-const CHECKPOINT_FORMAT: u32 = 11;
+const CHECKPOINT_FORMAT: u32 = 12;
 /// Largest number of steps of a checkpoint: no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -305,7 +305,8 @@ fn numbers<'a>(
     energies: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
-    let State { kinematics, contact, start, free_field, free_field_across, .. } = state;
+    let State { kinematics, contact, start, free_field, free_field_across, foundations, .. } =
+        state;
     for values in
         [&mut kinematics.displacement, &mut kinematics.velocity, &mut kinematics.acceleration]
     {
@@ -325,6 +326,10 @@ fn numbers<'a>(
         across.extend([slip_across, shear_across]);
     }
     all.extend(start.slip_rates_mut());
+    for foundation in foundations {
+        all.push(&mut foundation.rocking_work);
+        across.push(&mut foundation.rocking_work_across);
+    }
     if directions == COMPONENTS_IN_SPACE {
         all.push(free_field_across);
         all.extend(across);

@@ -1,4 +1,4 @@
-//! Serviceability: allowable slip, gap, uplifted part and rotation of a base.
+//! Serviceability: allowable slip, gap, uplifted part, rotation and settlement of a base.
 
 use crate::coupled::State;
 use crate::error::{Result, positive, require};
@@ -16,8 +16,10 @@ pub enum Criterion {
     Gap,
     /// Uplifted fraction of a foundation.
     UpliftedFraction,
-    /// Rotation of a foundation's chord, rad, either way, static part included; in plan the tilt in any direction.
+    /// Rotation of a foundation's chord since the static state, rad, either way; in plan the tilt in any direction.
     Rotation,
+    /// Settlement of a foundation's centre since the static state, m, downwards.
+    Settlement,
 }
 
 words! { pub(crate) Criterion, "criterion", {
@@ -25,6 +27,7 @@ words! { pub(crate) Criterion, "criterion", {
     Gap = "gap",
     UpliftedFraction = "uplifted_fraction",
     Rotation = "rotation",
+    Settlement = "settlement",
 } }
 
 impl Criterion {
@@ -35,13 +38,14 @@ impl Criterion {
             Self::Gap => "gap",
             Self::UpliftedFraction => "uplifted fraction",
             Self::Rotation => "rotation",
+            Self::Settlement => "settlement",
         }
     }
 
     /// SI unit; empty for a fraction.
     pub(crate) fn unit(self) -> &'static str {
         match self {
-            Self::Slip | Self::Gap => "m",
+            Self::Slip | Self::Gap | Self::Settlement => "m",
             Self::UpliftedFraction => "",
             Self::Rotation => "rad",
         }
@@ -63,6 +67,9 @@ impl Criterion {
             Self::Rotation => foundations
                 .map(|foundation| resultant(foundation.base_rotation, foundation.rotation_across))
                 .fold(0.0, larger_magnitude),
+            Self::Settlement => {
+                foundations.fold(0.0, |largest, foundation| foundation.settlement.max(largest))
+            }
         }
     }
 }
@@ -117,6 +124,8 @@ pub struct Serviceability {
     pub uplifted_fraction: Option<f64>,
     /// Allowable rotation (rad), above zero: [`Criterion::Rotation`].
     pub rotation: Option<f64>,
+    /// Allowable settlement (m), above zero: [`Criterion::Settlement`].
+    pub settlement: Option<f64>,
 }
 
 validated! {
@@ -125,9 +134,11 @@ validated! {
         gap: Option<f64>,
         uplifted_fraction: Option<f64>,
         rotation: Option<f64>,
+        #[serde(default)]
+        settlement: Option<f64>,
     }
     => {
-        Serviceability { slip, gap, uplifted_fraction, rotation }.checked()
+        Serviceability { slip, gap, uplifted_fraction, rotation, settlement }.checked()
     }
 }
 
@@ -135,13 +146,14 @@ impl Serviceability {
     /// Returns the limits if all of them are valid.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless slip, gap and rotation are finite and above zero, and the fraction
+    /// [`Error::Input`](crate::Error::Input) unless slip, gap, rotation and settlement are finite and above zero, and the fraction
     /// is at most one.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, limit) in [
             ("allowable slip", self.slip),
             ("allowable gap", self.gap),
             ("allowable rotation", self.rotation),
+            ("allowable settlement", self.settlement),
         ] {
             limit.map_or(Ok(0.0), |limit| positive(quantity, limit))?;
         }

@@ -87,6 +87,13 @@ impl Stroke {
         Self { color: CURVE_COLORS[k % CURVE_COLORS.len()], marker, phase }
     }
 
+    /// Style of the measured points number `k`: a marker for each, in other colours than the first curves.
+    pub(super) fn points(k: usize) -> Self {
+        let marker = Some(CURVE_MARKERS[k % CURVE_MARKERS.len()]);
+        let color = CURVE_COLORS[CURVE_COLORS.len() - 2 - k % (CURVE_COLORS.len() - 1)];
+        Self { color, marker, phase: 0.0 }
+    }
+
     /// Points of a curve of `count` points that have a marker.
     pub(super) fn marked(self, count: usize) -> impl Iterator<Item = usize> {
         (0..MARKERS_PER_CURVE.min(count)).map(move |k| {

@@ -24,6 +24,8 @@ const NAME_GAP: i32 = 6;
 pub(super) enum KeySample {
     /// A piece of a curve.
     Line(Stroke),
+    /// A measured point.
+    Point(Stroke),
     /// A filled rectangle.
     Area(RGBColor),
     Nothing,
@@ -78,12 +80,9 @@ impl PictureKey {
                 KeySample::Line(stroke) => {
                     let style = stroke.color.stroke_width(3);
                     strip.draw(&PathElement::new([(4, y), (32, y)], style))?;
-                    if let Some(marker) = stroke.marker {
-                        let corners =
-                            marker.iter().map(|(dx, dy)| (18 + dx, y + dy)).collect::<Vec<_>>();
-                        strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
-                    }
+                    draw_marker(strip, stroke, y)?;
                 }
+                KeySample::Point(stroke) => draw_marker(strip, stroke, y)?,
                 KeySample::Area(color) => {
                     strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color.filled()))?;
                 }
@@ -97,6 +96,15 @@ impl PictureKey {
         }
         Ok(())
     }
+}
+
+/// Draws the marker of a stroke, if it has one, at this height of the strip.
+fn draw_marker(strip: &Area<'_>, stroke: Stroke, y: i32) -> Drawing<()> {
+    if let Some(marker) = stroke.marker {
+        let corners = marker.iter().map(|(dx, dy)| (18 + dx, y + dy)).collect::<Vec<_>>();
+        strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
+    }
+    Ok(())
 }
 
 /// A name in lines that fit into the strip.

@@ -146,7 +146,7 @@ pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str)
 }
 
 /// Description of an axis with the unit of its values.
-fn with_unit(name: &str, unit: &str) -> String {
+pub(super) fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 

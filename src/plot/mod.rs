@@ -7,6 +7,7 @@
 //! | picture | function |
 //! |---|---|
 //! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
+//! | moment or settlement of a foundation over its rotation, beside measured points | [`moment_rotation`], [`settlement_rotation`] |
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
@@ -43,6 +44,7 @@ mod plan;
 #[cfg(feature = "png")]
 mod png;
 mod refinement;
+mod rocking;
 mod shells;
 mod shown;
 mod site_response;
@@ -56,6 +58,7 @@ pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
 pub use plan::contact_plan;
 pub use refinement::refinement;
+pub use rocking::{moment_rotation, settlement_rotation};
 pub use shells::shell_plan;
 pub use site_response::site_response;
 pub use svg::{Svg, page};

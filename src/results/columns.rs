@@ -58,6 +58,13 @@ impl TimeSeries {
         let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];
         columns.extend(Quantity::recorded(in_plan).map(|quantity| quantity.column(in_plan)));
+        for foundation in 0..self.foundations.kept() {
+            columns.extend(
+                Quantity::recorded(in_plan).map(|quantity| {
+                    format!("foundation_{foundation}_{}", quantity.column(in_plan))
+                }),
+            );
+        }
         let mut taken = columns.clone();
         taken.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
         taken.extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
@@ -70,7 +77,8 @@ impl TimeSeries {
     /// Values of the columns.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::recorded(self.in_plan()).map(|quantity| self.series(quantity));
+        let foundations = self.foundations.lists().iter().map(Vec::as_slice);
         let probes = self.probe_values.iter().map(Vec::as_slice);
-        std::iter::once(self.times()).chain(scalars).chain(probes)
+        std::iter::once(self.times()).chain(scalars).chain(foundations).chain(probes)
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
-use crate::coupled::run::quantity::ShownIn;
+use crate::coupled::run::quantity_row::ShownIn;
 use crate::text::column::{NumberCell, column, distinct};
 use crate::text::csv::Csv;
 use crate::text::readable_number::{number, of_body, printed};
@@ -60,11 +60,14 @@ impl ComparisonRow {
 /// Result derived from one or several quantities: name, unit, column, factor and value.
 type DerivedResult = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const DERIVED_RESULTS: [DerivedResult; 9] = [
+const DERIVED_RESULTS: [DerivedResult; 10] = [
     ("shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |run| Some(run.whole.residual_slip)),
     ("mean slip across, residual", "mm", "residual_slip_across_m", 1e3, |run| {
         run.in_plan.then_some(run.whole.residual_slip_across)
+    }),
+    ("settlement, residual", "mm", "residual_settlement_m", 1e3, |run| {
+        Some(run.whole.residual_settlement)
     }),
     ("slip events", "", "slip_events", 1.0, |run| Some(run.slip_events() as f64)),
     ("uplifted for", "s", "uplift_duration_s", 1.0, |run| Some(run.whole.uplift.duration)),

@@ -2,7 +2,8 @@
 //!
 //! [`Simulation::run`](crate::Simulation::run) returns a [`Run`]: peaks, envelopes and factors of safety, which
 //! print as a page for the report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
-//! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run.
+//! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run. [`Rocking`] is that of one
+//! foundation: moment, rotation, settlement, and the equivalent damping of a cycle.
 //!
 //! ```
 //! use basemat::bem::ElasticGround;
@@ -53,8 +54,8 @@
 //!
 //! # Memory
 //!
-//! Results that are not requested cost nothing. Scalar time series take 24 numbers and one per probe at every kept
-//! step (192 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
+//! Results that are not requested cost nothing. Scalar time series take 27 numbers and one per probe at every kept
+//! step (216 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
 //! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
 //! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.
 //!
@@ -69,9 +70,12 @@ mod csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 mod deformed_shape;
 mod floor;
+mod foundation_series;
 mod frames;
 #[cfg(feature = "npz")]
 mod npz;
+mod recorder;
+mod rocking;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub(crate) mod shape_cell;
 mod time_series;
@@ -89,4 +93,6 @@ pub use csv::spectrum_csv;
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
-pub use time_series::{Recorder, TimeSeries};
+pub use recorder::Recorder;
+pub use rocking::{Rocking, equivalent_damping};
+pub use time_series::TimeSeries;

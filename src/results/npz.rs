@@ -93,6 +93,7 @@ impl TimeSeries {
     /// | arrays | shape | |
     /// |---|---|---|
     /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::csv) | kept steps | |
+    /// | `foundation_0_settlement_m` …, the scalars of each foundation | kept steps | with [`Recorder::foundations`](super::Recorder::foundations) |
     /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance); in plan `_j` |
     /// | `element_left_m`, `element_right_m`; in plan `element_front_m`, `element_back_m` | elements | ends of the contact elements |
     /// | with walls `element_bottom_m`, `element_top_m` | elements | their heights |

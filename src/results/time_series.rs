@@ -1,9 +1,10 @@
-//! Time series of a run, and its motion and contact frames: what a recorder selects and an observer stores.
+//! Time series of a run, and its motion and contact frames, which an observer stores.
 
 use std::collections::TryReserveError;
 
-use super::Quantity;
+use super::foundation_series::FoundationSeries;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, reserve};
+use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::state::sequence::Sequence;
@@ -13,53 +14,6 @@ use crate::coupled::{Face, FaceForces};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::geometry::ContactLayout;
 use crate::structure::probe_index;
-
-/// Selects results to keep beyond a [`Run`](super::Run).
-///
-/// Default: time series of scalars and probes at every step.
-///
-/// See the [module](super) for an example.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-pub struct Recorder {
-    pub(super) every: usize,
-    pub(super) contact: Option<usize>,
-    pub(super) motion: Option<usize>,
-}
-
-impl Default for Recorder {
-    fn default() -> Self {
-        Self { every: 1, contact: None, motion: None }
-    }
-}
-
-impl Recorder {
-    /// Recorder of scalars and probes at every step.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Keeps scalars and probes only at every `steps`th step; floor spectra are then impossible.
-    #[must_use]
-    pub fn every(self, steps: usize) -> Self {
-        Self { every: steps, ..self }
-    }
-
-    /// Keeps contact frames at every `steps`th step: 49 bytes per element and frame.
-    #[must_use]
-    pub fn contact(self, steps: usize) -> Self {
-        Self { contact: Some(steps), ..self }
-    }
-
-    /// Keeps motion frames of the structure at every `steps`th step.
-    ///
-    /// Displacement and velocity take 16 bytes per degree of freedom and frame.
-    #[must_use]
-    pub fn motion(self, steps: usize) -> Self {
-        Self { motion: Some(steps), ..self }
-    }
-}
 
 /// Time series and snapshots of a run.
 ///
@@ -84,6 +38,7 @@ pub struct TimeSeries {
     times: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     scalars: Vec<Vec<f64>>,
+    pub(super) foundations: FoundationSeries,
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     pub(super) probe_values: Vec<Vec<f64>>,
     energy_balances: Vec<EnergyBalance>,
@@ -105,6 +60,8 @@ validated! {
         times: Vec<f64>,
         #[serde(with = "crate::text::forms::lists")]
         scalars: Vec<Vec<f64>>,
+        #[serde(default)]
+        foundations: FoundationSeries,
         #[serde(with = "crate::text::forms::lists")]
         probe_values: Vec<Vec<f64>>,
         energy_balances: Vec<EnergyBalance>,
@@ -116,9 +73,10 @@ validated! {
         crate::error::same_length("list of scalars", scalars.len(), count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
-        for values in scalars.iter().chain(&probe_values) {
+        for values in scalars.iter().chain(&probe_values).chain(foundations.lists()) {
             crate::error::same_length("time series", values.len(), kept)?;
         }
+        foundations.check(count)?;
         let are_whole = contact.as_ref().is_none_or(|frames| frames.is_whole(elements.len()))
             && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
         crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
@@ -126,7 +84,7 @@ validated! {
         let sequence = Sequence::ended(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
-            scalars, probe_values, energy_balances, contact, motion,
+            scalars, foundations, probe_values, energy_balances, contact, motion,
         })
     }
 }
@@ -150,6 +108,7 @@ impl Recorder {
         require("steps between what is kept", 0.0, !intervals.contains(&Some(0)), "one or more")?;
         let state = simulation.state();
         let elements = simulation.elements();
+        let count = Quantity::recorded(elements.is_plan()).count();
         let mut series = TimeSeries {
             elements: elements.to_vec(),
             pressure_depths: state.context.pressure_depths.clone(),
@@ -159,7 +118,8 @@ impl Recorder {
             steps: 0,
             dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
-            scalars: vec![Vec::new(); Quantity::recorded(elements.is_plan()).count()],
+            scalars: vec![Vec::new(); count],
+            foundations: FoundationSeries::new(state, count, self.foundations),
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),
@@ -215,7 +175,8 @@ impl TimeSeries {
 
     /// Memory that `steps` more steps would take, bytes.
     fn needed_bytes(&self, steps: usize) -> f64 {
-        let numbers = 1 + self.scalars.len() + self.probe_values.len();
+        let numbers =
+            1 + self.scalars.len() + self.foundations.lists().len() + self.probe_values.len();
         let step_bytes = numbers * size_of::<f64>() + size_of::<EnergyBalance>();
         let mut bytes = self.kept_steps(self.recorder.every, steps) as f64 * step_bytes as f64;
         if let Some(frames) = &self.contact {
@@ -259,7 +220,8 @@ impl TimeSeries {
 
     fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
         let count = self.kept_steps(self.recorder.every, steps);
-        for list in self.scalars.iter_mut().chain(&mut self.probe_values).chain([&mut self.times]) {
+        let scalars = self.scalars.iter_mut().chain(self.foundations.lists_mut());
+        for list in scalars.chain(&mut self.probe_values).chain([&mut self.times]) {
             reserve(list, count)?;
         }
         reserve(&mut self.energy_balances, count)?;
@@ -280,7 +242,8 @@ impl TimeSeries {
         if step.is_multiple_of(self.recorder.every) {
             self.times.push(state.time);
             self.energy_balances.push(state.energy_balance);
-            state.append_values(&mut self.scalars);
+            state.append_values(None, &mut self.scalars);
+            self.foundations.store(state);
             for (values, &value) in self.probe_values.iter_mut().zip(&state.probes) {
                 values.push(value);
             }
@@ -374,9 +337,8 @@ impl TimeSeries {
 
     /// Memory that time series and frames use now, bytes.
     pub fn bytes(&self) -> usize {
-        let numbers: usize =
-            self.scalars.iter().chain(&self.probe_values).map(Vec::len).sum::<usize>()
-                + self.times.len();
+        let lists = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
+        let numbers = lists.map(Vec::len).sum::<usize>() + self.times.len();
         8 * numbers
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)

@@ -69,7 +69,7 @@ fn choices_are_read_as_they_are_printed() {
     use Baseline::{
         DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
     };
-    use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
+    use Criterion::{Gap, Rotation, Settlement, Slip, UpliftedFraction};
     use Direction::{Rotation as InPlane, RotationX, RotationY, RotationZ, X, Y, Z};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
@@ -105,7 +105,7 @@ fn choices_are_read_as_they_are_printed() {
     assert_spelling("grading", &[Grading::Uniform, Grading::Cosine]);
     assert_spelling("gravity stage", &[Frictionless, Frictional, Unloaded]);
     assert_spelling("search method", &[ActiveSet, GaussSeidel, Path, Newton, Proximal]);
-    assert_spelling("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
+    assert_spelling("criterion", &[Slip, Gap, UpliftedFraction, Rotation, Settlement]);
     assert_spelling("friction limit", &[Total, Lagged, Static, Dynamic]);
     assert_spelling("sense of slip", &[Inelastic, Velocity, LastVelocity]);
     assert_spelling("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
@@ -161,6 +161,8 @@ fn columns_of_quantities_have_units() {
         "mean_slip_m",
         "largest_slip_m",
         "base_rotation_rad",
+        "settlement_m",
+        "rocking_work_j_per_m",
         "free_field_horizontal_m",
         "free_field_vertical_m",
         "sliding_safety",

@@ -59,11 +59,11 @@ fn histories_have_a_column_for_every_series() {
         for (cell, quantity) in row[1..].iter().zip(Quantity::recorded(false)) {
             same(cell, time_series.series(quantity)[k]);
         }
-        same(&row[12], time_series.probe("top").unwrap()[k]);
-        same(&row[14], time_series.energy_balances()[k].input);
+        same(&row[14], time_series.probe("top").unwrap()[k]);
+        same(&row[16], time_series.energy_balances()[k].input);
     }
     // At the start nothing shears: the factor of safety is infinite.
-    assert_eq!(rows[0][10], "inf");
+    assert_eq!(rows[0][12], "inf");
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn columns_of_probes_differ() {
         "unnamed",
         "input_energy_j_per_m",
     ];
-    assert_eq!(heading[12..], expected);
+    assert_eq!(heading[14..], expected);
 }
 
 #[test]

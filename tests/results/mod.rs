@@ -17,6 +17,8 @@ mod plot;
 mod plot_texts;
 mod refused;
 mod resolution;
+mod rocking;
+mod rocking_pictures;
 mod safety;
 mod serviceability;
 mod spectra;

@@ -33,6 +33,7 @@ fn value(criterion: Criterion, state: &State) -> f64 {
             state.contact.iter().fold(0.0, |largest, contact| contact.gap.max(largest))
         }
         Criterion::UpliftedFraction => state.uplifted_fraction,
+        Criterion::Settlement => state.foundations[0].settlement.max(0.0),
         _ => state.base_rotation.abs(),
     }
 }
@@ -49,8 +50,13 @@ fn verdicts_are_those_of_the_states() {
     let CheckedRun { run: free, states } = checked_run(Serviceability::default());
     assert!(free.serviceability.is_empty() && free.is_serviceable().is_none());
     assert!(!free.to_string().contains("Serviceability"));
-    let criteria =
-        [Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation];
+    let criteria = [
+        Criterion::Slip,
+        Criterion::Gap,
+        Criterion::UpliftedFraction,
+        Criterion::Rotation,
+        Criterion::Settlement,
+    ];
     let peaks =
         criteria.map(|criterion| states.iter().map(|s| value(criterion, s)).fold(0.0, f64::max));
     assert!(peaks.iter().all(|peak| *peak > 0.0));
@@ -60,11 +66,12 @@ fn verdicts_are_those_of_the_states() {
             gap: Some(factor * peaks[1]),
             uplifted_fraction: Some((factor * peaks[2]).min(1.0)),
             rotation: Some(factor * peaks[3]),
+            settlement: Some(factor * peaks[4]),
         };
         let CheckedRun { run, states: again } = checked_run(limits);
         assert_eq!(again.len(), states.len());
         assert_eq!(run.whole.base_shear, free.whole.base_shear);
-        assert_eq!(run.serviceability.len(), 4);
+        assert_eq!(run.serviceability.len(), 5);
         for ((check, criterion), peak) in run.serviceability.iter().zip(criteria).zip(peaks) {
             assert_eq!(check.criterion, criterion);
             assert_eq!(check.largest.value.abs(), peak);
@@ -105,6 +112,7 @@ fn bad_limits() {
             Serviceability { gap: Some(bad), ..none },
             Serviceability { uplifted_fraction: Some(bad), ..none },
             Serviceability { rotation: Some(bad), ..none },
+            Serviceability { settlement: Some(bad), ..none },
         ]
         .map(build);
         let names = [
@@ -112,6 +120,7 @@ fn bad_limits() {
             "allowable gap",
             "allowable uplifted fraction",
             "allowable rotation",
+            "allowable settlement",
         ];
         for (refused, name) in refused.into_iter().zip(names) {
             assert!(

@@ -44,6 +44,7 @@ pub(super) fn rocking_simulation() -> Simulation {
             gap: Some(1e-4),
             rotation: Some(1.0),
             uplifted_fraction: Some(0.9),
+            ..Serviceability::default()
         })
         .build()
         .unwrap()

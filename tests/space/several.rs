@@ -71,6 +71,7 @@ fn rocking_simulation(quarter_turns: usize) -> Simulation {
             gap: Some(1e-3),
             rotation: Some(2e-2),
             uplifted_fraction: Some(0.5),
+            ..Serviceability::default()
         })
         .build()
         .unwrap()

@@ -27,6 +27,8 @@ for _class, _name, _method in (
     (Run, "plot", _plots.plot_run),
     (Run, "plot_modes", _plots.plot_modes),
     (Run, "plot_contact_plan", _plots.plot_contact_plan),
+    (Run, "plot_moment_rotation", _plots.plot_moment_rotation),
+    (Run, "plot_settlement_rotation", _plots.plot_settlement_rotation),
     (Run, "animate", _animation.animate),
     (Run, "report", _report.report),
     (Run, "save", _save),

@@ -1510,6 +1510,23 @@ class Summary:
     def base_rotation(self) -> Extremes:
         """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its `Extremes`."""
     @property
+    def residual_rotation(self) -> float:
+        """Rotation at the end, rad, in plan about y."""
+    @property
+    def residual_rotation_across(self) -> float:
+        """In plan: rotation about x at the end, rad."""
+    @property
+    def settlement(self) -> Extremes:
+        """Settlement of its centre since the static state, positive downwards, m, of several foundations the largest: its
+        `Extremes`.
+        """
+    @property
+    def residual_settlement(self) -> float:
+        """Settlement at the end, m."""
+    @property
+    def rocking_work(self) -> Extremes:
+        """Work of the moment on the soil, ∫M dθ, J/m, in plan about y: its `Extremes`."""
+    @property
     def uplifted_fraction(self) -> Peak:
         """Largest ratio of the open length to the length: its `Peak`."""
     @property
@@ -1555,6 +1572,28 @@ class Run(Summary):
     printed, a run is a page for a report.
     """
 
+    def foundation_series(self, foundation: int) -> dict[str, NDArray[np.float64]]:
+        """Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first. Its moments are
+        about its middle. Several foundations need ``foundations=True`` of `Simulation.run`.
+        """
+    def rocking(self, foundation: int = 0, *, across: bool = False) -> dict[str, NDArray[np.float64]]:
+        """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
+        of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
+        "settlement" (m, positive downwards) and "work", that of the moment on the soil (∫M dθ, J/m).
+        """
+    def equivalent_damping(
+        self,
+        start: float,
+        end: float,
+        foundation: int = 0,
+        *,
+        across: bool = False,
+    ) -> float:
+        """Equivalent viscous damping ratio E/(2π M θ) of the one cycle of rocking between the times ``start`` and ``end`` (s).
+
+        E is the work of the moment, M and θ are half the ranges of moment and rotation (Gajan and Kutter 2008). An `InputError` tells
+        of steps that are not one closed cycle. ``foundation`` and ``across`` as for `rocking`.
+        """
     @property
     def steps(self) -> int:
         """Number of steps made."""
@@ -1809,6 +1848,45 @@ class Run(Summary):
         It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
         new figure unless given. ``title`` stands above the picture; None for none.
         """
+    def plot_moment_rotation(
+        self,
+        axes: Axes | None = None,
+        *,
+        foundation: int = 0,
+        across: bool = False,
+        between: tuple[float, float] | None = None,
+        measured: tuple[ArrayLike, ArrayLike] | None = None,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the moment on the soil over the rotation of a foundation, beside measured points; returns the axes.
+
+        ``foundation`` (the first unless given) and ``across`` (False by default) as for `Run.rocking`; ``between``: first and last
+        time of the path, s, the whole run unless given. ``measured``: rotations (rad) and moments (N·m/m, in plan N·m), arrays of
+        shape (m,), drawn as points; none unless given. ``axes``: those of matplotlib to draw into; unless given, axes of a new figure.
+        For several runs in the same axes: ``label``, a name of the path, and its ``color``. ``title`` stands above the picture; None
+        for none.
+        """
+    def plot_settlement_rotation(
+        self,
+        axes: Axes | None = None,
+        *,
+        foundation: int = 0,
+        across: bool = False,
+        between: tuple[float, float] | None = None,
+        measured: tuple[ArrayLike, ArrayLike] | None = None,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the settlement over the rotation of a foundation, downwards, beside measured points; returns the axes.
+
+        ``measured``: rotations (rad) and settlements (m), arrays of shape (m,), drawn as points; none unless given. The other
+        arguments as for `Run.plot_moment_rotation`: ``foundation`` (the first unless given), ``across`` (False by default),
+        ``between`` (s; the whole run unless given), ``axes`` (of a new figure unless given), ``label``, ``color`` and ``title``
+        (None for none).
+        """
     def report(
         self,
         path: str | os.PathLike[str],
@@ -1920,8 +1998,8 @@ class ServiceCheck:
     """Comparison of a run with a limit of service."""
 
     @property
-    def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation"]:
-        """The limited response: "slip", "gap", "uplifted_fraction" or "rotation"."""
+    def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation", "settlement"]:
+        """The limited response: "slip", "gap", "uplifted_fraction", "rotation" or "settlement"."""
     @property
     def limit(self) -> float:
         """Limit of the response, in SI units."""
@@ -2106,6 +2184,7 @@ class Simulation:
         every: int = 1,
         contact_every: int | None = None,
         motion_every: int | None = None,
+        foundations: bool = False,
         warn: bool = True,
     ) -> Run:
         """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
@@ -2121,8 +2200,9 @@ class Simulation:
 
         ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
         floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-        ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
-        ``observe``, which may end the run, only the values of the steps made.
+        ``motion_every``th (none unless given), and with ``foundations`` (False by default) those of each foundation too. All of
+        them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
+        the steps made.
 
         ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
         by default.
@@ -2219,6 +2299,12 @@ class FoundationState:
     def rotation(self) -> float:
         """Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule."""
     @property
+    def settlement(self) -> float:
+        """Settlement of its centre since the static state, positive downwards, m."""
+    @property
+    def rocking_work(self) -> float:
+        """Work of its moment on the soil since the start, ∫M dθ, J/m; in plan about y, J."""
+    @property
     def shear_across(self) -> float:
         """In plan: force on the soil along y, positive away, N."""
     @property
@@ -2233,6 +2319,9 @@ class FoundationState:
     @property
     def rotation_across(self) -> float:
         """In plan: rotation about x, rad."""
+    @property
+    def rocking_work_across(self) -> float:
+        """In plan: work of the moment about x on the soil since the start, J."""
     @property
     def twist(self) -> float:
         """In plan: rotation about the vertical axis, counter-clockwise from above, rad."""
@@ -2367,6 +2456,7 @@ class ServiceLimits:
         gap: limit of the gap of any element, m; none unless given.
         uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
         rotation: limit of the base's |rotation|, rad; none unless given.
+        settlement: limit of the base's settlement, m; none unless given.
     """
 
     def __new__(
@@ -2376,6 +2466,7 @@ class ServiceLimits:
         gap: float | None = None,
         uplifted_fraction: float | None = None,
         rotation: float | None = None,
+        settlement: float | None = None,
     ) -> Self: ...
 
 @final
@@ -4021,5 +4112,16 @@ def sensitivity(
     """
 
 def _restored(kind: str, data: bytes) -> Any: ...
+
+def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
+    """Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
+
+    E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An `InputError` tells of
+    points that are not one closed cycle. `Run.equivalent_damping` takes it from a run.
+
+    Args:
+        rotation: rotations, array of shape (m,), rad.
+        moment: moments in any unit, array of shape (m,).
+    """
 
 def _cancel_when(event: Any = None) -> None: ...

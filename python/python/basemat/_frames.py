@@ -25,7 +25,8 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "depth x y z residual_slip residual_slip_across displacement",
+    "m": "depth x y z residual_slip residual_slip_across residual_settlement displacement",
+    "rad": "residual_rotation residual_rotation_across",
     "Pa": "shear_modulus",
     "s": "time period",
     "m/s": "pseudo_velocity",
@@ -100,16 +101,19 @@ def envelope_frame(self: Run) -> DataFrame:
 def foundation_frame(self: Run) -> DataFrame:
     """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-    Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
+    Columns are ends (m), the static normal force, residual slip and settlement (m) and rotation (rad), and the columns of `Run.series`: of a factor
     of safety the least value; in plan also the directions across: "torque" and others.
     """
     rows = []
     for foundation, peaks in zip(self.foundations, self._foundation_peaks):
         row: dict[str, float | None] = {"left": foundation.ends[0], "right": foundation.ends[1]}
-        row.update(peaks, static_normal_force=foundation.static_normal_force, residual_slip=foundation.residual_slip)
+        row.update(peaks, static_normal_force=foundation.static_normal_force)
+        for name in ("residual_slip", "residual_settlement", "residual_rotation"):
+            row[name] = getattr(foundation, name)
         if self.in_plan:
             row["front"], row["back"] = foundation.depth
-            row["residual_slip_across"] = foundation.residual_slip_across
+            for name in ("residual_slip_across", "residual_rotation_across"):
+                row[name] = getattr(foundation, name)
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
     return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)

@@ -26,6 +26,7 @@ from ._figures import (
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
 
 _STYLES = ("-", "--", ":", "-.")
 """Of the energies of several runs in the same axes."""
@@ -187,6 +188,90 @@ def contact_plan(run: Run, axes: Axes | None) -> tuple[Axes, Callable[[int], lis
         return [cells, arrows]
 
     return panel, draw
+
+
+def plot_moment_rotation(
+    self: Run,
+    axes: Axes | None = None,
+    *,
+    foundation: int = 0,
+    across: bool = False,
+    between: tuple[float, float] | None = None,
+    measured: tuple[ArrayLike, ArrayLike] | None = None,
+    label: str | None = None,
+    color: str | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draws the moment on the soil over the rotation of a foundation, beside measured points; returns the axes.
+
+    ``foundation`` (the first unless given) and ``across`` (False by default) as for `Run.rocking`; ``between``: first and last
+    time of the path, s, the whole run unless given. ``measured``: rotations (rad) and moments (N·m/m, in plan N·m), arrays of
+    shape (m,), drawn as points; none unless given. ``axes``: those of matplotlib to draw into; unless given, axes of a new figure.
+    For several runs in the same axes: ``label``, a name of the path, and its ``color``. ``title`` stands above the picture; None
+    for none.
+    """
+    panel = _over_rotation(self, "moment", 1e-3, foundation, across, between, measured, axes, label, color, title)
+    label_axes(panel, "rotation, mrad", f"moment, k{self.units['base_moment']}")
+    return panel
+
+
+def plot_settlement_rotation(
+    self: Run,
+    axes: Axes | None = None,
+    *,
+    foundation: int = 0,
+    across: bool = False,
+    between: tuple[float, float] | None = None,
+    measured: tuple[ArrayLike, ArrayLike] | None = None,
+    label: str | None = None,
+    color: str | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draws the settlement over the rotation of a foundation, downwards, beside measured points; returns the axes.
+
+    ``measured``: rotations (rad) and settlements (m), arrays of shape (m,), drawn as points; none unless given. The other
+    arguments as for `Run.plot_moment_rotation`: ``foundation`` (the first unless given), ``across`` (False by default),
+    ``between`` (s; the whole run unless given), ``axes`` (of a new figure unless given), ``label``, ``color`` and ``title``
+    (None for none).
+    """
+    panel = _over_rotation(self, "settlement", 1e3, foundation, across, between, measured, axes, label, color, title)
+    label_axes(panel, "rotation, mrad", "settlement, mm")
+    low, high = sorted(panel.get_ylim())
+    panel.set_ylim(high, low)
+    return panel
+
+
+def _over_rotation(
+    run: Run,
+    name: str,
+    factor: float,
+    foundation: int,
+    across: bool,
+    between: tuple[float, float] | None,
+    measured: tuple[ArrayLike, ArrayLike] | None,
+    axes: Axes | None,
+    label: str | None,
+    color: str | None,
+    title: str | None,
+) -> Axes:
+    """Axes with an array of the rocking over the rotation in mrad."""
+    rocking = run.rocking(foundation, across=across)
+    shown = np.ones(len(rocking["time"]), dtype=bool)
+    if between is not None:
+        # Times are whole numbers of steps, with rounding.
+        rounding = 1e-9 * max(map(abs, between))
+        shown = (rocking["time"] >= between[0] - rounding) & (rocking["time"] <= between[1] + rounding)
+    [panel] = axes_for(axes, 1, title, figsize=(6.5, 4.5))
+    before = results_in(panel)
+    line: dict[str, Any] = {"color": color_for(color, before), "linewidth": 0.8, "label": label}
+    panel.plot(1e3 * rocking["rotation"][shown], factor * rocking[name][shown], **line)
+    if measured is not None:
+        points = [np.asarray(values, dtype=float) for values in measured]
+        dots: dict[str, Any] = {"color": f"C{(before + 1) % 10}", "markersize": 3.0, "label": named(label, "measured")}
+        panel.plot(1e3 * points[0], factor * points[1], ".", **dots)
+    if label is not None or measured is not None:
+        key(panel)
+    return panel
 
 
 def plot_spectrum(

@@ -148,7 +148,7 @@ def _motion(run: Run, simulation: Simulation | None) -> Iterator[str]:
 
 def _shown(unit: str) -> tuple[float, str]:
     """Factor and unit for the table."""
-    if unit[:1] == "N":
+    if unit[:1] in ("N", "J"):
         return 1e-3, f"k{unit}"
     return {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "": (1.0, "ratio")}.get(unit, (1.0, unit))
 
@@ -184,7 +184,7 @@ def _service(run: Run) -> Iterator[str]:
     if not run.serviceability:
         return
     rows = [["limit of service", "unit", "limit", "largest value", "at s", "of the limit", "exceeded from s", ""]]
-    units = {"slip": "m", "gap": "m", "uplifted_fraction": "", "rotation": "rad"}
+    units = {"slip": "m", "gap": "m", "uplifted_fraction": "", "rotation": "rad", "settlement": "m"}
     for check in run.serviceability:
         factor, unit = _shown(units[check.criterion])
         used = 1.0 - check.margin

@@ -3,6 +3,7 @@
 mod energy_balance;
 mod interaction;
 mod peak;
+mod rocking;
 mod run;
 mod series;
 mod shape;
@@ -11,6 +12,7 @@ mod summary;
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use interaction::{PyInteraction, PySystemMode};
 pub(crate) use peak::{PyExtremes, PyPeak};
+pub(crate) use rocking::equivalent_damping;
 pub(crate) use run::PyRun;
 pub(crate) use series::element_units;
 pub(crate) use shape::PyDeformedShape;

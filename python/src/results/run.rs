@@ -39,7 +39,7 @@ impl PyRun {
     }
 
     /// The time series; an error if the run recorded none.
-    fn recorded(&self) -> PyResult<&TimeSeries> {
+    pub(super) fn recorded(&self) -> PyResult<&TimeSeries> {
         self.time_series
             .as_ref()
             .ok_or_else(|| input_error("the run kept no time series (`series=False`)"))
@@ -339,17 +339,8 @@ impl PyRun {
     /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
-        let further = [
-            ("end", Some(run.end)),
-            ("shear_coefficient", run.shear_coefficient()),
-            ("uplift_duration", Some(run.whole.uplift.duration)),
-            ("largest_gap", Some(run.largest_gap().value)),
-            ("largest_pressure", run.largest_pressure().map(|(_, peak)| peak.value)),
-            ("residual_slip", Some(run.whole.residual_slip)),
-            ("energy_input", Some(run.energy_balance.input)),
-            ("energy_error", Some(run.energy_error)),
-        ];
-        let further = further.into_iter().map(|(name, value)| (name.to_owned(), value));
+        let further = series::further_numbers(run).into_iter();
+        let further = further.map(|(name, value)| (name.to_owned(), value));
         let numbers = self.peaks(&run.whole).chain(further).into_py_dict(py)?;
         if let Some(is_serviceable) = run.is_serviceable() {
             numbers.set_item("is_serviceable", is_serviceable)?;

@@ -143,6 +143,22 @@ pub(super) fn units(run: &Run) -> OrderedDict<String, &str> {
     time.chain(scalars).chain(probes).chain(terms).collect()
 }
 
+/// Numbers of a run for a table, beside the peaks of its scalars.
+pub(super) fn further_numbers(run: &Run) -> [(&'static str, Option<f64>); 10] {
+    [
+        ("end", Some(run.end)),
+        ("shear_coefficient", run.shear_coefficient()),
+        ("uplift_duration", Some(run.whole.uplift.duration)),
+        ("largest_gap", Some(run.largest_gap().value)),
+        ("largest_pressure", run.largest_pressure().map(|(_, peak)| peak.value)),
+        ("residual_slip", Some(run.whole.residual_slip)),
+        ("residual_settlement", Some(run.whole.residual_settlement)),
+        ("residual_rotation", Some(run.whole.residual_rotation)),
+        ("energy_input", Some(run.energy_balance.input)),
+        ("energy_error", Some(run.energy_error)),
+    ]
+}
+
 /// Envelopes of the elements, by their names.
 pub(super) fn envelope(run: &Run) -> OrderedDict<&'static str, Array> {
     let columns = Run::ENVELOPE_COLUMNS.into_iter().filter(|column| column.2(run));

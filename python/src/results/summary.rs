@@ -57,6 +57,37 @@ impl PySummary {
         PyExtremes(self.0.base_rotation)
     }
 
+    /// Rotation at the end, rad, in plan about y.
+    #[getter]
+    fn residual_rotation(&self) -> f64 {
+        self.0.residual_rotation
+    }
+
+    /// In plan: rotation about x at the end, rad.
+    #[getter]
+    fn residual_rotation_across(&self) -> f64 {
+        self.0.residual_rotation_across
+    }
+
+    /// Settlement of its centre since the static state, positive downwards, m, of several foundations the largest: its
+    /// `Extremes`.
+    #[getter]
+    fn settlement(&self) -> PyExtremes {
+        PyExtremes(self.0.settlement)
+    }
+
+    /// Settlement at the end, m.
+    #[getter]
+    fn residual_settlement(&self) -> f64 {
+        self.0.residual_settlement
+    }
+
+    /// Work of the moment on the soil, ∫M dθ, J/m, in plan about y: its `Extremes`.
+    #[getter]
+    fn rocking_work(&self) -> PyExtremes {
+        PyExtremes(self.0.rocking_work)
+    }
+
     /// Largest ratio of the open length to the length: its `Peak`.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
@@ -150,7 +181,7 @@ pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
 
 #[pymethods]
 impl PyServiceCheck {
-    /// The limited response: "slip", "gap", "uplifted_fraction" or "rotation".
+    /// The limited response: "slip", "gap", "uplifted_fraction", "rotation" or "settlement".
     #[getter]
     fn criterion(&self) -> String {
         self.0.criterion.to_string()

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use basemat::Simulation;
 use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
-use basemat::results::Quantity;
+use basemat::results::{Quantity, Recorder};
 use pyo3::prelude::*;
 
 use super::run_reporter::step_result;
@@ -78,6 +78,23 @@ pub(super) fn steps_for(simulation: &Simulation, duration: f64) -> PyResult<usiz
         )));
     }
     Ok(simulation.steps_for(duration))
+}
+
+/// Recorder of the scalars of every `every`th step, and of the frames that are given.
+pub(super) fn recorder(
+    every: usize,
+    contact_every: Option<usize>,
+    motion_every: Option<usize>,
+    foundations: bool,
+) -> Recorder {
+    let mut recorder = Recorder::new().every(every);
+    if let Some(every) = contact_every {
+        recorder = recorder.contact(every);
+    }
+    if let Some(every) = motion_every {
+        recorder = recorder.motion(every);
+    }
+    if foundations { recorder.foundations() } else { recorder }
 }
 
 /// Error unless the observer of a run is a function that is called every `observe_every` steps, one or more.

@@ -4,7 +4,6 @@ use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
 use basemat::coupled::{Change, Checkpoint};
-use basemat::results::Recorder;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -228,14 +227,15 @@ impl PySimulation {
     ///
     /// ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
     /// floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-    /// ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
-    /// ``observe``, which may end the run, only the values of the steps made.
+    /// ``motion_every``th (none unless given), and with ``foundations`` (False by default) those of each foundation too. All of
+    /// them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
+    /// the steps made.
     ///
     /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
     /// by default.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
-        every=1, contact_every=None, motion_every=None, warn=true,
+        every=1, contact_every=None, motion_every=None, foundations=false, warn=true,
     ))]
     fn run(
         &self,
@@ -249,17 +249,12 @@ impl PySimulation {
         #[pyo3(from_py_with = whole_numbers)] every: usize,
         #[pyo3(from_py_with = whole_numbers)] contact_every: Option<usize>,
         #[pyo3(from_py_with = whole_numbers)] motion_every: Option<usize>,
+        foundations: bool,
         warn: bool,
     ) -> PyResult<PyRun> {
         let steps = build::count(py, &*self.lock()?, self.duration, steps, duration)?;
         build::check_observer(py, observe.as_ref(), observe_every)?;
-        let mut recorder = Recorder::new().every(every);
-        if let Some(every) = contact_every {
-            recorder = recorder.contact(every);
-        }
-        if let Some(every) = motion_every {
-            recorder = recorder.motion(every);
-        }
+        let recorder = build::recorder(every, contact_every, motion_every, foundations);
         let line = progress.as_ref().filter(|progress| !progress.is_callable());
         let coefficients = progress_function(line, build::COEFFICIENT_PARTS)?;
         let progress = progress_function(progress.as_ref(), "steps")?;

@@ -53,6 +53,18 @@ impl PyFoundation {
         self.0.base_rotation
     }
 
+    /// Settlement of its centre since the static state, positive downwards, m.
+    #[getter]
+    fn settlement(&self) -> f64 {
+        self.0.settlement
+    }
+
+    /// Work of its moment on the soil since the start, ∫M dθ, J/m; in plan about y, J.
+    #[getter]
+    fn rocking_work(&self) -> f64 {
+        self.0.rocking_work
+    }
+
     /// In plan: force on the soil along y, positive away, N.
     #[getter]
     fn shear_across(&self) -> f64 {
@@ -81,6 +93,12 @@ impl PyFoundation {
     #[getter]
     fn rotation_across(&self) -> f64 {
         self.0.rotation_across
+    }
+
+    /// In plan: work of the moment about x on the soil since the start, J.
+    #[getter]
+    fn rocking_work_across(&self) -> f64 {
+        self.0.rocking_work_across
     }
 
     /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.

@@ -142,6 +142,7 @@ impl PyResultOptions {
 ///     gap: limit of the gap of any element, m; none unless given.
 ///     uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
 ///     rotation: limit of the base's |rotation|, rad; none unless given.
+///     settlement: limit of the base's settlement, m; none unless given.
 #[pyclass(name = "ServiceLimits", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PyServiceLimits(Serviceability);
@@ -149,14 +150,15 @@ pub(crate) struct PyServiceLimits(Serviceability);
 #[pymethods]
 impl PyServiceLimits {
     #[new]
-    #[pyo3(signature = (*, slip=None, gap=None, uplifted_fraction=None, rotation=None))]
+    #[pyo3(signature = (*, slip=None, gap=None, uplifted_fraction=None, rotation=None, settlement=None))]
     fn new(
         slip: Option<f64>,
         gap: Option<f64>,
         uplifted_fraction: Option<f64>,
         rotation: Option<f64>,
+        settlement: Option<f64>,
     ) -> Self {
-        Self(Serviceability { slip, gap, uplifted_fraction, rotation })
+        Self(Serviceability { slip, gap, uplifted_fraction, rotation, settlement })
     }
 }
 

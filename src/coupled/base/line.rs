@@ -2,7 +2,7 @@
 
 use super::faces::GAUSS_POINT_OFFSET;
 use super::transformation::{Terms, Weights, accumulate};
-use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
+use super::{BasePoint, Outline, PlacedBase, check_covered};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, number_text};
 use crate::geometry::Patch;
@@ -33,7 +33,7 @@ impl PlacedBase {
             });
             foundations.push(Outline {
                 elements: element..end,
-                settlement: mean_settlement(floor),
+                settlement: Weights::Sparse(mean_settlement(floor)),
                 rotations: vec![Weights::Sparse(chord_rotation(floor))],
                 nodes: range,
                 corners: Vec::new(),
@@ -75,6 +75,20 @@ impl PlacedBase {
 fn check_order(nodes: &[BaseNode]) -> Result<()> {
     let mut level = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
     level.try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
+}
+
+/// Mean displacement over the length between the first node and the last, downwards.
+fn mean_settlement(nodes: &[BaseNode]) -> Terms {
+    let length = nodes[nodes.len() - 1].x - nodes[0].x;
+    let mut terms = Terms::new();
+    for pair in nodes.windows(2) {
+        // Half of each interval belongs to the node at each end of it.
+        let weight = 0.5 * (pair[1].x - pair[0].x) / length;
+        for node in pair {
+            accumulate(&mut terms, &node.vertical, -weight);
+        }
+    }
+    terms
 }
 
 /// Rise of the last node over the first, per distance.

@@ -276,7 +276,7 @@ impl PlacedBase {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
 
-    /// Settlement of a foundation, downwards: mean displacement of its nodes, in plan over its area.
+    /// Settlement of a foundation, downwards: mean displacement over its length, in plan over its area.
     pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
         self.foundations[foundation].settlement.of(u)
     }
@@ -330,15 +330,6 @@ fn dofs_of(nodes: &[BaseNode]) -> Vec<usize> {
     dofs.sort_unstable();
     dofs.dedup();
     dofs
-}
-
-/// Mean displacement of `nodes`, downwards.
-pub(crate) fn mean_settlement(nodes: &[BaseNode]) -> Weights {
-    let mut terms = Terms::new();
-    for node in nodes {
-        accumulate(&mut terms, &node.vertical, -1.0 / nodes.len() as f64);
-    }
-    Weights::Sparse(terms)
 }
 
 /// Displacement by (node, weight) terms along the directions of an element.

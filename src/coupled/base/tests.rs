@@ -39,6 +39,8 @@ fn means_of_a_linear_field_are_exact_on_any_mesh() {
         assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
     }
     assert!((base.rotations(0, &u).next().unwrap() + 0.5).abs() < 1e-14);
+    // The middle of the base lies at x = 0.5.
+    assert!((base.settlement(0, &u) + (1.0 - 0.5 * 0.5)).abs() < 1e-14);
     // The transpose does the same work: (BᵀAτ)·u = Σ A τ·(B u).
     let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
     let mut force = vec![0.0; 8];

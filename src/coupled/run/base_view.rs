@@ -55,6 +55,14 @@ impl<'a> BaseView<'a> {
         largest
     }
 
+    /// The highest value of all foundations, with its sign, or the value of the single foundation.
+    pub(crate) fn highest(&self, value: fn(&Foundation) -> f64) -> f64 {
+        if let Some(foundation) = self.single_foundation() {
+            return value(foundation);
+        }
+        self.state.foundations.iter().map(value).reduce(f64::max).unwrap_or(0.0)
+    }
+
     /// Mean over the area; zero if a state has no such numbers.
     pub(crate) fn mean(&self, value: fn(&ContactState) -> f64) -> f64 {
         let mut integral = 0.0;

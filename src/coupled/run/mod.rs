@@ -11,6 +11,7 @@ pub(crate) mod mistake;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
+pub(crate) mod quantity_row;
 pub(crate) mod resolution;
 mod service_check;
 mod sliding;
@@ -146,9 +147,6 @@ pub struct Run {
     last_responses: [[f64; 4]; 2],
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
-    /// Largest settlement of each foundation, m.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    settlements: Vec<f64>,
     /// Smallest algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
     smallest_algorithmic_energy: f64,
@@ -203,7 +201,6 @@ impl Run {
             ends_by_steps: false,
             last_responses: [Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)); 2],
             resolution,
-            settlements: state.checks.iter().map(|checks| checks.settlement).collect(),
             smallest_algorithmic_energy: state.energy_balance.algorithmic,
             begin: clock(),
         }
@@ -228,9 +225,6 @@ impl Run {
         self.whole.update(state, begin, None);
         for (k, summary) in self.foundations.iter_mut().enumerate() {
             summary.update(state, begin, Some(k));
-        }
-        for (largest, checks) in self.settlements.iter_mut().zip(&state.checks) {
-            *largest = largest.max(checks.settlement);
         }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.update(*value, time);
@@ -290,10 +284,10 @@ impl Run {
             self.smallest_algorithmic_energy,
         );
         for (k, summary) in self.foundations.iter().enumerate() {
-            let settlement = &self.settlements[k];
+            let settlement = summary.settlement.highest.value;
             let ends = self.axes().map(|axis| [summary.ends, summary.depth][axis]);
             let width = ends.fold(f64::INFINITY, |width, [low, high]| width.min(high - low));
-            self.warnings.extend(Warning::of_settlement(k, *settlement, width));
+            self.warnings.extend(Warning::of_settlement(k, settlement, width));
         }
         self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
         self.warnings.extend(wall_pressure::warning(&self.envelope, pressures_above));

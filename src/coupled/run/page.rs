@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::coupled::run::ground_motion::seconds;
-use crate::coupled::run::quantity::ShownIn;
+use crate::coupled::run::quantity_row::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::geometry::{axis_name, middle, resultant, span};
 use crate::text::readable_number::{PrintedUnit, number, of_body, printed, thousandths};
@@ -184,6 +184,7 @@ impl Run {
                 "  most of the base opens: not every digit of a peak may hold (`sensitivity` counts them)"
             )?;
         }
+        self.settlement(f)?;
         let sliding = &self.whole.sliding;
         writeln!(f, "Sliding")?;
         for axis in self.axes() {
@@ -216,6 +217,17 @@ impl Run {
             f,
             "\nChanges of contact mode: {} ({} debondings, {} rebondings)",
             self.mode_changes, self.debondings, self.rebondings
+        )
+    }
+
+    fn settlement(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let settlement = self.whole.settlement.highest;
+        writeln!(
+            f,
+            "Settlement\n  up to {} mm at {:.3} s, {} mm at the end",
+            number(1e3 * settlement.value),
+            settlement.time,
+            number(1e3 * self.whole.residual_settlement)
         )
     }
 

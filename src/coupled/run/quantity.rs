@@ -9,47 +9,12 @@ use std::str::FromStr;
 use crate::coupled::State;
 use crate::coupled::run::base_view::{BaseView, largest_slip, open_area};
 use crate::coupled::run::peak::Peak;
+use crate::coupled::run::quantity_row::{QuantityRow, Scale, ShownIn};
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::column;
 use crate::text::readable_number::{PrintedUnit, of_body, printed};
 use crate::text::words::unknown;
-
-/// Row of the table: name of a quantity, and where it is shown in addition to its time series.
-struct Row {
-    word: &'static str,
-    name: &'static str,
-    unit: &'static str,
-    scale: Scale,
-    places: &'static [ShownIn],
-    value: fn(&BaseView) -> f64,
-}
-
-/// Scale for drawing and printing a quantity.
-#[derive(Clone, Copy, PartialEq)]
-enum Scale {
-    /// Scale of the engineer's unit.
-    Unit,
-    /// A ratio, in percent.
-    Percent,
-    /// A factor of safety, drawn as its inverse with a limit of one; the text is the label of the limit.
-    Safety(&'static str),
-}
-
-/// Place where a summary of a quantity is shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum ShownIn {
-    /// Only in plan.
-    Plan,
-    /// Extremes on the page of a run.
-    Page,
-    /// Largest value, in the page's table of foundations.
-    Foundations,
-    /// Largest (or smallest) value in a comparison of runs.
-    Comparison,
-    /// Time of the value, in a comparison of runs.
-    ComparisonTime,
-}
 
 /// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
 macro_rules! quantities {
@@ -64,7 +29,7 @@ macro_rules! quantities {
             $($(#[$doc])* $variant,)+
         }
 
-        const QUANTITY_TABLE: &[Row] = &[$(Row {
+        const QUANTITY_TABLE: &[QuantityRow] = &[$(QuantityRow {
             word: stringify!($field),
             name: $name,
             unit: $unit,
@@ -106,6 +71,15 @@ macro_rules! quantities {
             /// Mean slip along y at the end, m, in plan; zero in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub residual_slip_across: f64,
+            /// Settlement at the end, m.
+            #[cfg_attr(feature = "serde", serde(default))]
+            pub residual_settlement: f64,
+            /// Rotation at the end, rad; in plan about the axis along y.
+            #[cfg_attr(feature = "serde", serde(default))]
+            pub residual_rotation: f64,
+            /// Rotation about the axis along x at the end, rad, in plan; zero in the plane.
+            #[cfg_attr(feature = "serde", serde(default))]
+            pub residual_rotation_across: f64,
             /// Duration of uplift.
             pub uplift: Uplift,
             /// Distance and duration of sliding, and the slip events.
@@ -115,9 +89,11 @@ macro_rules! quantities {
         }
 
         impl State {
-            /// Appends the values of the whole base, one to each list; as many quantities as there are lists.
-            pub(crate) fn append_values(&self, lists: &mut [Vec<f64>]) {
-                let base = self.base(None);
+            /// Appends the values of the whole base or of one foundation, one to each list.
+            ///
+            /// As many quantities as there are lists.
+            pub(crate) fn append_values(&self, foundation: Option<usize>, lists: &mut [Vec<f64>]) {
+                let base = self.base(foundation);
                 $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
                     const VALUE_OF_BASE: fn(&BaseView) -> f64 = $value;
                     list.push(VALUE_OF_BASE(&base));
@@ -138,6 +114,9 @@ macro_rules! quantities {
                     $($field: first_extremes(&base, $value),)+
                     residual_slip: (QUANTITY_TABLE[Quantity::MeanSlip as usize].value)(&base),
                     residual_slip_across: (QUANTITY_TABLE[Quantity::MeanSlipAcross as usize].value)(&base),
+                    residual_settlement: (QUANTITY_TABLE[Quantity::Settlement as usize].value)(&base),
+                    residual_rotation: (QUANTITY_TABLE[Quantity::BaseRotation as usize].value)(&base),
+                    residual_rotation_across: (QUANTITY_TABLE[Quantity::RotationAcross as usize].value)(&base),
                     uplift: Uplift::default(),
                     sliding: Sliding::with_capacity(RESERVED_SLIP_EVENTS),
                 }
@@ -189,6 +168,20 @@ quantities! {
     /// In plan about the axis along y, by the right-hand rule.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.whole_or(base.state.base_rotation, |foundation| foundation.base_rotation);
+    /// Settlement of the base's centre since the static state, positive downwards, m; of several foundations the
+    /// largest.
+    ///
+    /// Relative to the free field's translation: the mean over a foundation's length, in plan over its area. It
+    /// contains what is elastic, what the soil keeps, and gaps; a base that rocks on hard soil rises. The settlement
+    /// under weight is not part of it. The last value is the residual settlement.
+    Settlement settlement, "settlement", "m", Scale::Unit, [Page, Foundations, Comparison],
+        |base| base.highest(|foundation| foundation.settlement);
+    /// Work of the base moment on the soil since t = 0, ∫M dθ, J/m; summed over foundations.
+    ///
+    /// Moment and rotation are those of each foundation, about its middle, in plan about the axis along y. A closed loop
+    /// adds what it dissipates.
+    RockingWork rocking_work, "rocking work", "J/m", Scale::Unit, [Page, Foundations, Comparison],
+        |base| base.sum(|foundation, _| foundation.rocking_work);
     /// Mean horizontal displacement of the free field under the base, m.
     FreeFieldHorizontal free_field_horizontal, "free field, horizontal", "m", Scale::Unit, [],
         |base| base.state.free_field[0];
@@ -241,6 +234,9 @@ quantities! {
     /// By the right-hand rule.
     RotationAcross rotation_across, "base rotation across", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
         |base| base.largest(|foundation| foundation.rotation_across);
+    /// In plan: work of the base moment about the axis along x on the soil, J; summed over foundations.
+    RockingWorkAcross rocking_work_across, "rocking work across", "J/m", Scale::Unit, [Plan, Page, Foundations, Comparison],
+        |base| base.sum(|foundation, _| foundation.rocking_work_across);
     /// In plan: rotation of the base about the vertical, rad; of several foundations the largest.
     ///
     /// Counter-clockwise from above.
@@ -267,7 +263,7 @@ fn first_extremes(base: &BaseView<'_>, value: fn(&BaseView) -> f64) -> Extremes 
 }
 
 impl Quantity {
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static QuantityRow {
         &QUANTITY_TABLE[self as usize]
     }
 
@@ -376,6 +372,9 @@ impl Summary {
         self.sliding.update(base.modes(), change, [begin, time]);
         self.residual_slip = slip;
         self.residual_slip_across = across;
+        self.residual_settlement = (Quantity::Settlement.row().value)(&base);
+        self.residual_rotation = (Quantity::BaseRotation.row().value)(&base);
+        self.residual_rotation_across = (Quantity::RotationAcross.row().value)(&base);
     }
 
     /// The governing extreme of `quantity`: the smallest factor of safety, or the value furthest from zero.

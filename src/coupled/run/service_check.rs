@@ -30,6 +30,7 @@ impl ServiceCheck {
             (Criterion::Gap, limits.gap),
             (Criterion::UpliftedFraction, limits.uplifted_fraction),
             (Criterion::Rotation, limits.rotation),
+            (Criterion::Settlement, limits.settlement),
         ];
         let mut checks = Vec::new();
         for (criterion, limit) in limits {

@@ -37,6 +37,19 @@ pub struct Foundation {
     ///
     /// In plan the rotation about the axis along y, by the right-hand rule, of the plane that fits its base best.
     pub base_rotation: f64,
+    /// Settlement of its centre since the static state, positive downwards, m.
+    ///
+    /// Relative to the free field's translation: the mean over its length, in plan over its area. It contains what is
+    /// elastic, what the soil keeps, and gaps, so a base that rocks on hard soil rises: the value is then negative. The
+    /// settlement under weight is not part of it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub settlement: f64,
+    /// Work of its moment on the soil since t = 0, ∫M dθ, J/m.
+    ///
+    /// Of the [`base_moment`](Foundation::base_moment) of each step on the change of its
+    /// [`base_rotation`](Foundation::base_rotation) in the step, as in the energy balance.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub rocking_work: f64,
     /// In plan: force on the soil along y, N; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
     pub shear_across: f64,
@@ -52,6 +65,9 @@ pub struct Foundation {
     /// In plan: rotation of the base about the axis along x, by the right-hand rule, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub rotation_across: f64,
+    /// In plan: work of the moment about the axis along x on the soil since t = 0, J; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub rocking_work_across: f64,
     /// In plan: rotation of the base about the vertical axis, counter-clockwise from above, rad.
     #[cfg_attr(feature = "serde", serde(default))]
     pub twist: f64,
@@ -60,7 +76,7 @@ pub struct Foundation {
     pub in_plan: bool,
 }
 
-/// Factors of safety, largest slip and settlement of a foundation.
+/// Factors of safety and largest slip of a foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct FoundationChecks {
     /// Largest |slip| of any element, m.
@@ -71,8 +87,6 @@ pub(crate) struct FoundationChecks {
     ///
     /// NaN in flight, infinite along y in the plane.
     pub(crate) overturning: [f64; 2],
-    /// Downward displacement of the base since the static state, relative to the free field, m.
-    pub(crate) settlement: f64,
 }
 
 /// Sums over the elements of a foundation, for sums over the whole base.
@@ -106,9 +120,22 @@ impl Foundation {
         in_axes(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
     }
 
-    /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
+    /// Adds the work of the present moments on these increments of the rotations.
     ///
-    /// The settlement is left zero.
+    /// `increments`: in the step to the present state, in the order of [`PlacedBase::rotations`].
+    ///
+    /// [`PlacedBase::rotations`]: crate::coupled::base::PlacedBase::rotations
+    pub(crate) fn add_rocking_work(&mut self, increments: impl Iterator<Item = f64>) {
+        let works = [
+            (&mut self.rocking_work, self.base_moment),
+            (&mut self.rocking_work_across, self.moment_across),
+        ];
+        for ((work, moment), increment) in works.into_iter().zip(increments) {
+            *work += moment * increment;
+        }
+    }
+
+    /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
     ///
     /// `footing`: shape of this foundation. `friction`: coefficients of all elements (one for all, one each, or
     /// none).
@@ -182,7 +209,7 @@ impl Foundation {
         } else {
             [0, 1].map(|axis| overturning_safety(footing, normal, moment, axis))
         };
-        (sums, FoundationChecks { largest_slip, sliding, overturning, settlement: 0.0 })
+        (sums, FoundationChecks { largest_slip, sliding, overturning })
     }
 }
 

@@ -132,7 +132,7 @@ pub struct State {
     pub trials: usize,
     /// Method that found the modes; in a nonlinear step, the last method used in any iteration.
     pub method: SearchMethod,
-    /// Factors of safety, slip and settlement of each foundation; they follow from the other fields.
+    /// Factors of safety and slip of each foundation; they follow from the other fields.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) checks: Vec<FoundationChecks>,
     #[cfg_attr(feature = "serde", serde(skip))]

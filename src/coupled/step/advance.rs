@@ -95,6 +95,9 @@ impl State {
         self.trials = increment.trials;
         self.method = increment.method;
         self.update_resultants(scene);
+        for (k, foundation) in self.foundations.iter_mut().enumerate() {
+            foundation.add_rocking_work(scene.base.rotations(k, &increment.displacement));
+        }
     }
 
     /// Computes resultants and probes from the present state.
@@ -128,8 +131,8 @@ impl State {
             {
                 *component = rotation;
             }
-            let settlement = scene.base.settlement(k, displacement);
-            state.checks[k] = FoundationChecks { settlement, ..checks };
+            foundation.settlement = scene.base.settlement(k, displacement);
+            state.checks[k] = checks;
             if foundation.base_rotation.abs() > state.base_rotation.abs() {
                 state.base_rotation = foundation.base_rotation;
             }

@@ -76,6 +76,7 @@ impl ContainmentCase {
                 gap: Some(10e-3),
                 uplifted_fraction: Some(0.75),
                 rotation: Some(2e-3),
+                ..Serviceability::default()
             });
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let steps = (duration / scene.time_step(0.5)).round() as usize;

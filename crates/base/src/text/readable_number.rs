@@ -16,6 +16,7 @@ pub fn printed(unit: &str) -> PrintedUnit<'_> {
         "rad" => PrintedUnit { factor: 1e3, symbol: "mrad" },
         "N/m" => PrintedUnit { factor: 1e-3, symbol: "kN/m" },
         "N·m/m" => PrintedUnit { factor: 1e-3, symbol: "kN·m/m" },
+        "J/m" => PrintedUnit { factor: 1e-3, symbol: "kJ/m" },
         symbol => PrintedUnit { factor: 1.0, symbol },
     }
 }

@@ -1,0 +1,39 @@
+//! Row of the table of quantities.
+
+use super::base_view::BaseView;
+
+/// Row of the table of quantities: name of a quantity, and where it is shown in addition to its time series.
+pub(super) struct QuantityRow {
+    pub(super) word: &'static str,
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) scale: Scale,
+    pub(super) places: &'static [ShownIn],
+    pub(super) value: fn(&BaseView) -> f64,
+}
+
+/// Scale for drawing and printing a quantity.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Scale {
+    /// Scale of the engineer's unit.
+    Unit,
+    /// A ratio, in percent.
+    Percent,
+    /// A factor of safety, drawn as its inverse with a limit of one; the text is the label of the limit.
+    Safety(&'static str),
+}
+
+/// Place where a summary of a quantity is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ShownIn {
+    /// Only in plan.
+    Plan,
+    /// Extremes on the page of a run.
+    Page,
+    /// Largest value, in the page's table of foundations.
+    Foundations,
+    /// Largest (or smallest) value in a comparison of runs.
+    Comparison,
+    /// Time of the value, in a comparison of runs.
+    ComparisonTime,
+}
