@@ -152,8 +152,11 @@ pub(crate) fn in_python_words(mut text: String) -> String {
             "a recorder of fewer steps takes less",
             "larger `every`, `contact_every`, `motion_every` or `series=False` take less",
         ),
-        ("tell the recorder to keep the contact", "give `contact_every` to `run`"),
-        ("tell the recorder to keep the motion", "give `motion_every` to `run`"),
+        (
+            "the recorder must keep the contact (`Recorder::contact`)",
+            "give `contact_every` to `run`",
+        ),
+        ("the recorder must keep the motion (`Recorder::motion`)", "give `motion_every` to `run`"),
     ] {
         text = text.replace(core, python);
     }

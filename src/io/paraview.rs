@@ -53,9 +53,9 @@ pub fn write_series(
     shape: &DeformedShape,
     time_series: &TimeSeries,
 ) -> Result<usize> {
-    let needed = "tell the recorder to keep the motion";
+    let needed = "the recorder must keep the motion (`Recorder::motion`)";
     require_part("series of the structure", time_series.motion_frames().next().is_some(), needed)?;
-    write(folder.as_ref(), name, Some(shape), time_series)
+    write_grids(folder.as_ref(), name, Some(shape), time_series)
 }
 
 /// Writes `name.pvd` and grids of the base only, for structures without a [`DeformedShape`].
@@ -66,9 +66,9 @@ pub fn write_series(
 /// [`Error::Scene`](crate::Error::Scene) if no contact was kept ([`crate::results::Recorder::contact`]) or for the
 /// name, [`Error::File`](crate::Error::File) if a file cannot be written.
 pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries) -> Result<usize> {
-    let needed = "tell the recorder to keep the contact";
+    let needed = "the recorder must keep the contact (`Recorder::contact`)";
     require_part("series of the base", time_series.contact_frames().next().is_some(), needed)?;
-    write(folder.as_ref(), name, None, time_series)
+    write_grids(folder.as_ref(), name, None, time_series)
 }
 
 /// Writes one grid of a structure, a `.vtu` file, with the vectors `displacement` at its points.
@@ -85,29 +85,29 @@ pub fn write_state(path: impl AsRef<Path>, shape: &DeformedShape, dofs: &[f64]) 
 }
 
 /// Writes the collection and its grids; returns the number of grids.
-fn write(
+fn write_grids(
     folder: &Path,
     name: &str,
     shape: Option<&DeformedShape>,
     time_series: &TimeSeries,
 ) -> Result<usize> {
-    let is_valid = !name.is_empty() && name.chars().all(is_allowed_in_name);
-    require_part("name of a series", is_valid, "letters, digits, - and _ only, one at least")?;
+    let is_valid_name = !name.is_empty() && name.chars().all(is_allowed_in_name);
+    require_part("name of a series", is_valid_name, "letters, digits, - and _ only, one at least")?;
     std::fs::create_dir_all(folder).map_err(write_error(folder))?;
 
     let mut entries = Vec::new();
     let static_displacement = time_series.static_displacement();
     if let Some(shape) = shape {
         for (k, frame) in time_series.motion_frames().enumerate() {
-            let file = format!("{name}_{k:04}.vtu");
+            let file_name = format!("{name}_{k:04}.vtu");
             let mut vectors =
                 vec![("displacement", frame.displacement), ("velocity", frame.velocity)];
             if !static_displacement.is_empty() {
                 vectors.push(("static_displacement", static_displacement));
             }
             let grid = structure_grid(shape, time_series.up(), &vectors)?;
-            write_file(&folder.join(&file), grid)?;
-            entries.push(CollectionEntry { time: frame.time, part: 0, file });
+            write_file(&folder.join(&file_name), grid)?;
+            entries.push(CollectionEntry { time: frame.time, part: 0, file_name });
         }
     }
     let mut point_indices = 0..;
@@ -117,45 +117,50 @@ fn write(
         cells.push(ShapeCell::flat(corners.collect()));
     }
     for (k, frame) in time_series.contact_frames().enumerate() {
-        let file = format!("{name}_base_{k:04}.vtu");
-        write_file(&folder.join(&file), base_grid(time_series, &cells, &frame))?;
-        entries.push(CollectionEntry { time: frame.time, part: 1, file });
+        let file_name = format!("{name}_base_{k:04}.vtu");
+        write_file(&folder.join(&file_name), base_grid(time_series, &cells, &frame))?;
+        entries.push(CollectionEntry { time: frame.time, part: 1, file_name });
     }
-    entries.sort_by(|a, b| a.time.total_cmp(&b.time));
+    entries.sort_by(|entry, other| entry.time.total_cmp(&other.time));
     write_file(&folder.join(format!("{name}.pvd")), collection(&entries))?;
     Ok(entries.len())
 }
 
+/// Whether the name of a series may contain a character.
 fn is_allowed_in_name(character: char) -> bool {
     character.is_alphanumeric() || character == '-' || character == '_'
 }
 
-/// The vector `[x, y, z]`, z up, in the file's axes: those along the surface, and then `up`.
-fn in_file_axes(up: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
+/// A vector [x, y, z], z up, in the axes of the file.
+///
+/// `up_axis`: index of the file's axis that points up.
+fn in_file_axes(up_axis: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let mut vector = [x, y, 0.0];
-    vector[up] = z;
+    vector[up_axis] = z;
     vector
 }
 
-/// A vector [right, height, away] of a deformed shape in the file's axes.
-fn shape_vector(up: usize, [right, height, away]: [f64; 3]) -> [f64; 3] {
-    in_file_axes(up, [right, away, height])
+/// A vector [right, height, away] of a deformed shape in the axes of the file.
+fn shape_vector(up_axis: usize, [right, height, away]: [f64; 3]) -> [f64; 3] {
+    in_file_axes(up_axis, [right, away, height])
 }
 
-/// A grid of the structure with the vectors of its points by these values of the degrees of freedom.
+/// Text of a grid of the structure with vectors at its points.
+///
+/// `vectors`: the name of each vector, and the degrees of freedom from which it is computed.
 fn structure_grid(
     shape: &DeformedShape,
-    up: usize,
+    up_axis: usize,
     vectors: &[(&'static str, &[f64])],
 ) -> Result<String> {
     let mut point_vectors = Vec::new();
     for &(name, dofs) in vectors {
-        let vectors = shape.displacements(dofs)?.into_iter();
-        point_vectors.push((name, vectors.map(|vector| shape_vector(up, vector)).collect()));
+        let values = shape.displacements(dofs)?.into_iter();
+        point_vectors.push((name, values.map(|vector| shape_vector(up_axis, vector)).collect()));
     }
-    let places = shape.points().iter().map(ShapePoint::place);
+    let positions = shape.points().iter().map(ShapePoint::place);
     let grid = VtuGrid {
-        points: places.map(|place| shape_vector(up, place)).collect(),
+        points: positions.map(|position| shape_vector(up_axis, position)).collect(),
         cells: shape.grid(),
         point_vectors,
         cell_scalars: Vec::new(),
@@ -163,10 +168,10 @@ fn structure_grid(
     Ok(grid.xml())
 }
 
-/// A grid of the base with the state of its contact elements.
+/// Text of a grid of the base with the state of its contact elements.
 fn base_grid(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame<'_>) -> String {
     let corners = time_series.elements().iter().flat_map(ContactElement::outline);
-    let points = corners.map(|place| in_file_axes(time_series.up(), place)).collect();
+    let points = corners.map(|corner| in_file_axes(time_series.up(), corner)).collect();
     let mut cell_scalars = Vec::new();
     for &(name, _, is_in_plan_only, value) in &ContactState::NUMBER_COLUMNS {
         if time_series.in_plan() || !is_in_plan_only {
@@ -178,66 +183,70 @@ fn base_grid(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame
     VtuGrid { points, cells, point_vectors: Vec::new(), cell_scalars }.xml()
 }
 
-/// A grid in a collection.
+/// Entry of a grid in a collection.
 struct CollectionEntry {
     /// Time of the grid, s.
     time: f64,
     /// 0 for the structure, 1 for the base.
     part: usize,
     /// Name of the grid's file.
-    file: String,
+    file_name: String,
 }
 
+/// Text of a `.pvd` file with these grids.
 fn collection(entries: &[CollectionEntry]) -> String {
-    let mut out = String::from(
+    let mut xml_text = String::from(
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
-    for CollectionEntry { time, part, file } in entries {
+    for CollectionEntry { time, part, file_name } in entries {
         // Writing to a string does not fail.
         let _ = writeln!(
-            out,
-            "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" file=\"{file}\"/>"
+            xml_text,
+            "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" file=\"{file_name}\"/>"
         );
     }
-    out + "</Collection>\n</VTKFile>\n"
+    xml_text + "</Collection>\n</VTKFile>\n"
 }
 
 /// Points, cells and data of a `.vtu` file.
 pub(super) struct VtuGrid<'a> {
+    /// Coordinates of the points, m.
     pub(super) points: Vec<[f64; 3]>,
     pub(super) cells: &'a [ShapeCell],
+    /// Name of each vector, and its value at each point.
     pub(super) point_vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
+    /// Name of each scalar, and its value in each cell.
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl VtuGrid<'_> {
     /// The file's text.
     pub(super) fn xml(&self) -> String {
-        let points = self.points.len();
-        let cells = self.cells.len();
-        let mut out = String::from(
+        let point_count = self.points.len();
+        let cell_count = self.cells.len();
+        let mut xml_text = String::from(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
              <UnstructuredGrid>\n",
         );
         // Writing to a string does not fail, here and below.
         let _ = writeln!(
-            out,
-            "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n<PointData>"
+            xml_text,
+            "<Piece NumberOfPoints=\"{point_count}\" NumberOfCells=\"{cell_count}\">\n<PointData>"
         );
         for (name, vectors) in &self.point_vectors {
-            write_array(&mut out, "Float64", name, 3, vectors.iter().map(vector_text));
+            write_array(&mut xml_text, "Float64", name, 3, vectors.iter().map(vector_text));
         }
-        out += "</PointData>\n<CellData>\n";
+        xml_text += "</PointData>\n<CellData>\n";
         for (name, values) in &self.cell_scalars {
-            write_array(&mut out, "Float64", name, 1, values.iter());
+            write_array(&mut xml_text, "Float64", name, 1, values.iter());
         }
-        out += "</CellData>\n<Points>\n";
-        write_array(&mut out, "Float64", "points", 3, self.points.iter().map(vector_text));
-        out += "</Points>\n<Cells>\n";
+        xml_text += "</CellData>\n<Points>\n";
+        write_array(&mut xml_text, "Float64", "points", 3, self.points.iter().map(vector_text));
+        xml_text += "</Points>\n<Cells>\n";
         write_array(
-            &mut out,
+            &mut xml_text,
             "Int64",
             "connectivity",
             1,
@@ -247,32 +256,39 @@ impl VtuGrid<'_> {
             *end += cell.points.len();
             Some(*end)
         });
-        write_array(&mut out, "Int64", "offsets", 1, offsets);
-        write_array(&mut out, "UInt8", "types", 1, self.cells.iter().map(|cell| cell.form as u8));
-        out += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-        out
+        write_array(&mut xml_text, "Int64", "offsets", 1, offsets);
+        write_array(
+            &mut xml_text,
+            "UInt8",
+            "types",
+            1,
+            self.cells.iter().map(|cell| cell.form as u8),
+        );
+        xml_text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        xml_text
     }
 }
 
+/// Components of a vector, separated by spaces.
 fn vector_text([x, y, z]: &[f64; 3]) -> String {
     format!("{x} {y} {z}")
 }
 
-/// Appends one array of data, a value a line.
+/// Appends an array of data with one value on each line.
 fn write_array<T: Display>(
-    out: &mut String,
-    kind: &str,
+    xml_text: &mut String,
+    number_type: &str,
     name: &str,
-    components: usize,
+    component_count: usize,
     values: impl Iterator<Item = T>,
 ) {
     let _ = writeln!(
-        out,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+        xml_text,
+        "<DataArray type=\"{number_type}\" Name=\"{name}\" NumberOfComponents=\"{component_count}\" \
          format=\"ascii\">"
     );
     for value in values {
-        let _ = writeln!(out, "{value}");
+        let _ = writeln!(xml_text, "{value}");
     }
-    *out += "</DataArray>\n";
+    *xml_text += "</DataArray>\n";
 }

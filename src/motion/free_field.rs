@@ -1,4 +1,4 @@
-//! Free fields: the motion of the surface without the structure, and simple kinds of it.
+//! Free fields, which are motions of the surface without the structure, and simple examples.
 
 use super::Record;
 use crate::error::{Result, finite, positive, require};
@@ -25,7 +25,8 @@ pub trait FreeField: Send {
     ///
     /// Overwrites `displacement` (m) and `impulse`, the integral of the tractions on the soil from the beginning to
     /// `time` (Pa s): both 2Q, ordered as the [contact vectors](crate::bem), means over the elements. A pressure is
-    /// positive in compression. Returns whether the motion is known there; by default it is known at the surface only.
+    /// positive in compression. Returns `false` for a field that
+    /// has a motion at the surface only, which is the default.
     fn at_faces(
         &self,
         _elements: &[ContactElement],
@@ -36,9 +37,10 @@ pub trait FreeField: Send {
         false
     }
 
-    /// Numbers of the soils for which [`at_faces`](FreeField::at_faces) holds, equal only for equal soils.
+    /// Identity of the soils for which [`at_faces`](FreeField::at_faces) is valid.
     ///
-    /// A ground with other numbers (its description's `identity`) is an error. Default: `None`, any soils.
+    /// The numbers are equal only for equal soils. A ground with other numbers (its description's `identity`) is an error.
+    /// Default: `None`, for any soils.
     fn soils(&self) -> Option<&[f64]> {
         None
     }
@@ -52,7 +54,7 @@ pub trait FreeField: Send {
 
     /// Records of the motion. Default: none.
     ///
-    /// A run states their peak, duration and time step.
+    /// The summary of a run contains their peak, duration and time step.
     fn records(&self) -> Vec<&Record> {
         Vec::new()
     }
@@ -62,20 +64,20 @@ pub trait FreeField: Send {
     /// Simulations use displacements only. `bem::full_plane::VerticalWaves` computes stresses from velocities, and
     /// other grounds may do so.
     ///
-    /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10
-    /// µs)²/6 of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A
-    /// jump or a kink is spread over 20 µs. Implement this method if the velocity is known.
+    /// Default: the central difference of displacements 10 µs before and after. The velocity of a motion of f Hz
+    /// is too small by the fraction (2πf · 10 µs)²/6 (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per
+    /// second. A jump or a kink is spread over 20 µs. Implement this method if you have a formula for the velocity.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         difference_velocity(self, x, time)
     }
 }
 
-/// Half the interval of the central difference, s.
+/// Half the interval of the central difference, s: short beside periods, long beside rounding of times.
 const HALF_DIFFERENCE_INTERVAL: f64 = 1e-5;
-/// Smallest half interval relative to the time, which is itself rounded.
+/// Smallest half interval relative to the time: rounding of the time must stay small beside it.
 const RELATIVE_HALF_INTERVAL: f64 = 1e-13;
 
-/// Velocity of `field` by the central difference of its displacements.
+/// Velocity (m/s) of a field by the central difference of its displacements.
 pub(super) fn difference_velocity(
     field: &(impl FreeField + ?Sized),
     x: f64,
@@ -85,15 +87,15 @@ pub(super) fn difference_velocity(
         return [0.0; 2];
     }
     let half_interval = HALF_DIFFERENCE_INTERVAL.max(RELATIVE_HALF_INTERVAL * time);
-    let start = time - half_interval;
-    let end = time + half_interval;
-    let start_displacement = field.displacement(x, start);
-    let end_displacement = field.displacement(x, end);
-    // Not twice the half interval, since the two times are rounded.
-    [0, 1].map(|k| (end_displacement[k] - start_displacement[k]) / (end - start))
+    let start_time = time - half_interval;
+    let end_time = time + half_interval;
+    let start_displacement = field.displacement(x, start_time);
+    let end_displacement = field.displacement(x, end_time);
+    // The rounded times differ by slightly more or less than twice the half interval.
+    [0, 1].map(|k| (end_displacement[k] - start_displacement[k]) / (end_time - start_time))
 }
 
-/// Ground that stays at rest, for structures driven by forces only.
+/// Ground at rest, for structures under loads only.
 ///
 /// ```
 /// use basemat::motion::{AtRest, FreeField};
@@ -128,7 +130,7 @@ impl FreeField for AtRest {
 /// A function of x and time that returns the horizontal and the vertical component.
 type FieldFunction = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
-/// Free field from a closure for the displacement, and optionally one for the velocity.
+/// Free field from closures for the displacement and, optionally, the velocity.
 ///
 /// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s), for time > 0; at earlier times
 /// the field is zero. The displacement should start from zero: its value just after t = 0 acts as a jump.
@@ -180,7 +182,7 @@ impl FreeField for FreeFieldFn {
     }
 }
 
-/// Vertically incident S and P waves: all points of the surface move by the records.
+/// Vertically incident S and P waves, under which all points of the surface move alike.
 ///
 /// The records are the motion of the free *surface* (twice the incident wave). S gives the horizontal and P the
 /// vertical component. A plain [`Record`] is a horizontal free field too.
@@ -307,12 +309,15 @@ impl FreeField for Triaxial {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RickerDisplacement {
-    amplitude: [f64; 2],
+    /// Peak, horizontal and vertical, m.
+    amplitudes: [f64; 2],
+    /// Width, s.
     sigma: f64,
+    /// Time of the peak, s.
     center: f64,
 }
 
-/// Smallest center/sigma: the jump at t = 0 is then 3.5e-6 of the peak.
+/// Smallest center/sigma, at which the jump at t = 0 is 3.5e-6 of the peak.
 const MIN_CENTER_RATIO: f64 = 4.0;
 
 impl RickerDisplacement {
@@ -334,13 +339,13 @@ impl RickerDisplacement {
             center.is_finite() && center >= MIN_CENTER_RATIO * sigma,
             needed,
         )?;
-        Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
+        Ok(Self { amplitudes: [amplitude, 0.0], sigma, center })
     }
 
     /// This pulse as vertical motion (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
-        Self { amplitude: [self.amplitude[1], self.amplitude[0]], ..self }
+        Self { amplitudes: [self.amplitudes[1], self.amplitudes[0]], ..self }
     }
 }
 
@@ -349,8 +354,9 @@ impl FreeField for RickerDisplacement {
         if time <= 0.0 {
             return [0.0; 2];
         }
-        let square = ((time - self.center) / self.sigma).powi(2);
-        self.amplitude.map(|amplitude| amplitude * (1.0 - 2.0 * square) * (-square).exp())
+        let squared_phase = ((time - self.center) / self.sigma).powi(2);
+        self.amplitudes
+            .map(|amplitude| amplitude * (1.0 - 2.0 * squared_phase) * (-squared_phase).exp())
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
@@ -358,8 +364,9 @@ impl FreeField for RickerDisplacement {
             return [0.0; 2];
         }
         let phase = (time - self.center) / self.sigma;
-        let square = phase * phase;
-        let rate = phase * (4.0 * square - 6.0) * (-square).exp() / self.sigma;
-        self.amplitude.map(|amplitude| amplitude * rate)
+        let squared_phase = phase * phase;
+        let velocity_ratio =
+            phase * (4.0 * squared_phase - 6.0) * (-squared_phase).exp() / self.sigma;
+        self.amplitudes.map(|amplitude| amplitude * velocity_ratio)
     }
 }

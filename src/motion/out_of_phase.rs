@@ -25,37 +25,46 @@ const MAX_END_VELOCITY_RATIO: f64 = 0.01;
 /// |q| < 1/3, and the neglected moments contribute less than 1.5 · 3⁻³² < 10⁻¹⁵.
 const MOMENT_COUNT: usize = 32;
 
-/// Free field of a record and a component out of phase with it, the same at all points.
+/// Free field of a record and a second component out of phase with it, the same at all points.
 ///
-/// The component is a complex `ratio` times the record: the real part is in phase, the imaginary part a quarter of
+/// The second component is a complex ratio times the record. The real part is in phase, the imaginary part a quarter of
 /// a period late.
 pub(super) struct OutOfPhase {
+    /// Record of the prescribed component.
     record: Record,
-    record_is_vertical: bool,
-    ratio: Complex,
-    delayed: DelayedMotion,
+    is_record_vertical: bool,
+    component_ratio: Complex,
+    delayed_motion: DelayedMotion,
 }
 
 impl OutOfPhase {
-    pub(super) fn new(record: &Record, record_is_vertical: bool, ratio: Complex) -> Result<Self> {
-        let delayed = DelayedMotion::new(record)?;
-        Ok(Self { record: record.clone(), record_is_vertical, ratio, delayed })
+    /// Field of a record, and of the second component by its ratio to the record.
+    pub(super) fn new(
+        record: &Record,
+        is_record_vertical: bool,
+        component_ratio: Complex,
+    ) -> Result<Self> {
+        let delayed_motion = DelayedMotion::new(record)?;
+        Ok(Self { record: record.clone(), is_record_vertical, component_ratio, delayed_motion })
     }
 
-    /// Both components, from the component of the record and the delayed W or V.
-    fn both(&self, prescribed: f64, delayed: f64) -> [f64; 2] {
-        let other = self.ratio.re * prescribed + self.ratio.im * delayed;
-        if self.record_is_vertical { [other, prescribed] } else { [prescribed, other] }
+    /// Horizontal and vertical component, from the record's component and W or V.
+    fn components(&self, prescribed: f64, delayed: f64) -> [f64; 2] {
+        let second = self.component_ratio.re * prescribed + self.component_ratio.im * delayed;
+        if self.is_record_vertical { [second, prescribed] } else { [prescribed, second] }
     }
 }
 
 impl FreeField for OutOfPhase {
     fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
-        self.both(self.record.at(time).displacement, self.delayed.at(time)[0])
+        self.components(
+            self.record.at(time).displacement,
+            self.delayed_motion.at(time).displacement,
+        )
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        self.both(self.record.at(time).velocity, self.delayed.at(time)[1])
+        self.components(self.record.at(time).velocity, self.delayed_motion.at(time).velocity)
     }
 
     fn records(&self) -> Vec<&Record> {
@@ -63,76 +72,111 @@ impl FreeField for OutOfPhase {
     }
 }
 
-/// W and V at any time.
+/// W and V at one time.
+#[derive(Clone, Copy)]
+struct DelayedValues {
+    /// W, m.
+    displacement: f64,
+    /// V, m/s.
+    velocity: f64,
+}
+
+/// The delayed motion, W and V, at any time.
 ///
-/// They are sampled during the record and for its length before and after. Beyond, where the record is far away,
-/// they are computed from its moments.
+/// W and V are sampled during the record, and for its length before and after. At other times they are computed from the
+/// moments of the record.
 struct DelayedMotion {
-    step: f64,
+    /// Time step of the record, s.
+    time_step: f64,
     /// Number of samples of the record.
-    count: usize,
+    sample_count: usize,
     /// V at the samples of the record, and at as many times before the record and after it.
-    velocity: Vec<f64>,
+    velocities: Vec<f64>,
     /// W at the same times.
-    displacement: Vec<f64>,
+    displacements: Vec<f64>,
+    /// Moments of the record's velocity.
     moments: Moments,
     /// Constants of integration before and after the samples, which make W continuous.
-    constants: [f64; 2],
+    integration_constants: [f64; 2],
 }
 
 impl DelayedMotion {
+    /// Delayed motion of a record that ends at rest.
     fn new(record: &Record) -> Result<Self> {
-        let end = record.at(record.duration()).velocity;
-        let is_at_rest = end.abs() <= MAX_END_VELOCITY_RATIO * record.peaks().velocity;
+        let end_velocity = record.at(record.duration()).velocity;
+        let is_at_rest = end_velocity.abs() <= MAX_END_VELOCITY_RATIO * record.peaks().velocity;
         let needed = "at most 1 % of its peak for components out of phase (see Baseline)";
-        require("velocity at the end of the record", end, is_at_rest, needed)?;
+        require("velocity at the end of the record", end_velocity, is_at_rest, needed)?;
         Self::from_velocity(record.time_step(), record.velocities())
     }
 
-    /// Transform of two or more samples of the record's velocity.
-    fn from_velocity(step: f64, source: &[f64]) -> Result<Self> {
-        let count = source.len();
-        // Velocity and displacement, not acceleration, are transformed: integrals of a transformed acceleration
-        // would miss its part before t = 0.
-        let velocity = hilbert(source, count)?;
-        let displacement = integral(&velocity, step, count);
-        let moments = Moments::new(source);
-        let constants = [0, displacement.len() - 1].map(|k| {
-            displacement[k] - step * moments.transform(k as f64 - count as f64 - moments.half)[0]
+    /// Delayed motion of two or more samples of velocity (m/s).
+    fn from_velocity(time_step: f64, record_velocities: &[f64]) -> Result<Self> {
+        let sample_count = record_velocities.len();
+        // The velocity is transformed, not the acceleration: the integral of a transformed acceleration would lack the
+        // part before t = 0.
+        let velocities = hilbert(record_velocities, sample_count)?;
+        let displacements = cumulative_integral(&velocities, time_step, sample_count);
+        let moments = Moments::new(record_velocities);
+        let integration_constants = [0, displacements.len() - 1].map(|k| {
+            displacements[k]
+                - time_step
+                    * moments
+                        .transform(k as f64 - sample_count as f64 - moments.half_length)
+                        .velocity_integral
         });
-        Ok(Self { step, count, velocity, displacement, moments, constants })
+        Ok(Self {
+            time_step,
+            sample_count,
+            velocities,
+            displacements,
+            moments,
+            integration_constants,
+        })
     }
 
-    /// `[W, V]`.
-    fn at(&self, time: f64) -> [f64; 2] {
-        let last = self.velocity.len() - 1;
-        let position = time / self.step + self.count as f64;
-        if !(position >= 0.0 && position < last as f64) {
+    /// W and V at a time (s).
+    fn at(&self, time: f64) -> DelayedValues {
+        let last_index = self.velocities.len() - 1;
+        let position = time / self.time_step + self.sample_count as f64;
+        if !(position >= 0.0 && position < last_index as f64) {
             return self.beyond_samples(time);
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..last")]
         let k = position as usize;
         let x = position - k as f64;
-        // The cubic with these values and slopes.
-        let w0 = self.displacement[k];
-        let v0 = self.velocity[k];
-        let v1 = self.velocity[k + 1];
-        let slope = (self.displacement[k + 1] - w0) / self.step;
+        // Cubic interpolation of W, with the values of W and the slopes V at both samples.
+        let w0 = self.displacements[k];
+        let v0 = self.velocities[k];
+        let v1 = self.velocities[k + 1];
+        let slope = (self.displacements[k + 1] - w0) / self.time_step;
         let b = 3.0 * slope - 2.0 * v0 - v1;
         let c = v0 + v1 - 2.0 * slope;
-        let displacement = w0 + self.step * x * (v0 + x * (b + x * c));
-        [displacement, v0 + x * (2.0 * b + 3.0 * x * c)]
+        let displacement = w0 + self.time_step * x * (v0 + x * (b + x * c));
+        DelayedValues { displacement, velocity: v0 + x * (2.0 * b + 3.0 * x * c) }
     }
 
-    /// `[W, V]` at times where 1/(t − τ) hardly changes from sample to sample.
-    fn beyond_samples(&self, time: f64) -> [f64; 2] {
-        let constant = self.constants[usize::from(time >= 0.0)];
-        let integrals = self.moments.transform(time / self.step - self.moments.half);
-        [constant + self.step * integrals[0], integrals[1]]
+    /// W and V at a time (s) far from the record, from its moments.
+    fn beyond_samples(&self, time: f64) -> DelayedValues {
+        let constant = self.integration_constants[usize::from(time >= 0.0)];
+        let transform = self.moments.transform(time / self.time_step - self.moments.half_length);
+        DelayedValues {
+            displacement: constant + self.time_step * transform.velocity_integral,
+            velocity: transform.velocity,
+        }
     }
 }
 
-/// Moments of a record, which give its transform far from the record.
+/// Hilbert transform of samples at one time.
+#[derive(Clone, Copy)]
+struct TransformValues {
+    /// ∫V ds.
+    velocity_integral: f64,
+    /// V.
+    velocity: f64,
+}
+
+/// Moments of a record, from which its transform far from the record is computed.
 ///
 /// The distance to sample j is s (1 − q yⱼ), hence
 ///
@@ -140,56 +184,62 @@ impl DelayedMotion {
 /// ∫V ds = 1/π Σ vⱼ ln |s (1 − q yⱼ)| = 1/π (M₀ ln |s| − Σ Mₖ qᵏ / k), k > 0.
 struct Moments {
     /// h, in samples.
-    half: f64,
+    half_length: f64,
+    /// M₀, M₁, ….
     values: [f64; MOMENT_COUNT],
 }
 
 impl Moments {
     /// Moments of two or more samples.
-    fn new(source: &[f64]) -> Self {
-        let half = 0.5 * (source.len() as f64 - 1.0);
+    fn new(samples: &[f64]) -> Self {
+        let half_length = 0.5 * (samples.len() as f64 - 1.0);
         let mut values = [0.0; MOMENT_COUNT];
-        for (j, &v) in source.iter().enumerate() {
-            let y = (j as f64 - half) / half;
+        for (j, &v) in samples.iter().enumerate() {
+            let y = (j as f64 - half_length) / half_length;
             let mut term = v;
             for moment in &mut values {
                 *moment += term;
                 term *= y;
             }
         }
-        Self { half, values }
+        Self { half_length, values }
     }
 
-    /// `[∫V ds, V]` at `s`, |s| > 3h.
-    fn transform(&self, s: f64) -> [f64; 2] {
-        let q = self.half / s;
-        let [first, others @ ..] = &self.values;
-        let mut series = 0.0;
-        let mut primitive = 0.0;
-        for (k, moment) in others.iter().enumerate().rev() {
-            series = q * (series + moment);
-            primitive = q * (primitive + moment / (k + 1) as f64);
+    /// Transform at `s`, in samples from the middle of the record; |s| > 3h.
+    fn transform(&self, s: f64) -> TransformValues {
+        let q = self.half_length / s;
+        let [zeroth_moment, higher_moments @ ..] = &self.values;
+        let mut velocity_series = 0.0;
+        let mut integral_series = 0.0;
+        for (k, moment) in higher_moments.iter().enumerate().rev() {
+            velocity_series = q * (velocity_series + moment);
+            integral_series = q * (integral_series + moment / (k + 1) as f64);
         }
-        [(first * s.abs().ln() - primitive) / PI, (first + series) / (PI * s)]
+        TransformValues {
+            velocity_integral: (zeroth_moment * s.abs().ln() - integral_series) / PI,
+            velocity: (zeroth_moment + velocity_series) / (PI * s),
+        }
     }
 }
 
-/// Integral of samples from sample `zero` on; each interval under the cubic through four samples.
-fn integral(samples: &[f64], step: f64, zero: usize) -> Vec<f64> {
-    let last = samples.len() - 1;
+/// Integral of samples, which is zero at the sample `zero_index`.
+///
+/// Each interval is integrated under the cubic through the four samples around it.
+fn cumulative_integral(samples: &[f64], time_step: f64, zero_index: usize) -> Vec<f64> {
+    let last_index = samples.len() - 1;
     let mut sums = Vec::with_capacity(samples.len());
     let mut sum = 0.0;
     sums.push(sum);
-    for k in 0..last {
-        let inner = samples[k] + samples[k + 1];
-        let is_at_end = k == 0 || k + 1 == last;
-        let outer = if is_at_end { inner } else { samples[k - 1] + samples[k + 2] };
-        sum += step * (13.0 * inner - outer) / 24.0;
+    for k in 0..last_index {
+        let inner_sum = samples[k] + samples[k + 1];
+        let is_at_end = k == 0 || k + 1 == last_index;
+        let outer_sum = if is_at_end { inner_sum } else { samples[k - 1] + samples[k + 2] };
+        sum += time_step * (13.0 * inner_sum - outer_sum) / 24.0;
         sums.push(sum);
     }
-    let start = sums[zero];
+    let offset = sums[zero_index];
     for sum in &mut sums {
-        *sum -= start;
+        *sum -= offset;
     }
     sums
 }
@@ -207,7 +257,7 @@ mod tests {
         let delayed = DelayedMotion::new(&record).unwrap();
         let direct = hilbert(record.displacements(), count).unwrap();
         let differences =
-            delayed.displacement.iter().zip(&direct).map(|(w, u)| w - (u - direct[count]));
+            delayed.displacements.iter().zip(&direct).map(|(w, u)| w - (u - direct[count]));
         let largest = differences.fold(0.0_f64, |largest, d| largest.max(d.abs()));
         // The corners of the record are above the highest frequency of its samples, and the two methods treat them
         // differently; displacements are 0.2 m.
@@ -216,16 +266,16 @@ mod tests {
 
     /// The sums over all samples that the moments replace.
     fn direct_sums(delayed: &DelayedMotion, source: &[f64], time: f64) -> [f64; 2] {
-        let last = delayed.velocity.len() - 1;
+        let last = delayed.velocities.len() - 1;
         let index = if time < 0.0 { 0 } else { last };
         let edge = index as f64 - source.len() as f64;
         let mut sums = [0.0; 2];
         for (j, v) in source.iter().enumerate() {
-            let distance = time / delayed.step - j as f64;
+            let distance = time / delayed.time_step - j as f64;
             sums[0] += v * (distance / (edge - j as f64)).ln();
             sums[1] += v / distance;
         }
-        [delayed.displacement[index] + delayed.step * sums[0] / PI, sums[1] / PI]
+        [delayed.displacements[index] + delayed.time_step * sums[0] / PI, sums[1] / PI]
     }
 
     fn peak(samples: &[f64]) -> f64 {
@@ -254,14 +304,15 @@ mod tests {
         let step = record.time_step();
         for source in sources {
             let delayed = DelayedMotion::from_velocity(step, source).unwrap();
-            let peaks = [peak(&delayed.displacement), peak(&delayed.velocity)];
+            let peaks = [peak(&delayed.displacements), peak(&delayed.velocities)];
             let count = source.len() as f64;
-            let last = delayed.velocity.len() - 1;
+            let last = delayed.velocities.len() - 1;
             let edges = [-count * step, (last as f64 - count) * step];
             let beyond = [0.0, 1e-9, 1e-3, 0.013, 0.3, 1.0, 7.7, 31.0, 62.5, 400.0, 1e4, 1e6];
             for (edge, side) in edges.into_iter().zip([-1.0, 1.0]) {
                 for time in beyond.map(|t| edge + side * t) {
-                    let moments = delayed.beyond_samples(time);
+                    let values = delayed.beyond_samples(time);
+                    let moments = [values.displacement, values.velocity];
                     let sums = direct_sums(&delayed, source, time);
                     for ((a, b), peak) in moments.iter().zip(sums).zip(peaks) {
                         let n = source.len();
@@ -269,15 +320,17 @@ mod tests {
                     }
                 }
                 // W continues from its last sample.
-                let sample = delayed.displacement[if side < 0.0 { 0 } else { last }];
-                assert!((delayed.beyond_samples(edge)[0] - sample).abs() <= 1e-14 * peaks[0]);
+                let sample = delayed.displacements[if side < 0.0 { 0 } else { last }];
+                assert!(
+                    (delayed.beyond_samples(edge).displacement - sample).abs() <= 1e-14 * peaks[0]
+                );
             }
         }
     }
 
-    /// GOAL: no seam where the moments take over, and V is the slope of W everywhere.
+    /// GOAL: W and V are continuous where the moments replace the samples, and V is the slope of W everywhere.
     #[test]
-    fn far_and_near_meet() {
+    fn samples_and_moments_agree_at_their_boundary() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
         let delayed = DelayedMotion::new(&record).unwrap();
         let count = record.len() as f64;
@@ -286,15 +339,15 @@ mod tests {
                 let time = (position + side) * record.time_step();
                 let within = delayed.at(time);
                 let beyond = delayed.beyond_samples(time);
-                for k in [0, 1] {
-                    assert!((within[k] - beyond[k]).abs() < 1e-9);
-                }
+                assert!((within.displacement - beyond.displacement).abs() < 1e-9);
+                assert!((within.velocity - beyond.velocity).abs() < 1e-9);
             }
         }
         for time in [-300.0, -40.0, -31.3, -5.005, -0.003, 0.507, 12.301, 40.0, 62.4, 63.0, 500.0] {
             let h = 1e-4;
-            let slope = (delayed.at(time + h)[0] - delayed.at(time - h)[0]) / (2.0 * h);
-            let velocity = delayed.at(time)[1];
+            let slope =
+                (delayed.at(time + h).displacement - delayed.at(time - h).displacement) / (2.0 * h);
+            let velocity = delayed.at(time).velocity;
             assert!((slope - velocity).abs() < 1e-6, "{time}: {slope} {velocity}");
         }
     }

@@ -4,19 +4,19 @@
 //! |---|---|
 //! | p | horizontal slowness, 1/apparent velocity |
 //! | a = √(1/c₁² − p²), b = √(1/c₂² − p²) | vertical slownesses of P and S, imaginary part ≥ 0 |
-//! | g = b² − p² | |
+//! | g = b² − p² | abbreviation |
 //! | R = g² + 4p²ab | Rayleigh's function |
 //!
-//! For e^{iω(px−t)} and z down, an incident wave of unit displacement and its two reflected waves leave the
-//! surface free of traction if it moves by
+//! All waves vary as e^{iω(px−t)}, z is down. An incident wave of unit displacement and its two reflected waves cause no
+//! traction at the surface if the surface moves by
 //!
 //! * SV: u_x = 2bg/(c₂R), u_up = −4pab/(c₂R)
 //! * P: u_x = 4pab c₁/(c₂²R), u_up = 2ag c₁/(c₂²R)
 //! * SH: twice the incident wave, across the plane of incidence
 //!
 //! (Achenbach, *Wave Propagation in Elastic Solids*, 1973, § 5.6; Aki & Richards, *Quantitative
-//! Seismology*, 2nd ed., § 5.2). Rayleigh's wave is R = 0: u_up/u_x = −2pa/g. An imaginary part
-//! means a quarter of a period: i is the Hilbert transform, which takes cos to sin.
+//! Seismology*, 2nd ed., § 5.2). Rayleigh's wave has R = 0 and u_up/u_x = −2pa/g. An imaginary part
+//! is a delay of a quarter of a period: i is the Hilbert transform, which turns cos into sin.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,12 +27,12 @@ use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Smallest ratio of a prescribed component to the largest component.
+/// Smallest ratio of a prescribed component to the larger component.
 ///
-/// Near the angles at which the prescribed component vanishes, the other grows without bound.
+/// The other component grows without bound near the angles at which the prescribed one vanishes.
 const MIN_PRESCRIBED_RATIO: f64 = 0.1;
 
-/// Largest value of Rayleigh's function, in units of 1/c₂⁴, that is rounding of zero.
+/// Magnitude of Rayleigh's function, relative to 1/c₂⁴, below which it is zero up to rounding.
 const RAYLEIGH_ZERO_TOLERANCE: f64 = 1e-14;
 
 /// A plane harmonic wave, and the motion of the half-plane's surface under it.
@@ -50,10 +50,14 @@ const RAYLEIGH_ZERO_TOLERANCE: f64 = 1e-14;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneWave {
+    /// p, s/m.
     slowness: f64,
+    /// u_x per displacement of the incident wave.
     horizontal: Complex,
+    /// u_up per displacement of the incident wave.
     vertical: Complex,
-    across: f64,
+    /// Displacement across the plane of incidence, per displacement of the incident wave.
+    transverse: f64,
 }
 
 impl PlaneWave {
@@ -73,20 +77,20 @@ impl PlaneWave {
             slowness: p,
             horizontal: b.scale(2.0 * g) * scale,
             vertical: (a * b).scale(-4.0 * p) * scale,
-            across: 0.0,
+            transverse: 0.0,
         })
     }
 
     /// SH wave from below, as for [`PlaneWave::sv`], for a ground in plan.
     ///
-    /// It moves the surface only across its direction, in phase at all angles.
+    /// It moves the surface across its direction only, in phase with the incident wave at all angles.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
     pub fn sh(soil: Soil, angle: f64) -> Result<Self> {
         let slowness = check_angle(angle)?.sin() / soil.shear_wave_speed();
-        let none = Complex::default();
-        Ok(Self { slowness, horizontal: none, vertical: none, across: 2.0 })
+        let zero = Complex::default();
+        Ok(Self { slowness, horizontal: zero, vertical: zero, transverse: 2.0 })
     }
 
     /// P wave from below, as for [`PlaneWave::sv`].
@@ -102,7 +106,7 @@ impl PlaneWave {
             slowness: p,
             horizontal: (a * b).scale(4.0 * p) * scale,
             vertical: a.scale(2.0 * g) * scale,
-            across: 0.0,
+            transverse: 0.0,
         })
     }
 
@@ -113,7 +117,7 @@ impl PlaneWave {
         let decay = (slowness * slowness - soil.pressure_wave_speed().powi(-2)).sqrt();
         let g = shear_speed.powi(-2) - 2.0 * slowness * slowness;
         let vertical = Complex::new(0.0, -2.0 * slowness * decay / g);
-        Self { slowness, horizontal: Complex::real(1.0), vertical, across: 0.0 }
+        Self { slowness, horizontal: Complex::real(1.0), vertical, transverse: 0.0 }
     }
 
     /// This wave in the opposite direction.
@@ -141,7 +145,7 @@ impl PlaneWave {
     ///
     /// 2 for SH, else 0. The displacement is along y if the wave runs along x.
     pub fn amplification_across(&self) -> f64 {
-        self.across
+        self.transverse
     }
 
     /// The free field in which `record` is the horizontal motion at `origin` (m).
@@ -149,8 +153,8 @@ impl PlaneWave {
     /// `origin` is the edge of the base that the wave reaches first. The vertical motion follows.
     ///
     /// Where the components are out of phase, the vertical one contains the Hilbert transform of the horizontal
-    /// one over all time. It begins before the record does and fades after it, as 1/t (as ln t if the ground does
-    /// not return). It is measured from t = 0, when it moves already. Its velocity at that time
+    /// one over all time. It begins before the record and decays after it as 1/t (its displacement changes as ln t if the
+    /// ground does not return). Its displacement is zero at t = 0, when it moves already. Its velocity at that time
     /// ([`FreeField::velocity`](super::FreeField::velocity) returns it) acts as a jolt at the start of a run.
     /// Quiet time before the record makes the jolt small and changes nothing else: see [`Record::padded`]. The
     /// record must end at rest: see [`Baseline`](super::Baseline).
@@ -172,7 +176,12 @@ impl PlaneWave {
     /// its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "horizontal component of the wave over the other one";
-        self.field(record, origin, false, ratio(quantity, self.vertical, self.horizontal)?)
+        self.field(
+            record,
+            origin,
+            false,
+            component_ratio(quantity, self.vertical, self.horizontal)?,
+        )
     }
 
     /// The free field in which `record` is the vertical motion at `origin`.
@@ -185,27 +194,27 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "vertical component of the wave over the other one";
-        self.field(record, origin, true, ratio(quantity, self.horizontal, self.vertical)?)
+        self.field(record, origin, true, component_ratio(quantity, self.horizontal, self.vertical)?)
     }
 
-    /// The free field of a record and of a component that is `ratio` times the record.
+    /// The free field of a record and of a second component by its ratio to the record.
     fn field(
         &self,
         record: &Record,
         origin: f64,
-        is_vertical: bool,
-        ratio: Complex,
+        is_record_vertical: bool,
+        component_ratio: Complex,
     ) -> Result<TravellingWave> {
-        if ratio.im != 0.0 {
-            let field = OutOfPhase::new(record, is_vertical, ratio)?;
+        if component_ratio.im != 0.0 {
+            let field = OutOfPhase::new(record, is_record_vertical, component_ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
         let prescribed = Some(record.clone());
-        let other = Some(record.scaled(ratio.re)?);
-        let field = if is_vertical {
-            VerticalIncidence { horizontal: other, vertical: prescribed }
+        let second = Some(record.scaled(component_ratio.re)?);
+        let field = if is_record_vertical {
+            VerticalIncidence { horizontal: second, vertical: prescribed }
         } else {
-            VerticalIncidence { horizontal: prescribed, vertical: other }
+            VerticalIncidence { horizontal: prescribed, vertical: second }
         };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
@@ -219,7 +228,7 @@ impl PlaneWave {
     /// finite.
     pub fn field_from_across(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let quantity = "component of the wave across its direction";
-        check_prescribed(quantity, self.across, self.horizontal.abs() + self.vertical.abs())?;
+        check_prescribed(quantity, self.transverse, self.horizontal.abs() + self.vertical.abs())?;
         let field = Triaxial { y: Some(record.clone()), ..Triaxial::default() };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
@@ -242,40 +251,47 @@ struct Slownesses {
 }
 
 impl Slownesses {
-    /// Of a P or an S wave of this speed (m/s), at `angle` (rad) from the vertical.
+    /// Slownesses under a P or an S wave of this `speed` (m/s) at `angle` (rad) from the vertical.
     fn new(soil: Soil, angle: f64, speed: f64) -> Result<Self> {
         let p = check_angle(angle)?.sin() / speed;
         let a = vertical_slowness(soil.pressure_wave_speed(), p, angle, speed);
         let b = vertical_slowness(soil.shear_wave_speed(), p, angle, speed);
         let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
         let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
-        let zero = RAYLEIGH_ZERO_TOLERANCE * soil.shear_wave_speed().powi(-4);
-        require("angle of incidence", angle, rayleigh.abs() > zero, "not the critical angle")?;
+        let zero_limit = RAYLEIGH_ZERO_TOLERANCE * soil.shear_wave_speed().powi(-4);
+        require(
+            "angle of incidence",
+            angle,
+            rayleigh.abs() > zero_limit,
+            "not the critical angle",
+        )?;
         Ok(Self { p, a, b, g, rayleigh })
     }
 }
 
-/// Vertical slowness of a wave of speed `c` that belongs to an incident wave of this `angle` and `speed`.
-fn vertical_slowness(c: f64, p: f64, angle: f64, speed: f64) -> Complex {
-    let is_incident = c == speed;
+/// Vertical slowness of a wave of speed `wave_speed`, incident or reflected.
+///
+/// `angle` and `incident_speed`: of the incident wave.
+fn vertical_slowness(wave_speed: f64, p: f64, angle: f64, incident_speed: f64) -> Complex {
+    let is_incident = wave_speed == incident_speed;
     if is_incident {
-        // Without cancellation.
-        Complex::real(angle.cos() / speed)
+        // This form avoids cancellation.
+        Complex::real(angle.cos() / incident_speed)
     } else {
-        Complex::real(c.powi(-2) - p * p).sqrt()
+        Complex::real(wave_speed.powi(-2) - p * p).sqrt()
     }
 }
 
-/// Ratio of the other component to the prescribed one, unless that is too small.
-fn ratio(quantity: &'static str, other: Complex, prescribed: Complex) -> Result<Complex> {
+/// Ratio of the other component to the prescribed one, or an error if the latter is too small.
+fn component_ratio(quantity: &'static str, other: Complex, prescribed: Complex) -> Result<Complex> {
     check_prescribed(quantity, prescribed.abs(), other.abs())?;
     Ok(other / prescribed)
 }
 
-/// Error if the prescribed component is too small a fraction of the larger component.
+/// Error if the prescribed component is too small beside the other one.
 pub(crate) fn check_prescribed(quantity: &'static str, prescribed: f64, other: f64) -> Result<()> {
-    let largest = other.max(prescribed);
-    let fraction = if largest == 0.0 { 0.0 } else { prescribed / largest };
+    let larger = other.max(prescribed);
+    let fraction = if larger == 0.0 { 0.0 } else { prescribed / larger };
     let is_large_enough = fraction > MIN_PRESCRIBED_RATIO;
     require(quantity, fraction, is_large_enough, "above 0.1 to be prescribed").map(drop)
 }

@@ -1,4 +1,4 @@
-//! Free fields that run along the surface.
+//! Free fields that travel along the surface.
 
 use super::Record;
 use super::free_field::{FreeField, difference_velocity};
@@ -6,9 +6,9 @@ use super::free_field::{FreeField, difference_velocity};
 use crate::error::require_part;
 use crate::error::{Result, finite, require};
 
-/// A free field that runs along the surface: u(x, t) = u₀(t − (x − x₀)/c).
+/// A free field that travels along the surface: u(x, t) = u₀(t − (x − x₀)/c).
 ///
-/// In plan it runs in any direction.
+/// It may travel in any horizontal direction.
 ///
 /// ```
 /// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
@@ -49,8 +49,8 @@ impl TravellingWave {
     /// Runs `field`, the motion at `origin` (m), along x with the apparent velocity c.
     ///
     /// `apparent_velocity`: m/s, to the right if positive; an infinite one moves all points at once. Points
-    /// reached before `origin` would have moved before t = 0, and start with a jump: let `origin` be the edge of
-    /// the base that the wave reaches first.
+    /// that the wave reaches before `origin` move before t = 0 and start with a jump: let `origin` be the edge of the base
+    /// that the wave reaches first.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a velocity of zero or NaN, or an origin that is not finite.

@@ -31,7 +31,7 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     require_part("map of contact modes", !time_series.in_plan(), needed)?;
     let frames: Vec<_> = time_series.contact_frames().collect();
     let elements = unrolled(time_series.elements().iter().copied());
-    let needed = "tell the recorder to keep the contact";
+    let needed = "the recorder must keep the contact (`Recorder::contact`)";
     require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
     let begin = frames[0].time;
     let end = frames[frames.len() - 1].time;

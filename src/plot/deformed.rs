@@ -224,7 +224,7 @@ fn shapes_at(
             .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()));
         let frame = nearest.ok_or(Error::Scene {
             quantity: "deformed shape",
-            needed: "tell the recorder to keep the motion",
+            needed: "the recorder must keep the motion (`Recorder::motion`)",
         })?;
         let name = format!("t = {:.2} s", frame.time);
         shapes.push(NamedShape { name, places: places(shape, &frame, magnification)? });

@@ -82,7 +82,7 @@ pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<
         .contact_frames()
         .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()));
     let Some(frame) = nearest else {
-        let needed = "tell the recorder to keep the contact";
+        let needed = "the recorder must keep the contact (`Recorder::contact`)";
         return Err(Error::Scene { quantity: "contact in plan", needed });
     };
     check_in_plan(time_series.in_plan())?;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::kind::ElementKind;
-use super::raw::{FileCell, FileMesh, FilePoint, given_twice};
+use super::raw::{FileCell, FileMesh, FileNode, given_twice};
 use crate::error::{Error, FileFault};
 
 /// An element of a mesh.
@@ -20,19 +20,19 @@ pub(super) struct MeshCell {
     pub(super) line: usize,
 }
 
-/// Nodes and elements of a file; the elements refer to the nodes by index.
+/// Nodes and elements of a file, whose elements refer to nodes by index.
 pub(super) struct NumberedMesh<'a> {
-    pub(super) points: Vec<&'a FilePoint>,
+    pub(super) nodes: Vec<&'a FileNode>,
     pub(super) cells: Vec<MeshCell>,
 }
 
 impl MeshCell {
-    /// Whether it is in the group `name`.
+    /// Whether the element is in the group `name`.
     pub(super) fn is_in(&self, name: &str) -> bool {
         self.groups.iter().any(|group| group == name)
     }
 
-    /// Error of an element that is not accepted, with its tag and its line in `file`.
+    /// Adds the tag of an element, and its line in `file`, to its error.
     pub(super) fn unusable(&self, file: &str, error: Error) -> Error {
         let error = error.within(format!("element {}", self.tag));
         FileFault::Unusable(Box::new(error)).of(file, self.line)
@@ -41,29 +41,35 @@ impl MeshCell {
 
 /// Numbers the nodes of the selected elements in the order of the file, independently of their tags.
 ///
-/// Other elements are kept if all their nodes are among these.
-pub(super) fn number(
+/// Other elements stay in the mesh if all their nodes belong to selected elements.
+pub(super) fn numbered_mesh(
     mesh: &FileMesh,
     is_selected: impl Fn(&FileCell) -> bool,
 ) -> Result<NumberedMesh<'_>, (usize, FileFault)> {
-    let mut used = BTreeMap::new();
+    let mut node_tags_in_file_order = BTreeMap::new();
     for cell in mesh.cells.iter().filter(|cell| is_selected(cell)) {
         for &tag in &cell.nodes {
-            let Some(&place) = mesh.places.get(&tag) else {
+            let Some(&file_index) = mesh.node_indices.get(&tag) else {
                 return Err((cell.line, FileFault::missing(format!("node {tag}"))));
             };
-            used.insert(place, tag);
+            node_tags_in_file_order.insert(file_index, tag);
         }
     }
-    let index: BTreeMap<u64, usize> = used.values().enumerate().map(|(k, &tag)| (tag, k)).collect();
-    let mut corners_before = BTreeSet::new();
+    let new_indices: BTreeMap<u64, usize> = node_tags_in_file_order
+        .values()
+        .enumerate()
+        .map(|(index, &tag)| (tag, index))
+        .collect();
+    let mut earlier_corners = BTreeSet::new();
     let mut cells = Vec::with_capacity(mesh.cells.len());
     for cell in &mesh.cells {
         let nodes: Option<Vec<usize>> =
-            cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
+            cell.nodes.iter().map(|tag| new_indices.get(tag).copied()).collect();
         let Some(nodes) = nodes else { continue };
-        let must_be_unique = cell.kind.dimension() > 1;
-        if must_be_unique && !corners_before.insert(sorted(&nodes[..cell.kind.corners()])) {
+        let is_surface_or_solid = cell.kind.dimension() > 1;
+        if is_surface_or_solid
+            && !earlier_corners.insert(sorted_nodes(&nodes[..cell.kind.corner_count()]))
+        {
             let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
             let item = format!("{} of nodes {}", cell.kind.name(), tags.join(" "));
             return Err((cell.line, given_twice(item)));
@@ -71,20 +77,21 @@ pub(super) fn number(
         let groups = mesh.groups(cell);
         cells.push(MeshCell { kind: cell.kind, groups, nodes, tag: cell.tag, line: cell.line });
     }
-    let points = used.keys().map(|&place| &mesh.coordinates[place]).collect();
-    Ok(NumberedMesh { points, cells })
+    let selected_nodes =
+        node_tags_in_file_order.keys().map(|&file_index| &mesh.nodes[file_index]).collect();
+    Ok(NumberedMesh { nodes: selected_nodes, cells })
 }
 
-/// Nodes by their indices, the smallest first.
-pub(super) fn sorted(nodes: &[usize]) -> Vec<usize> {
-    let mut nodes = nodes.to_vec();
-    nodes.sort_unstable();
-    nodes
+/// Indices of nodes in ascending order.
+pub(super) fn sorted_nodes(nodes: &[usize]) -> Vec<usize> {
+    let mut copy = nodes.to_vec();
+    copy.sort_unstable();
+    copy
 }
 
-/// Names of the groups of cells, sorted.
+/// Sorted names of the groups to which cells belong.
 pub(super) fn group_names<'a>(cells: impl Iterator<Item = &'a MeshCell>) -> Vec<&'a str> {
-    let all: BTreeSet<&str> =
+    let names: BTreeSet<&str> =
         cells.flat_map(|cell| cell.groups.iter().map(String::as_str)).collect();
-    all.into_iter().collect()
+    names.into_iter().collect()
 }

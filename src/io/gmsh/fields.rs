@@ -8,9 +8,11 @@ pub(super) use crate::text::bounded_line::LineResult;
 use crate::text::bounded_line::Lines;
 use crate::text::decimal::{finite, quoted};
 
-/// The fields of a file in order, as text or as binary numbers, with their line numbers.
+/// Reads the fields of a file in their order, as text or as binary numbers.
 pub(super) struct MshFields<R: Read> {
+    /// Lines of the file.
     source: Lines<R>,
+    /// Text of the present line.
     text: String,
     /// Start of the next field in `text`.
     position: usize,
@@ -31,11 +33,11 @@ impl<R: Read> MshFields<R> {
         }
     }
 
-    /// Reads the number one that begins a binary file; all numbers have the same order of bytes.
+    /// Reads the number one that begins a binary file and shows its byte order.
     pub(super) fn begin_binary(&mut self) -> LineResult<()> {
-        let one = i32::from_le_bytes(self.bytes("number one in binary form")?);
-        if one != 1 {
-            let needed = "number one in binary form, the byte of the smallest power first";
+        let byte_order_mark = i32::from_le_bytes(self.bytes("number one in binary form")?);
+        if byte_order_mark != 1 {
+            let needed = "number one in binary form, the least significant byte first";
             return Err(self.fault(FileFault::missing(needed)));
         }
         self.is_binary = true;
@@ -47,16 +49,16 @@ impl<R: Read> MshFields<R> {
         self.is_binary
     }
 
-    /// The next bytes, which begin behind the present line.
+    /// Reads the next bytes, which begin after the present line.
     fn bytes<const N: usize>(&mut self, item: &'static str) -> LineResult<[u8; N]> {
         self.position = self.text.len();
         let mut bytes = [0; N];
-        let filled = self.source.fill(&mut bytes).map_err(|fault| (self.line, fault))?;
-        if filled { Ok(bytes) } else { Err((self.line, FileFault::missing(item))) }
+        let is_complete = self.source.fill(&mut bytes).map_err(|fault| (self.line, fault))?;
+        if is_complete { Ok(bytes) } else { Err((self.line, FileFault::missing(item))) }
     }
 
-    /// A whole number of four bytes, or of text.
-    pub(super) fn int<T: TryFrom<i64>>(&mut self, item: &'static str) -> LineResult<T> {
+    /// Reads a whole number of four bytes, or of text.
+    pub(super) fn whole_number<T: TryFrom<i64>>(&mut self, item: &'static str) -> LineResult<T> {
         let value = if self.is_binary {
             i64::from(i32::from_le_bytes(self.bytes(item)?))
         } else {
@@ -65,8 +67,8 @@ impl<R: Read> MshFields<R> {
         T::try_from(value).map_err(|_| self.wrong_field(&value.to_string(), item))
     }
 
-    /// A count or a tag of eight bytes, or of text.
-    pub(super) fn size(&mut self, item: &'static str) -> LineResult<u64> {
+    /// Reads a count or a tag of eight bytes, or of text.
+    pub(super) fn count_or_tag(&mut self, item: &'static str) -> LineResult<u64> {
         if self.is_binary {
             Ok(u64::from_le_bytes(self.bytes(item)?))
         } else {
@@ -74,7 +76,7 @@ impl<R: Read> MshFields<R> {
         }
     }
 
-    /// A number that may be infinite.
+    /// Reads a number that may be infinite.
     pub(super) fn real(&mut self, item: &'static str) -> LineResult<f64> {
         if self.is_binary {
             Ok(f64::from_le_bytes(self.bytes(item)?))
@@ -83,8 +85,8 @@ impl<R: Read> MshFields<R> {
         }
     }
 
-    /// A finite number.
-    pub(super) fn number(&mut self) -> LineResult<f64> {
+    /// Reads a finite number.
+    pub(super) fn finite_number(&mut self) -> LineResult<f64> {
         let item = "finite number";
         if !self.is_binary {
             return self.field_as(item, finite);
@@ -98,8 +100,8 @@ impl<R: Read> MshFields<R> {
     }
 
     /// Fault of a field that is not an `item`.
-    fn wrong_field(&self, found: &str, item: &'static str) -> (usize, FileFault) {
-        self.fault(FileFault::value("field", quoted(found), format!("a {item}")))
+    fn wrong_field(&self, field_text: &str, item: &'static str) -> (usize, FileFault) {
+        self.fault(FileFault::value("field", quoted(field_text), format!("a {item}")))
     }
 
     /// Fault of the present line, with its number.
@@ -107,7 +109,7 @@ impl<R: Read> MshFields<R> {
         (self.line, fault)
     }
 
-    /// Reads the next line; `false` at the end.
+    /// Reads the next line; `false` at the end of the file.
     fn advance(&mut self) -> LineResult<bool> {
         self.line += 1;
         if !self.source.advance()? {
@@ -119,14 +121,17 @@ impl<R: Read> MshFields<R> {
         Ok(true)
     }
 
-    /// The next field unchanged; `None` at the end.
+    /// Reads the next field as text; `None` at the end of the file.
     fn field(&mut self) -> LineResult<Option<&str>> {
         loop {
-            let rest = &self.text[self.position..];
-            let begin = self.position + (rest.len() - rest.trim_start().len());
+            let remaining_text = &self.text[self.position..];
+            let white_space = remaining_text.len() - remaining_text.trim_start().len();
+            let begin = self.position + white_space;
             if begin < self.text.len() {
-                let rest = &self.text[begin..];
-                let end = begin + rest.find(char::is_whitespace).unwrap_or(rest.len());
+                let field_and_more = &self.text[begin..];
+                let field_length =
+                    field_and_more.find(char::is_whitespace).unwrap_or(field_and_more.len());
+                let end = begin + field_length;
                 self.position = end;
                 return Ok(Some(&self.text[begin..end]));
             }
@@ -136,7 +141,7 @@ impl<R: Read> MshFields<R> {
         }
     }
 
-    /// The next field, converted by `parse`.
+    /// Reads the next field and converts it by `parse`.
     fn field_as<T>(
         &mut self,
         item: &'static str,
@@ -145,75 +150,75 @@ impl<R: Read> MshFields<R> {
         let Some(field) = self.field()? else {
             return Err((self.line, FileFault::missing(item)));
         };
-        if let Some(parsed) = parse(field) {
-            return Ok(parsed);
+        if let Some(value) = parse(field) {
+            return Ok(value);
         }
-        let found = field.to_owned();
-        Err(self.wrong_field(&found, item))
+        let field_text = field.to_owned();
+        Err(self.wrong_field(&field_text, item))
     }
 
-    /// The next field of text, also in a binary file.
+    /// Reads the next field, which is text also in a binary file.
     pub(super) fn text<T: FromStr>(&mut self, item: &'static str) -> LineResult<T> {
         self.field_as(item, |field| field.parse().ok())
     }
 
-    /// Error if the number of items differs from the number announced.
+    /// Error unless the number of items is the announced one.
     pub(super) fn check_count(
         &self,
-        item: &'static str,
-        found: u64,
-        announced: u64,
+        items: &'static str,
+        count: u64,
+        announced_count: u64,
     ) -> LineResult<()> {
-        if found == announced {
+        if count == announced_count {
             return Ok(());
         }
         Err(self.fault(FileFault::value(
-            format!("number of {item}"),
-            found.to_string(),
-            format!("{announced}, as announced"),
+            format!("number of {items}"),
+            count.to_string(),
+            format!("{announced_count}, as announced"),
         )))
     }
 
-    /// Text between quotation marks, on the present line.
-    pub(super) fn quoted(&mut self) -> LineResult<String> {
+    /// Reads text between quotation marks on the present line.
+    pub(super) fn quoted_text(&mut self) -> LineResult<String> {
         let parts: Vec<&str> = self.text[self.position..].splitn(3, '"').collect();
         match parts[..] {
-            [before, name, after] if before.trim().is_empty() => {
+            [text_before, name, text_after] if text_before.trim().is_empty() => {
                 let name = name.to_owned();
-                self.position = self.text.len() - after.len();
+                self.position = self.text.len() - text_after.len();
                 Ok(name)
             }
             _ => Err(self.fault(FileFault::missing("name in quotation marks"))),
         }
     }
 
-    /// Name of the section that begins next; `None` at the end.
+    /// Reads the heading of the next section; `None` at the end of the file.
     pub(super) fn section(&mut self) -> LineResult<Option<String>> {
         let Some(field) = self.field()? else { return Ok(None) };
         if let Some(name) = field.strip_prefix('$') {
             return Ok(Some(name.to_owned()));
         }
-        let found = quoted(field);
-        Err(self.fault(FileFault::value("field", found, "the beginning of a section")))
+        let field_text = quoted(field);
+        Err(self.fault(FileFault::value("field", field_text, "the beginning of a section")))
     }
 
     /// Reads the end of `section`.
-    pub(super) fn end(&mut self, section: &str) -> LineResult<()> {
-        let end = self.field()?.map(|field| field.strip_prefix("$End") == Some(section));
-        if end == Some(true) {
+    pub(super) fn end_section(&mut self, section: &str) -> LineResult<()> {
+        let is_section_end = self.field()?.map(|field| field.strip_prefix("$End") == Some(section));
+        if is_section_end == Some(true) {
             return Ok(());
         }
         Err(self.fault(FileFault::missing(format!("$End{section}"))))
     }
 
-    /// Skips the rest of `section`.
-    pub(super) fn skip(&mut self, section: &str) -> LineResult<()> {
+    /// Skips the content and the end of a section.
+    pub(super) fn skip_section(&mut self, section: &str) -> LineResult<()> {
         if self.is_binary {
             self.position = self.text.len();
-            let end = format!("$End{section}");
-            return match self.source.skip_past(end.as_bytes()) {
+            let section_end = format!("$End{section}");
+            return match self.source.skip_past(section_end.as_bytes()) {
                 Ok(true) => Ok(()),
-                Ok(false) => Err(self.fault(FileFault::missing(end))),
+                Ok(false) => Err(self.fault(FileFault::missing(section_end))),
                 Err(fault) => Err(self.fault(fault)),
             };
         }

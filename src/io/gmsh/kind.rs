@@ -29,16 +29,16 @@ impl ElementKind {
     }
 
     /// Number of corners; nodes between corners follow them.
-    pub(super) fn corners(self) -> usize {
+    pub(super) fn corner_count(self) -> usize {
         match self {
             Self::SecondOrderLine => 2,
             Self::SecondOrderQuadrilateral => 4,
-            _ => self.nodes(),
+            _ => self.node_count(),
         }
     }
 
     /// Number of nodes.
-    pub(super) fn nodes(self) -> usize {
+    pub(super) fn node_count(self) -> usize {
         match self {
             Self::Point => 1,
             Self::Line => 2,
@@ -62,24 +62,24 @@ impl ElementKind {
 /// Kinds of elements that a reader accepts.
 #[derive(Debug)]
 pub(super) struct AcceptedKinds {
-    /// Number of the kind in the format, and the kind.
-    kinds: &'static [(u32, ElementKind)],
-    /// The same in words.
-    needed: &'static str,
-    /// Settings of Gmsh that avoid kinds that are not accepted, by the numbers of these kinds.
+    /// Each kind, with its number in the format.
+    kinds_by_number: &'static [(u32, ElementKind)],
+    /// The accepted kinds in words, for errors.
+    kinds_text: &'static str,
+    /// Numbers of kinds that are not accepted, and the setting of Gmsh that avoids them.
     remedies: &'static [(&'static [u32], &'static str)],
 }
 
 /// Kinds of a mesh in the plane.
 pub(super) const KINDS_IN_PLANE: AcceptedKinds = AcceptedKinds {
-    kinds: &[
+    kinds_by_number: &[
         (15, ElementKind::Point),
         (1, ElementKind::Line),
         (8, ElementKind::SecondOrderLine),
         (3, ElementKind::Quadrilateral),
         (16, ElementKind::SecondOrderQuadrilateral),
     ],
-    needed: "lines and quadrilaterals of the first or second order",
+    kinds_text: "lines and quadrilaterals of the first or second order",
     remedies: &[
         (&[2, 9], "let Gmsh recombine triangles (Mesh.RecombineAll = 1)"),
         (&[10], "Mesh.SecondOrderIncomplete = 1 leaves out the ninth node"),
@@ -88,21 +88,21 @@ pub(super) const KINDS_IN_PLANE: AcceptedKinds = AcceptedKinds {
 
 /// Kinds of a mesh in space.
 pub(super) const KINDS_IN_SPACE: AcceptedKinds = AcceptedKinds {
-    kinds: &[
+    kinds_by_number: &[
         (15, ElementKind::Point),
         (1, ElementKind::Line),
         (2, ElementKind::Triangle),
         (3, ElementKind::Quadrilateral),
         (5, ElementKind::Brick),
     ],
-    needed: "points, lines, triangles, quadrilaterals and bricks of the first order",
+    kinds_text: "points, lines, triangles, quadrilaterals and bricks of the first order",
     remedies: &[
         (&[4, 6, 7], "let Gmsh make bricks (transfinite volumes, or extruded layers, recombined)"),
         (&[8, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19], "Mesh.ElementOrder = 1"),
     ],
 };
 
-/// Names of the kinds 1 to 19.
+/// Names of several elements of the kinds 1 to 19, in errors.
 const KIND_NAMES: [&str; 19] = [
     "lines",
     "triangles",
@@ -126,15 +126,20 @@ const KIND_NAMES: [&str; 19] = [
 ];
 
 impl AcceptedKinds {
-    /// Kind with this `number` in the format; the fault names the `count` of elements that are not accepted.
-    pub(super) fn kind(&self, number: u32, count: u64) -> Result<ElementKind, FileFault> {
-        if let Some((_, kind)) = self.kinds.iter().find(|(other, _)| *other == number) {
+    /// The kind with this number in the format, or a fault that names the elements.
+    ///
+    /// `count`: number of elements of this kind.
+    pub(super) fn kind(&self, kind_number: u32, count: u64) -> Result<ElementKind, FileFault> {
+        if let Some((_, kind)) =
+            self.kinds_by_number.iter().find(|(other, _)| *other == kind_number)
+        {
             return Ok(*kind);
         }
-        let name = (1..).zip(KIND_NAMES).find(|(other, _)| *other == number).map(|(_, name)| name);
-        let found = format!("{count} {} (type {number})", name.unwrap_or("elements"));
-        let remedy = self.remedies.iter().find(|(numbers, _)| numbers.contains(&number));
-        let remedy = remedy.map_or(String::new(), |(_, remedy)| format!(": {remedy}"));
-        Err(FileFault::format(found, format!("{}{remedy}", self.needed)))
+        let name =
+            (1..).zip(KIND_NAMES).find(|(other, _)| *other == kind_number).map(|(_, name)| name);
+        let elements = format!("{count} {} (type {kind_number})", name.unwrap_or("elements"));
+        let remedy = self.remedies.iter().find(|(numbers, _)| numbers.contains(&kind_number));
+        let remedy_text = remedy.map_or(String::new(), |(_, setting)| format!(": {setting}"));
+        Err(FileFault::format(elements, format!("{}{remedy_text}", self.kinds_text)))
     }
 }

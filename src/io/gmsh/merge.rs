@@ -1,35 +1,42 @@
-//! New numbers of the nodes of a file of which some lie at the same place.
+//! Merges nodes of a file that lie at the same point.
 
 use std::collections::HashMap;
 
-use super::cell::{MeshCell, sorted};
+use super::cell::{MeshCell, sorted_nodes};
 use super::raw::given_twice;
 use crate::error::{Error, Result};
 use crate::fem::first_coincident_points;
 
-/// New index of each node.
-pub(super) struct MergedNumbers {
-    indices: Vec<usize>,
-    /// Nodes that stay, by their old indices.
+/// New indices of nodes after nodes at the same point were merged.
+pub(super) struct NodeMerge {
+    /// New index of each node.
+    new_indices: Vec<usize>,
+    /// Old indices of the nodes that stay.
     kept_nodes: Vec<usize>,
 }
 
-impl MergedNumbers {
+impl NodeMerge {
+    /// Merges `points` (m) within a `tolerance` (m).
     pub(super) fn new(points: &[[f64; 3]], tolerance: f64) -> Result<Self> {
-        let mut numbers =
-            Self { indices: Vec::with_capacity(points.len()), kept_nodes: Vec::new() };
-        for (node, first) in first_coincident_points(points, tolerance)?.into_iter().enumerate() {
-            let index =
-                if first == node { numbers.kept_nodes.len() } else { numbers.indices[first] };
-            if first == node {
-                numbers.kept_nodes.push(node);
+        let mut merge =
+            Self { new_indices: Vec::with_capacity(points.len()), kept_nodes: Vec::new() };
+        for (node, first_node) in
+            first_coincident_points(points, tolerance)?.into_iter().enumerate()
+        {
+            let index = if first_node == node {
+                merge.kept_nodes.len()
+            } else {
+                merge.new_indices[first_node]
+            };
+            if first_node == node {
+                merge.kept_nodes.push(node);
             }
-            numbers.indices.push(index);
+            merge.new_indices.push(index);
         }
-        Ok(numbers)
+        Ok(merge)
     }
 
-    /// Error for an element with two nodes at one place, or on the nodes of another surface or solid.
+    /// Error for an element that merging makes degenerate or equal to another one.
     pub(super) fn check<'a>(
         &self,
         file: &str,
@@ -39,16 +46,16 @@ impl MergedNumbers {
         for cell in cells {
             let mut nodes = cell.nodes.clone();
             self.renumber(&mut nodes);
-            let corners = sorted(&nodes[..cell.kind.corners().min(nodes.len())]);
-            if sorted(&nodes).windows(2).any(|pair| pair[0] == pair[1]) {
+            let corners = sorted_nodes(&nodes[..cell.kind.corner_count().min(nodes.len())]);
+            if sorted_nodes(&nodes).windows(2).any(|pair| pair[0] == pair[1]) {
                 let reason =
-                    format!("{}: merging puts two of its nodes at one place", cell.kind.name());
+                    format!("{}: merging moves two of its nodes to one point", cell.kind.name());
                 return Err(cell.unusable(file, Error::part("nodes", reason)));
             }
             if cell.kind.dimension() > 1
-                && let Some(other) = tags_by_corners.insert(corners, cell.tag)
+                && let Some(other_tag) = tags_by_corners.insert(corners, cell.tag)
             {
-                let item = format!("{} {} by element {other}", cell.kind.name(), cell.tag);
+                let item = format!("{} {} by element {other_tag}", cell.kind.name(), cell.tag);
                 return Err(given_twice(item).of(file, cell.line));
             }
         }
@@ -58,11 +65,11 @@ impl MergedNumbers {
     /// Renumbers the nodes of an element.
     pub(super) fn renumber(&self, nodes: &mut [usize]) {
         for node in nodes {
-            *node = self.indices[*node];
+            *node = self.new_indices[*node];
         }
     }
 
-    /// The items of the nodes that stay.
+    /// Selects the items of the nodes that stay; `items` has one for each node.
     pub(super) fn kept_items<T: Copy>(&self, items: &[T]) -> Vec<T> {
         self.kept_nodes.iter().map(|&node| items[node]).collect()
     }

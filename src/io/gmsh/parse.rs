@@ -9,57 +9,59 @@ use super::{version2, version4};
 use crate::error::FileFault;
 use crate::text::decimal::excerpt;
 
-/// Version of the format.
+/// Main version of the format.
 #[derive(Clone, Copy, PartialEq)]
 enum Version {
     Two,
     Four,
 }
 
-/// Reads a file whose elements are of the `accepted` kinds.
-pub(super) fn read(source: impl Read, accepted: &AcceptedKinds) -> LineResult<FileMesh> {
+/// Reads the nodes and elements of a file; an error for other kinds of elements.
+pub(super) fn read(source: impl Read, accepted_kinds: &AcceptedKinds) -> LineResult<FileMesh> {
     let mut fields = MshFields::new(source);
     let mut mesh = FileMesh::default();
-    let mut sections_read = Vec::new();
-    // The numbers of other sections cannot be read before the format is known.
+    let mut read_sections = Vec::new();
+    // Sections before the format are read as those of version 4.
     let mut version = None;
     while let Some(section) = fields.section()? {
-        if sections_read.contains(&section) {
+        if read_sections.contains(&section) {
             return Err(fields.fault(given_twice(format!("section ${section}"))));
         }
-        let is_version_4 = version != Some(Version::Two);
+        let may_be_version_4 = version != Some(Version::Two);
         match section.as_str() {
-            "MeshFormat" => version = Some(format(&mut fields)?),
+            "MeshFormat" => version = Some(format_version(&mut fields)?),
             "PhysicalNames" => physical_names(&mut fields, &mut mesh)?,
-            "Entities" if is_version_4 => version4::entities(&mut fields, &mut mesh, false)?,
-            "PartitionedEntities" if is_version_4 => {
+            "Entities" if may_be_version_4 => version4::entities(&mut fields, &mut mesh, false)?,
+            "PartitionedEntities" if may_be_version_4 => {
                 version4::partitioned_entities(&mut fields, &mut mesh)?;
             }
-            "Nodes" if is_version_4 => version4::nodes(&mut fields, &mut mesh)?,
-            "Elements" if is_version_4 => version4::elements(&mut fields, &mut mesh, accepted)?,
+            "Nodes" if may_be_version_4 => version4::nodes(&mut fields, &mut mesh)?,
+            "Elements" if may_be_version_4 => {
+                version4::elements(&mut fields, &mut mesh, accepted_kinds)?
+            }
             "Nodes" => version2::nodes(&mut fields, &mut mesh)?,
-            "Elements" => version2::elements(&mut fields, &mut mesh, accepted)?,
+            "Elements" => version2::elements(&mut fields, &mut mesh, accepted_kinds)?,
             _ => {
-                fields.skip(&section)?;
+                fields.skip_section(&section)?;
                 continue;
             }
         }
-        fields.end(&section)?;
-        sections_read.push(section);
+        fields.end_section(&section)?;
+        read_sections.push(section);
     }
-    for needed in ["MeshFormat", "Nodes", "Elements"] {
-        if !sections_read.iter().any(|section| section == needed) {
-            return Err((0, FileFault::missing(format!("section ${needed}"))));
+    for section in ["MeshFormat", "Nodes", "Elements"] {
+        if !read_sections.iter().any(|name| name == section) {
+            return Err((0, FileFault::missing(format!("section ${section}"))));
         }
     }
     Ok(mesh)
 }
 
 /// Reads the section with the version of the format.
-fn format(fields: &mut MshFields<impl Read>) -> LineResult<Version> {
+fn format_version(fields: &mut MshFields<impl Read>) -> LineResult<Version> {
     let version_text: String = fields.text("version of the format")?;
     let binary_flag: u8 = fields.text("0 for text, 1 for binary")?;
-    let number_bytes: u8 = fields.text("size of a number")?;
+    let number_bytes: u8 = fields.text("bytes of a number")?;
     let version = match version_text.as_str() {
         "4.1" => Version::Four,
         "2.2" | "2.1" | "2" => Version::Two,
@@ -83,8 +85,8 @@ fn physical_names(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> Lin
     let count: usize = fields.text("number of names")?;
     for _ in 0..count {
         let key = (fields.text("dimension")?, fields.text("tag of a group")?);
-        let name = fields.quoted()?;
-        if mesh.names.insert(key, name).is_some() {
+        let name = fields.quoted_text()?;
+        if mesh.group_names.insert(key, name).is_some() {
             let item = format!("name of group {} of dimension {}", key.1, key.0);
             return Err(fields.fault(given_twice(item)));
         }

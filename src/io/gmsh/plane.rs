@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::cell::{self, MeshCell, group_names};
 use super::kind::{ElementKind, KINDS_IN_PLANE};
-use super::merge::MergedNumbers;
+use super::merge::NodeMerge;
 use super::parse;
 use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
@@ -45,6 +45,7 @@ use crate::text::file::open_file;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct GmshMesh {
+    /// Name of the file, for errors.
     file: String,
     /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
     nodes: Vec<[f64; 2]>,
@@ -52,7 +53,7 @@ pub struct GmshMesh {
     lines: Vec<MeshCell>,
 }
 
-/// Distance from the plane z = 0 that counts as rounding, relative to the size of the mesh.
+/// Distance from the plane z = 0 that counts as rounding, relative to the largest coordinate.
 const PLANE_TOLERANCE: f64 = 1e-9;
 
 impl GmshMesh {
@@ -73,24 +74,27 @@ impl GmshMesh {
         let file_mesh =
             parse::read(source, &KINDS_IN_PLANE).map_err(|(line, fault)| fault.of(name, line))?;
         // Lines of the geometry that touch no quadrilateral are ignored.
-        let numbered = cell::number(&file_mesh, |cell| cell.kind.dimension() == 2)
+        let numbered_mesh = cell::numbered_mesh(&file_mesh, |cell| cell.kind.dimension() == 2)
             .map_err(|(line, fault)| fault.of(name, line))?;
-        let size = numbered.points.iter().fold(0.0_f64, |size, point| {
-            size.max(point.values[0].abs()).max(point.values[1].abs())
+        let max_coordinate = numbered_mesh.nodes.iter().fold(0.0_f64, |max_so_far, node| {
+            max_so_far.max(node.coordinates[0].abs()).max(node.coordinates[1].abs())
         });
-        for point in &numbered.points {
-            let z = point.values[2];
-            if z.abs() > PLANE_TOLERANCE * size {
+        for node in &numbered_mesh.nodes {
+            let z = node.coordinates[2];
+            if z.abs() > PLANE_TOLERANCE * max_coordinate {
                 let fault = FileFault::value("z of a node", z.to_string(), "0");
-                return Err(fault.of(name, point.line));
+                return Err(fault.of(name, node.line));
             }
         }
-        let nodes =
-            numbered.points.iter().map(|point| [point.values[0], point.values[1]]).collect();
+        let nodes = numbered_mesh
+            .nodes
+            .iter()
+            .map(|node| [node.coordinates[0], node.coordinates[1]])
+            .collect();
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
-        for mut cell in numbered.cells {
+        for mut cell in numbered_mesh.cells {
             if cell.kind.dimension() == 2 {
-                mesh.turn_counter_clockwise(&mut cell.nodes);
+                mesh.orient_counter_clockwise(&mut cell.nodes);
                 mesh.quads.push(cell);
             } else if cell.kind != ElementKind::Point {
                 mesh.lines.push(cell);
@@ -104,10 +108,10 @@ impl GmshMesh {
         &self.nodes
     }
 
-    /// Merges nodes that lie at the same place within `tolerance` (m); returns the number of nodes that are gone.
+    /// Merges nodes within `tolerance` (m) of each other; returns the number of removed nodes.
     ///
     /// Files have such nodes where surfaces of the geometry touch without a common curve
-    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a place stays. Nodes are
+    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a point stays. Nodes are
     /// renumbered in their order, in all elements and groups.
     ///
     /// # Errors
@@ -116,12 +120,12 @@ impl GmshMesh {
     /// merging makes degenerate or equal to another one. The mesh is then as it was.
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
         let points = self.nodes.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>();
-        let numbers = MergedNumbers::new(&points, tolerance)?;
-        numbers.check(&self.file, self.quads.iter().chain(&self.lines))?;
+        let merge = NodeMerge::new(&points, tolerance)?;
+        merge.check(&self.file, self.quads.iter().chain(&self.lines))?;
         for cell in self.quads.iter_mut().chain(&mut self.lines) {
-            numbers.renumber(&mut cell.nodes);
+            merge.renumber(&mut cell.nodes);
         }
-        self.nodes = numbers.kept_items(&self.nodes);
+        self.nodes = merge.kept_items(&self.nodes);
         Ok(points.len() - self.nodes.len())
     }
 
@@ -135,7 +139,7 @@ impl GmshMesh {
         group_names(self.lines.iter())
     }
 
-    /// The quadrilaterals, each with the material of its group; more elements can be added.
+    /// Mesh of the quadrilaterals, each with the material of its group; you can add elements.
     ///
     /// Nodes keep their indices.
     ///
@@ -159,8 +163,8 @@ impl GmshMesh {
         if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
             return Err(self.missing_item(format!("surface '{name}'")));
         }
-        for (k, (name, _)) in materials.iter().enumerate() {
-            if materials[..k].iter().any(|(other, _)| other == name) {
+        for (index, (name, _)) in materials.iter().enumerate() {
+            if materials[..index].iter().any(|(other, _)| other == name) {
                 return Err(self.file_error(given_twice(format!("material of surface '{name}'"))));
             }
         }
@@ -170,26 +174,26 @@ impl GmshMesh {
         }
         for quad in &self.quads {
             let material = self.material(quad, materials)?;
-            let added = match *quad.nodes {
+            let result = match *quad.nodes {
                 [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], material, formulation)),
                 [a, b, c, d, ab, bc, cd, da] => {
                     mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], material))
                 }
                 _ => continue,
             };
-            added.map_err(|error| quad.unusable(&self.file, error))?;
+            result.map_err(|error| quad.unusable(&self.file, error))?;
         }
         Ok(mesh)
     }
 
-    /// The one material of a quadrilateral.
+    /// The material of a quadrilateral; an error for none or two.
     fn material(&self, quad: &MeshCell, materials: &[(&str, Material)]) -> Result<Material> {
-        let mut found = materials.iter().filter(|(name, _)| quad.is_in(name));
-        match (found.next(), found.next()) {
+        let mut matches = materials.iter().filter(|(name, _)| quad.is_in(name));
+        match (matches.next(), matches.next()) {
             (Some((_, material)), None) => Ok(*material),
-            (Some((one, _)), Some((other, _))) => {
+            (Some((name, _)), Some((other_name, _))) => {
                 let item = format!(
-                    "material of element {}, which is in the surfaces '{one}' and '{other}',",
+                    "material of element {}, which is in the surfaces '{name}' and '{other_name}',",
                     quad.tag
                 );
                 Err(given_twice(item).of(&self.file, quad.line))
@@ -210,10 +214,10 @@ impl GmshMesh {
         let mut pieces = self.foundations(name)?;
         match (pieces.pop(), pieces.len()) {
             (Some(line), 0) => Ok(line),
-            (_, others) => {
-                let needed = "1 (`GmshMesh::foundations` gives the pieces)";
+            (_, other_count) => {
+                let needed = "1 (`GmshMesh::foundations` returns the pieces)";
                 let items = format!("pieces of line '{name}'");
-                Err(self.file_error(FileFault::count(&items, others + 1, needed)))
+                Err(self.file_error(FileFault::count(&items, other_count + 1, needed)))
             }
         }
     }
@@ -230,15 +234,15 @@ impl GmshMesh {
     pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
         let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
         for line in self.lines.iter().filter(|line| line.is_in(name)) {
-            let mut connected: BTreeSet<usize> = line.nodes.iter().copied().collect();
+            let mut connected_nodes: BTreeSet<usize> = line.nodes.iter().copied().collect();
             pieces.retain_mut(|piece| {
                 let is_separate = line.nodes.iter().all(|node| !piece.contains(node));
                 if !is_separate {
-                    connected.append(piece);
+                    connected_nodes.append(piece);
                 }
                 is_separate
             });
-            pieces.push(connected);
+            pieces.push(connected_nodes);
         }
         if pieces.is_empty() {
             return Err(self.missing_item(format!("line '{name}'")));
@@ -246,13 +250,16 @@ impl GmshMesh {
         let mut sorted_pieces = Vec::with_capacity(pieces.len());
         for piece in pieces {
             let mut nodes: Vec<usize> = piece.into_iter().collect();
-            nodes.sort_by(|&a, &b| self.x(a).total_cmp(&self.x(b)).then(a.cmp(&b)));
+            nodes.sort_by(|&node, &other| {
+                self.x(node).total_cmp(&self.x(other)).then(node.cmp(&other))
+            });
             sorted_pieces.push(nodes);
         }
-        sorted_pieces.sort_by(|a, b| self.x(a[0]).total_cmp(&self.x(b[0])));
+        sorted_pieces.sort_by(|piece, other| self.x(piece[0]).total_cmp(&self.x(other[0])));
         Ok(sorted_pieces)
     }
 
+    /// The x of a node, m.
     fn x(&self, node: usize) -> f64 {
         self.nodes[node][0]
     }
@@ -268,7 +275,7 @@ impl GmshMesh {
     }
 
     /// Reverses clockwise nodes. Corners come first, then the nodes between them, in Gmsh as in [`Quad8`].
-    fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
+    fn orient_counter_clockwise(&self, nodes: &mut [usize]) {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.nodes[nodes[k]]);
         let twice_area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
         if twice_area < 0.0 {

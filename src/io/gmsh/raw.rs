@@ -7,51 +7,55 @@ use crate::error::FileFault;
 
 /// A node of the file.
 #[derive(Debug)]
-pub(super) struct FilePoint {
-    /// Coordinates x, y, z.
-    pub(super) values: [f64; 3],
+pub(super) struct FileNode {
+    /// Coordinates x, y, z, m.
+    pub(super) coordinates: [f64; 3],
+    /// Line in the file.
     pub(super) line: usize,
 }
 
-/// An element of the file; its nodes are tags.
+/// An element of the file.
 #[derive(Debug)]
 pub(super) struct FileCell {
     pub(super) kind: ElementKind,
-    /// Dimension and tag of its entity.
+    /// Dimension and tag of its geometric entity.
     pub(super) entity: (u8, i64),
     pub(super) tag: u64,
+    /// Tags of its nodes.
     pub(super) nodes: Vec<u64>,
+    /// Line in the file.
     pub(super) line: usize,
 }
 
-/// The parts of a file that are used.
+/// The sections of a file from which meshes are made.
 #[derive(Debug, Default)]
 pub(super) struct FileMesh {
-    pub(super) coordinates: Vec<FilePoint>,
-    /// Place of each node tag in `coordinates`.
-    pub(super) places: BTreeMap<u64, usize>,
+    pub(super) nodes: Vec<FileNode>,
+    /// Index in `nodes` of each node tag.
+    pub(super) node_indices: BTreeMap<u64, usize>,
     pub(super) cells: Vec<FileCell>,
-    /// Physical groups of each entity, and the groups' names.
+    /// Tags of the physical groups of each entity.
     pub(super) groups: BTreeMap<(u8, i64), Vec<i64>>,
-    pub(super) names: BTreeMap<(u8, i64), String>,
+    /// Names of the physical groups, by their dimension and tag.
+    pub(super) group_names: BTreeMap<(u8, i64), String>,
 }
 
 impl FileMesh {
     /// Whether `cell` is in a physical group.
-    pub(super) fn is_in_a_group(&self, cell: &FileCell) -> bool {
+    pub(super) fn is_in_group(&self, cell: &FileCell) -> bool {
         self.groups.get(&cell.entity).is_some_and(|groups| !groups.is_empty())
     }
 
-    /// Names of the physical groups of `cell`, sorted; for a group without a name, its number.
+    /// Sorted names of the physical groups of an element.
     ///
-    /// A cell without a group has one empty name.
+    /// A group without a name has its number as name. An element without a group has one empty name.
     pub(super) fn groups(&self, cell: &FileCell) -> Vec<String> {
         let tags = self.groups.get(&cell.entity).map_or(&[][..], Vec::as_slice);
         let mut names = Vec::new();
         for tag in tags {
             // A minus sign means that the entity's direction is reversed in its group.
             let key = (cell.entity.0, tag.saturating_abs());
-            names.push(self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string()));
+            names.push(self.group_names.get(&key).cloned().unwrap_or_else(|| key.1.to_string()));
         }
         names.sort_unstable();
         names.dedup();

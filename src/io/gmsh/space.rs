@@ -4,16 +4,16 @@ use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
-use super::cell::{self, MeshCell, group_names, sorted};
+use super::cell::{self, MeshCell, group_names, sorted_nodes};
 use super::kind::{ElementKind, KINDS_IN_SPACE};
-use super::merge::MergedNumbers;
+use super::merge::NodeMerge;
 use super::parse;
 use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
 use crate::text::file::open_file;
 
-/// Part of a structure that a physical group stands for, for [`GmshSpaceMesh`].
+/// What the elements of a physical group of a [`GmshSpaceMesh`] become.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum GmshPart {
@@ -28,12 +28,12 @@ pub enum GmshPart {
     Shell(Material, f64),
     /// Hexahedra become [`Hex8`](crate::fem::Hex8) bricks of this material.
     Solid(Material),
-    /// Lines, surfaces and volumes of this name make no elements; others can be added.
+    /// Lines, surfaces and volumes of this name become no elements; you can add other ones.
     LeftOut,
 }
 
 impl GmshPart {
-    /// Dimension of its elements; `None` for all.
+    /// Dimension of the elements of this part; `None` for any dimension.
     fn dimension(&self) -> Option<usize> {
         match self {
             Self::Beam(..) => Some(1),
@@ -43,13 +43,13 @@ impl GmshPart {
         }
     }
 
-    /// Whether it is the part of an element, if it is the part of the group `name`.
-    fn is_of(&self, cell: &MeshCell, name: &str) -> bool {
-        self.fits(cell.kind.dimension()) && cell.is_in(name)
+    /// Whether an element has this part, which belongs to the group `name`.
+    fn is_part_of(&self, cell: &MeshCell, name: &str) -> bool {
+        self.fits_dimension(cell.kind.dimension()) && cell.is_in(name)
     }
 
-    /// Whether it is a part for elements of this dimension.
-    fn fits(&self, dimension: usize) -> bool {
+    /// Whether elements of this dimension may have this part.
+    fn fits_dimension(&self, dimension: usize) -> bool {
         self.dimension().map_or(dimension > 0, |part| part == dimension)
     }
 }
@@ -61,7 +61,7 @@ impl GmshPart {
 /// hexahedra of the first order are read; other elements are an error. z points up. Nodes of the file without an
 /// element are left out, unless they are points of a group.
 ///
-/// Hexahedra that are turned inside out are turned back. Beams run, and shells have their normals, as in the file.
+/// Nodes of hexahedra that are inside out are reordered. Beams and shells have the direction of the file.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Material};
@@ -89,6 +89,7 @@ impl GmshPart {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct GmshSpaceMesh {
+    /// Name of the file, for errors.
     file: String,
     /// Coordinates of the nodes, in the order of the file.
     nodes: Vec<[f64; 3]>,
@@ -114,12 +115,13 @@ impl GmshSpaceMesh {
         let file_mesh =
             parse::read(source, &KINDS_IN_SPACE).map_err(|(line, fault)| fault.of(name, line))?;
         // A point without a group may be the centre of an arc.
-        let numbered = cell::number(&file_mesh, |cell| {
-            cell.kind != ElementKind::Point || file_mesh.is_in_a_group(cell)
+        let numbered_mesh = cell::numbered_mesh(&file_mesh, |cell| {
+            cell.kind != ElementKind::Point || file_mesh.is_in_group(cell)
         });
-        let numbered = numbered.map_err(|(line, fault)| fault.of(name, line))?;
-        let nodes: Vec<[f64; 3]> = numbered.points.iter().map(|point| point.values).collect();
-        let mut cells = numbered.cells;
+        let numbered_mesh = numbered_mesh.map_err(|(line, fault)| fault.of(name, line))?;
+        let nodes: Vec<[f64; 3]> =
+            numbered_mesh.nodes.iter().map(|node| node.coordinates).collect();
+        let mut cells = numbered_mesh.cells;
         for cell in cells.iter_mut().filter(|cell| cell.kind == ElementKind::Brick) {
             let corners: Vec<[f64; 3]> = cell.nodes.iter().map(|&node| nodes[node]).collect();
             if Hex8::is_inside_out(&corners) {
@@ -134,10 +136,10 @@ impl GmshSpaceMesh {
         &self.nodes
     }
 
-    /// Merges nodes that lie at the same place within `tolerance` (m); returns the number of nodes that are gone.
+    /// Merges nodes within `tolerance` (m) of each other; returns the number of removed nodes.
     ///
     /// Files have such nodes where surfaces of the geometry touch without a common curve
-    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a place stays. Nodes are
+    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a point stays. Nodes are
     /// renumbered in their order, in all elements and groups.
     ///
     /// # Errors
@@ -146,12 +148,12 @@ impl GmshSpaceMesh {
     /// merging makes degenerate or equal to another one. The mesh is then as it was.
     pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
         let points = self.nodes.clone();
-        let numbers = MergedNumbers::new(&points, tolerance)?;
-        numbers.check(&self.file, self.cells.iter())?;
+        let merge = NodeMerge::new(&points, tolerance)?;
+        merge.check(&self.file, self.cells.iter())?;
         for cell in &mut self.cells {
-            numbers.renumber(&mut cell.nodes);
+            merge.renumber(&mut cell.nodes);
         }
-        self.nodes = numbers.kept_items(&self.nodes);
+        self.nodes = merge.kept_items(&self.nodes);
         Ok(points.len() - self.nodes.len())
     }
 
@@ -178,7 +180,7 @@ impl GmshSpaceMesh {
         if found.is_empty() { Err(self.no_group(Some(dimension), name)) } else { Ok(found) }
     }
 
-    /// Mesh of the elements by the parts of their groups; more elements can be added.
+    /// Mesh of the elements, as the parts of their groups define them; you can add elements.
     ///
     /// Nodes keep their indices. Lines and surfaces that are sides of other elements need no part. Triangles are
     /// matched to the quadrilaterals beside them ([`Shell::match_sides`]).
@@ -187,7 +189,7 @@ impl GmshSpaceMesh {
     /// [`Error::File`] with the line of an element: without a part or with two, or not accepted as a beam, a shell or
     /// a brick. [`Error::File`] also for a part without a group or given twice.
     pub fn mesh(&self, parts: &[(&str, GmshPart)]) -> Result<Mesh> {
-        self.check(parts)?;
+        self.check_parts(parts)?;
         let elements = self.elements_with_parts(parts)?;
         let mut shells = Vec::new();
         for (cell, part) in &elements {
@@ -203,7 +205,7 @@ impl GmshSpaceMesh {
             mesh.add_node_at(node)?;
         }
         for (cell, part) in elements {
-            let added = match (part, &cell.nodes[..]) {
+            let result = match (part, &cell.nodes[..]) {
                 (GmshPart::Beam(material, section, orientation), &[a, b]) => {
                     SpaceBeam::new([a, b], material, section, orientation)
                         .and_then(|beam| mesh.add(beam))
@@ -214,21 +216,21 @@ impl GmshSpaceMesh {
                 (GmshPart::Shell(..), _) => shells.next().map_or(Ok(0), |shell| mesh.add(shell)),
                 _ => continue,
             };
-            added.map_err(|error| cell.unusable(&self.file, error))?;
+            result.map_err(|error| cell.unusable(&self.file, error))?;
         }
         Ok(mesh)
     }
 
     /// Error for a part without a group or given twice.
-    fn check(&self, parts: &[(&str, GmshPart)]) -> Result<()> {
-        for (k, (name, part)) in parts.iter().enumerate() {
-            if !self.cells.iter().any(|cell| part.is_of(cell, name)) {
+    fn check_parts(&self, parts: &[(&str, GmshPart)]) -> Result<()> {
+        for (index, (name, part)) in parts.iter().enumerate() {
+            if !self.cells.iter().any(|cell| part.is_part_of(cell, name)) {
                 return Err(self.no_group(part.dimension(), name));
             }
-            let occurred_before = parts[..k].iter().any(|(other_name, other)| {
-                other_name == name && other.dimension() == part.dimension()
+            let is_repeated = parts[..index].iter().any(|(other_name, other_part)| {
+                other_name == name && other_part.dimension() == part.dimension()
             });
-            if occurred_before {
+            if is_repeated {
                 return Err(given_twice(format!("part of group '{name}'")).of(&self.file, 0));
             }
         }
@@ -241,24 +243,28 @@ impl GmshSpaceMesh {
         parts: &[(&str, GmshPart)],
     ) -> Result<Vec<(&MeshCell, GmshPart)>> {
         let mut elements = Vec::with_capacity(self.cells.len());
-        let mut without_part = Vec::new();
+        let mut cells_without_part = Vec::new();
         for cell in self.cells.iter().filter(|cell| cell.kind != ElementKind::Point) {
-            let mut parts_of_cell = parts.iter().filter(|(name, part)| part.is_of(cell, name));
+            let mut parts_of_cell = parts.iter().filter(|(name, part)| part.is_part_of(cell, name));
             match (parts_of_cell.next(), parts_of_cell.next()) {
                 (Some((_, part)), None) => elements.push((cell, *part)),
-                (None, _) => without_part.push(cell),
-                (Some((one, _)), Some((other, _))) => {
-                    let item = format!("part of {}, in '{one}' and '{other}',", title(cell));
+                (None, _) => cells_without_part.push(cell),
+                (Some((name, _)), Some((other_name, _))) => {
+                    let item =
+                        format!("part of {}, in '{name}' and '{other_name}',", element_name(cell));
                     return Err(given_twice(item).of(&self.file, cell.line));
                 }
             }
         }
-        let sides = if without_part.is_empty() { HashSet::new() } else { self.sides() };
-        match without_part.into_iter().find(|cell| !sides.contains(&sorted(&cell.nodes))) {
+        let sides = if cells_without_part.is_empty() { HashSet::new() } else { self.sides() };
+        match cells_without_part
+            .into_iter()
+            .find(|cell| !sides.contains(&sorted_nodes(&cell.nodes)))
+        {
             None => Ok(elements),
             Some(cell) => {
                 let groups = cell.groups.join("' or '");
-                let item = format!("part for {} of the group '{groups}'", title(cell));
+                let item = format!("part for {} of the group '{groups}'", element_name(cell));
                 Err(FileFault::missing(item).of(&self.file, cell.line))
             }
         }
@@ -279,9 +285,9 @@ impl GmshSpaceMesh {
             };
             for face in faces {
                 let edges = face.iter().zip(face.iter().cycle().skip(1));
-                sides.extend(edges.map(|(&from, &to)| sorted(&[from, to])));
+                sides.extend(edges.map(|(&start, &end)| sorted_nodes(&[start, end])));
                 if cell.kind == ElementKind::Brick {
-                    sides.insert(sorted(&face));
+                    sides.insert(sorted_nodes(&face));
                 }
             }
         }
@@ -302,6 +308,6 @@ impl GmshSpaceMesh {
 }
 
 /// Kind and tag of an element.
-fn title(cell: &MeshCell) -> String {
+fn element_name(cell: &MeshCell) -> String {
     format!("{} {}", cell.kind.name(), cell.tag)
 }
