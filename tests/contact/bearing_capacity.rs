@@ -92,10 +92,10 @@ fn inclined_and_eccentric_load_of_a_worked_example() -> Result<()> {
     // Its terms one by one, with N_q = 18.40 and N_γ = 20.09.
     let by_surcharge = deep.drained_pressure(&soil, 0.0)?;
     let shape = 1.0 + 0.7 / 5.12 * 0.5;
-    assert_close("i_q", by_surcharge / (7.5e3 * 18.4011 * shape), 0.493631, 0.0, 1e-5);
+    assert_close("i_q", by_surcharge / (7.5e3 * 18.4011 * shape), 0.493_631, 0.0, 1e-5);
     let by_weight = base.drained_pressure(&soil, 10.0e3)?;
     let shape = 1.0 - 0.3 * 0.7 / 5.12;
-    assert_close("i_γ", by_weight / (0.5 * 10.0e3 * 0.7 * 20.0931 * shape), 0.328062, 0.0, 1e-5);
+    assert_close("i_γ", by_weight / (0.5 * 10.0e3 * 0.7 * 20.0931 * shape), 0.328_062, 0.0, 1e-5);
     // The same base turned by a right angle.
     let turned = ShallowFooting::rectangle([6.0, 1.0])?
         .with_eccentricity([0.44, 0.15])?
@@ -103,10 +103,10 @@ fn inclined_and_eccentric_load_of_a_worked_example() -> Result<()> {
         .with_surcharge(7.5e3)?;
     let pressures = [deep, turned].map(|base| base.drained_pressure(&soil, 10.0e3).unwrap());
     assert_close("turned", pressures[1], pressures[0], 0.0, 1e-14);
-    // Cohesion: i_c of the printed i_q on a base so wide that the term is not changed by H/(V + A′ c cot φ).
+    // A cohesion so small that it adds nothing to V.
     let little = base.drained_pressure(&soil.with_cohesion(1e-3)?, 0.0)?;
     let shape = (18.4011 * (1.0 + 0.7 / 5.12 * 0.5) - 1.0) / 17.4011;
-    assert_close("i_c", little / (1e-3 * 30.1396 * shape), 0.464531, 0.0, 2e-5);
+    assert_close("i_c", little / (1e-3 * 30.1396 * shape), 0.464_531, 0.0, 2e-5);
     Ok(())
 }
 
@@ -126,7 +126,7 @@ fn shapes_and_tilts_of_annex_d() -> Result<()> {
     // A quarter of the strength of a square of 4 m² is mobilised: i_c = (1 + √¾)/2.
     let load = FootingLoad { vertical: 1e6, horizontal: [0.0, 50.0e3] };
     let pressure = ShallowFooting::square(2.0)?.with_load(load)?.undrained_pressure(50.0e3)?;
-    assert_close("i_c", pressure / (1.2 * 257.08e3), 0.933013, 1e-4, 0.0);
+    assert_close("i_c", pressure / (1.2 * 257.08e3), 0.933_013, 1e-4, 0.0);
     let tilted = ShallowFooting::strip(2.0)?.with_base_tilt(0.1)?;
     assert_close("b_c", tilted.undrained_pressure(50.0e3)?, (257.08 - 10.0) * 1e3, 5.0, 0.0);
     // (1 − 0.1 tan 30°)² of the terms of surcharge and weight.

@@ -88,7 +88,7 @@ impl SlowRockingTest {
     /// Turns the footing on an interface law through all packets.
     pub fn run(&self, law: impl InterfaceLaw + 'static) -> basemat::Result<SlowRockingRun> {
         let mut simulation = Simulation::builder(TIME_STEP)
-            .structure(self.wall()?)
+            .structure(wall()?)
             .ground(self.ground()?)
             .interface(law)
             .load(Load::constant(vec![(ACTUATOR_DOF, 1.0)], 0.0))
@@ -128,29 +128,6 @@ impl SlowRockingTest {
         Ok(SlowRockingRun { packets, energy_error, steps: run.steps, wall: run.wall })
     }
 
-    /// The wall on its footing, and the actuator.
-    fn wall(&self) -> basemat::Result<MatrixModel> {
-        let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
-        let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
-        // Inertia has no effect: that of a wall of twice the height of its centre of gravity.
-        let tilting = mass * (2.0 * GRAVITY_CENTER_HEIGHT).powi(2) / 12.0;
-        let inertia = [[tilting, 0.0, 0.0], [0.0, tilting, 0.0], [0.0, 0.0, mass]];
-        let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
-        let gravity_center = [0.0, 0.0, GRAVITY_CENTER_HEIGHT];
-        let body = RigidBody::from_mass(outline, mass, inertia, gravity_center)?;
-        let mut mass = Triplets::new(DOF_COUNT);
-        body.mass(&mut mass)?;
-        mass.add(ACTUATOR_DOF, ACTUATOR_DOF, ACTUATOR_MASS);
-        let stroke = [(ALONG_DOF, 1.0), (TURN_DOF, ACTUATOR_HEIGHT), (ACTUATOR_DOF, -1.0)];
-        let mut stiffness = Triplets::new(DOF_COUNT);
-        stiffness.add_outer(stroke, ACTUATOR_STIFFNESS);
-        stiffness.add(TILT_ACROSS_DOF, TILT_ACROSS_DOF, GUIDE_STIFFNESS);
-        // With this dashpot the midpoint rule ends each step with the spring's force, without alternating about it.
-        let mut damping = Triplets::new(DOF_COUNT);
-        damping.add_outer(stroke, 0.5 * TIME_STEP * ACTUATOR_STIFFNESS);
-        MatrixModel::new(mass, stiffness, body.base())?.with_damping(damping)
-    }
-
     fn ground(&self) -> basemat::Result<ElasticGround> {
         let soil = Soil::new(self.shear_modulus, self.poisson, SAND_DENSITY)?;
         let [along, across] = self.cells;
@@ -159,4 +136,27 @@ impl SlowRockingTest {
         let plan = Plan::masked(corner, pitch, along, &vec![true; along * across])?;
         ElasticGround::in_plan(soil, plan)
     }
+}
+
+/// The wall on its footing, and the actuator.
+fn wall() -> basemat::Result<MatrixModel> {
+    let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
+    let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
+    // Inertia has no effect: that of a wall of twice the height of its centre of gravity.
+    let tilting = mass * (2.0 * GRAVITY_CENTER_HEIGHT).powi(2) / 12.0;
+    let inertia = [[tilting, 0.0, 0.0], [0.0, tilting, 0.0], [0.0, 0.0, mass]];
+    let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
+    let gravity_center = [0.0, 0.0, GRAVITY_CENTER_HEIGHT];
+    let body = RigidBody::from_mass(outline, mass, inertia, gravity_center)?;
+    let mut mass = Triplets::new(DOF_COUNT);
+    body.mass(&mut mass)?;
+    mass.add(ACTUATOR_DOF, ACTUATOR_DOF, ACTUATOR_MASS);
+    let stroke = [(ALONG_DOF, 1.0), (TURN_DOF, ACTUATOR_HEIGHT), (ACTUATOR_DOF, -1.0)];
+    let mut stiffness = Triplets::new(DOF_COUNT);
+    stiffness.add_outer(stroke, ACTUATOR_STIFFNESS);
+    stiffness.add(TILT_ACROSS_DOF, TILT_ACROSS_DOF, GUIDE_STIFFNESS);
+    // With this dashpot the midpoint rule ends each step with the spring's force, without alternating about it.
+    let mut damping = Triplets::new(DOF_COUNT);
+    damping.add_outer(stroke, 0.5 * TIME_STEP * ACTUATOR_STIFFNESS);
+    MatrixModel::new(mass, stiffness, body.base())?.with_damping(damping)
 }
