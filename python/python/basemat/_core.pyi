@@ -76,6 +76,8 @@ _Quantity: TypeAlias = Literal[
     "mean_slip",
     "largest_slip",
     "base_rotation",
+    "settlement",
+    "rocking_work",
     "free_field_horizontal",
     "free_field_vertical",
     "sliding_safety",
@@ -87,6 +89,7 @@ _Quantity: TypeAlias = Literal[
     "uplifted_area",
     "mean_slip_across",
     "rotation_across",
+    "rocking_work_across",
     "twist",
     "free_field_across",
     "overturning_safety_across",
@@ -1707,8 +1710,8 @@ class Run(Summary):
     def foundation_frame(self) -> DataFrame:
         """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-        Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
-        of safety the least value; in plan also the directions across: "torque" and others.
+        Columns are ends (m), the static normal force, residual slip, settlement (m) and rotation (rad), and the columns of
+        `Run.series`: of a factor of safety the least value; in plan also the directions across: "torque" and others.
         """
     def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
         """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
