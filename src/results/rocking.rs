@@ -163,7 +163,8 @@ impl Rocking<'_> {
 /// ```
 /// use basemat::results::equivalent_damping;
 /// // A rectangle: E = 4 M θ.
-/// let damping = equivalent_damping(&[-1.0, -1.0, 1.0, 1.0], &[-5.0, 5.0, 5.0, -5.0])?;
+/// let rotation = [-1.0, -1.0, 1.0, 1.0, -1.0];
+/// let damping = equivalent_damping(&rotation, &[-5.0, 5.0, 5.0, -5.0, -5.0])?;
 /// assert!((damping - 2.0 / std::f64::consts::PI).abs() < 1e-15);
 /// # Ok::<(), basemat::Error>(())
 /// ```
