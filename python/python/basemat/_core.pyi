@@ -1485,7 +1485,7 @@ class Run(Summary):
     def rocking(self, foundation: int = 0, *, across: bool = False) -> dict[str, NDArray[np.float64]]:
         """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
         of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-        "settlement" (m, positive downwards) and "work", that of the moment on the soil (∫M dθ, J/m).
+        "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
         """
     def equivalent_damping(
         self,
@@ -2106,7 +2106,7 @@ class Simulation:
 
         ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
         floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-        ``motion_every``th (none unless given), and with ``foundations`` (False by default) those of each foundation too. All of
+        ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation. All of
         them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
         the steps made.
 
