@@ -151,8 +151,10 @@ fn draw_points(chart: &mut Chart<'_, '_>, points: &[(f64, f64)], stroke: Stroke)
     let Some(marker) = stroke.marker else { return Ok(()) };
     let places = points.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y));
     let style = stroke.color.filled();
+    // Half as large as on a curve: a measurement has hundreds of points.
+    let corners: Vec<_> = marker.iter().map(|(x, y)| (x / 2, y / 2)).collect();
     chart.draw_series(
-        places.map(|place| EmptyElement::at(place) + Polygon::new(marker.to_vec(), style)),
+        places.map(|place| EmptyElement::at(place) + Polygon::new(corners.clone(), style)),
     )?;
     Ok(())
 }

@@ -58,7 +58,7 @@ impl FoundationSeries {
         }
     }
 
-    /// Series of a quantity of a foundation; `None` if it is that of the whole base.
+    /// Series of a quantity of a foundation; `None` if the whole base has the same.
     ///
     /// Empty in the plane for quantities of three directions.
     pub(super) fn find(&self, foundation: usize, quantity: Quantity) -> Result<Option<&[f64]>> {

@@ -2,8 +2,8 @@
 //!
 //! [`Simulation::run`](crate::Simulation::run) returns a [`Run`]: peaks, envelopes and factors of safety, which
 //! print as a page for the report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
-//! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run. [`Rocking`] is that of one
-//! foundation: moment, rotation, settlement, and the equivalent damping of a cycle.
+//! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run. [`Rocking`] has moment,
+//! rotation and settlement of one foundation, and the equivalent damping of a cycle.
 //!
 //! ```
 //! use basemat::bem::ElasticGround;

@@ -15,7 +15,7 @@ const TIME_ROUNDING: f64 = 1e-9;
 
 /// Rocking of one foundation about one axis, over a run or a part of it.
 ///
-/// Each slice has a number for each kept step. Signs and units are those of [`Quantity`].
+/// Each slice has a number for each kept step. Signs and units as in [`Quantity`].
 /// [`TimeSeries::rocking`] has an example.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -41,8 +41,8 @@ impl TimeSeries {
     /// about their middles. Empty in the plane for quantities of three directions.
     ///
     /// # Errors
-    /// [`Error::Index`] if there is no such foundation. [`Error::Scene`] where the series differs from that of the whole
-    /// base, with several foundations or a moment center, unless [`Recorder::foundations`](super::Recorder::foundations)
+    /// [`Error::Index`] if there is no such foundation. [`Error::Scene`] where the whole base has another series,
+    /// with several foundations or a moment center, unless [`Recorder::foundations`](super::Recorder::foundations)
     /// was called.
     pub fn foundation_series(&self, foundation: usize, quantity: Quantity) -> Result<&[f64]> {
         let found = self.foundations.find(foundation, quantity)?;
@@ -163,7 +163,8 @@ impl Rocking<'_> {
 /// ```
 /// use basemat::results::equivalent_damping;
 /// // A rectangle: E = 4 M θ.
-/// let damping = equivalent_damping(&[-1.0, -1.0, 1.0, 1.0], &[-5.0, 5.0, 5.0, -5.0])?;
+/// let rotation = [-1.0, -1.0, 1.0, 1.0, -1.0];
+/// let damping = equivalent_damping(&rotation, &[-5.0, 5.0, 5.0, -5.0, -5.0])?;
 /// assert!((damping - 2.0 / std::f64::consts::PI).abs() < 1e-15);
 /// # Ok::<(), basemat::Error>(())
 /// ```

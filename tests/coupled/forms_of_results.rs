@@ -106,7 +106,7 @@ fn time_series_of_unequal_lists_are_refused() {
     let form = serde_json::to_value(&series).unwrap();
     for (list, reason) in [
         ("times", "list of energy balances has length 41, but must have 40"),
-        ("scalars", "list of scalars has length 10, but must have 11"),
+        ("scalars", "list of scalars has length 12, but must have 13"),
         ("probe_values", "list of probes has length 1, but must have 2"),
         ("energy_balances", "list of energy balances has length 40, but must have 41"),
         ("elements", "whole frames"),

@@ -76,6 +76,8 @@ _Quantity: TypeAlias = Literal[
     "mean_slip",
     "largest_slip",
     "base_rotation",
+    "settlement",
+    "rocking_work",
     "free_field_horizontal",
     "free_field_vertical",
     "sliding_safety",
@@ -87,6 +89,7 @@ _Quantity: TypeAlias = Literal[
     "uplifted_area",
     "mean_slip_across",
     "rotation_across",
+    "rocking_work_across",
     "twist",
     "free_field_across",
     "overturning_safety_across",
@@ -1579,7 +1582,7 @@ class Run(Summary):
     def rocking(self, foundation: int = 0, *, across: bool = False) -> dict[str, NDArray[np.float64]]:
         """Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
         of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-        "settlement" (m, positive downwards) and "work", that of the moment on the soil (∫M dθ, J/m).
+        "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
         """
     def equivalent_damping(
         self,
@@ -1804,8 +1807,8 @@ class Run(Summary):
     def foundation_frame(self) -> DataFrame:
         """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-        Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
-        of safety the least value; in plan also the directions across: "torque" and others.
+        Columns are ends (m), the static normal force, residual slip, settlement (m) and rotation (rad), and the columns of
+        `Run.series`: of a factor of safety the least value; in plan also the directions across: "torque" and others.
         """
     def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
         """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
@@ -2200,7 +2203,7 @@ class Simulation:
 
         ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
         floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-        ``motion_every``th (none unless given), and with ``foundations`` (False by default) those of each foundation too. All of
+        ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation. All of
         them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
         the steps made.
 

@@ -101,8 +101,8 @@ def envelope_frame(self: Run) -> DataFrame:
 def foundation_frame(self: Run) -> DataFrame:
     """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-    Columns are ends (m), the static normal force, residual slip and settlement (m) and rotation (rad), and the columns of `Run.series`: of a factor
-    of safety the least value; in plan also the directions across: "torque" and others.
+    Columns are ends (m), the static normal force, residual slip, settlement (m) and rotation (rad), and the columns of
+    `Run.series`: of a factor of safety the least value; in plan also the directions across: "torque" and others.
     """
     rows = []
     for foundation, peaks in zip(self.foundations, self._foundation_peaks):

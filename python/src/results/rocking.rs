@@ -38,7 +38,7 @@ impl PyRun {
 
     /// Rocking of a ``foundation`` (0, the first, by default), counter-clockwise, in plan about y or with ``across`` about x: dict
     /// of arrays of shape (steps + 1,): "time" (s), "rotation" (rad), "moment" on the soil about its middle (N·m/m),
-    /// "settlement" (m, positive downwards) and "work", that of the moment on the soil (∫M dθ, J/m).
+    /// "settlement" (m, positive downwards) and "work" of the moment on the soil (∫M dθ, J/m).
     #[pyo3(signature = (foundation=0, *, across=false))]
     fn rocking(
         &self,

@@ -227,7 +227,7 @@ impl PySimulation {
     ///
     /// ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
     /// floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-    /// ``motion_every``th (none unless given), and with ``foundations`` (False by default) those of each foundation too. All of
+    /// ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation. All of
     /// them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
     /// the steps made.
     ///

@@ -178,7 +178,7 @@ quantities! {
         |base| base.highest(|foundation| foundation.settlement);
     /// Work of the base moment on the soil since t = 0, ∫M dθ, J/m; summed over foundations.
     ///
-    /// Moment and rotation are those of each foundation, about its middle, in plan about the axis along y. A closed loop
+    /// Moment and rotation belong to each foundation, about its middle, in plan about the axis along y. A closed loop
     /// adds what it dissipates.
     RockingWork rocking_work, "rocking work", "J/m", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.sum(|foundation, _| foundation.rocking_work);
