@@ -132,10 +132,19 @@ fn read_lines(
             longest_intact = Some(IntactPart { check_sum, row_count: rows.len(), end_byte });
         }
     }
+    intact_content(longest_intact, file_columns.unwrap_or_default(), rows, ending)
+}
+
+/// Content of the part of a file that agrees with its check sum; an error if the file is damaged.
+fn intact_content(
+    longest_intact: Option<IntactPart>,
+    columns: Columns,
+    mut rows: Vec<TableRow>,
+    ending: Ending<'_>,
+) -> LineResult<FileContent> {
     match longest_intact {
         Some(intact) if ending != Ending::Whole || intact.row_count == rows.len() => {
             rows.truncate(intact.row_count);
-            let columns = file_columns.unwrap_or_default();
             Ok(FileContent {
                 columns,
                 rows,
