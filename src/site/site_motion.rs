@@ -3,10 +3,10 @@
 use std::fmt;
 
 use super::SiteWarning;
-use crate::linalg::largest;
+use crate::linalg::{Complex, largest};
 
 /// Ratio to the input motion above which a motion counts as amplified: it is mostly noise then.
-pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
+const AMPLIFICATION_LIMIT: f64 = 100.0;
 
 /// A motion that has passed through a site, and the magnitudes of its lost parts.
 ///
@@ -112,6 +112,33 @@ impl fmt::Display for SiteMotion {
             self.near_nyquist / peak,
             self.rounding / peak
         )
+    }
+}
+
+/// Sums over the spectrum X of a motion and its product with a function F.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SpectrumSums {
+    /// Σ|F|².
+    pub(super) squared_gain: f64,
+    /// Σ|FX|².
+    pub(super) power: f64,
+    /// Part of the power at frequencies with |F| above the limit of amplification.
+    pub(super) amplified_power: f64,
+    /// Lowest of these frequencies, Hz.
+    pub(super) lowest_amplified_frequency: Option<f64>,
+}
+
+impl SpectrumSums {
+    /// Adds the next frequency, ω in rad/s.
+    pub(super) fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
+        let squared_gain = filter.square();
+        let power = product.square();
+        self.squared_gain += squared_gain;
+        self.power += power;
+        if squared_gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {
+            self.amplified_power += power;
+            self.lowest_amplified_frequency.get_or_insert(omega / std::f64::consts::TAU);
+        }
     }
 }
 

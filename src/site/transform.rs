@@ -13,7 +13,7 @@ use basemat_fourier::num_complex::Complex64;
 use basemat_fourier::{ComplexToReal, RealPlanner};
 
 use super::part_progress::{FILTER_PROGRESS_FRACTION, PartProgress};
-use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
+use super::site_motion::{SiteMotion, SpectrumSums};
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
@@ -22,6 +22,8 @@ const WINDOW_EXPONENT: f64 = 24.0;
 /// Length of the transform, relative to the number of samples of the motion.
 const LENGTH_PER_SAMPLE: usize = 4;
 /// Largest number of samples of a motion, and of time steps of waves through a site.
+///
+/// A transform of such a motion has 2²⁶ samples or more, some gigabytes.
 const MAX_SAMPLES: usize = 1 << 24;
 /// Fraction of the frequencies, below the highest, over which filters become real.
 ///
@@ -31,9 +33,9 @@ pub(super) const BAND_FRACTION: f64 = 0.02;
 ///
 /// Its transform is e^(−β) from 2β/(π · band) samples on (Barnett, Magland & af Klinteberg 2019).
 const TRANSITION_SHARPNESS: f64 = 24.0;
-/// Frequency used in place of zero, in frequency steps of the transform.
+/// Frequency in place of zero, in frequency steps of the transform: small beside the lowest frequency.
 const ZERO_FREQUENCY_STEPS: f64 = 1e-3;
-/// Number of frequencies per call of a filter.
+/// Number of frequencies in one call of a filter, whose values stay in the processor's cache.
 const FREQUENCIES_PER_BLOCK: usize = 64;
 /// Bytes of a filtered spectrum, and of one value of the filters, for each sample of the transform.
 const BYTES_PER_FILTERED_SAMPLE: f64 = 12.0;
@@ -116,12 +118,12 @@ impl Contour {
     }
 
     /// Error of a transform that failed.
-    fn failed(&self) -> Error {
+    fn transform_error(&self) -> Error {
         Error::Singular { matrix: "spectrum of a motion", order: self.length }
     }
 
     /// Weight of the modified layers at each frequency of the band, in ascending order.
-    fn transition(&self) -> Vec<f64> {
+    fn transition_weights(&self) -> Vec<f64> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction")]
         let band_count = (BAND_FRACTION * (self.length / 2) as f64) as usize;
         let slopes: Vec<f64> = (0..band_count)
@@ -199,9 +201,11 @@ impl Transform {
         let quantity = "largest sample of a motion through a site";
         require(quantity, largest(motion), norm.is_finite(), "at most 1e150")?;
         let mut spectrum = forward.make_output_vec();
-        forward.process(&mut windowed_samples, &mut spectrum).map_err(|_| contour.failed())?;
+        forward
+            .process(&mut windowed_samples, &mut spectrum)
+            .map_err(|_| contour.transform_error())?;
         Ok(Self {
-            transition_weights: contour.transition(),
+            transition_weights: contour.transition_weights(),
             contour,
             sample_count: motion.len(),
             spectrum,
@@ -219,7 +223,7 @@ impl Transform {
         &self.contour
     }
 
-    /// Multiplies the spectrum by `count` functions.
+    /// Multiplies the spectrum by functions of s, for which [`motion`](Self::motion) then returns the products.
     ///
     /// `filters` writes the values of the first function at all points, then those of the next one.
     /// `computes_losses`: whether rounding and amplification of the motions are computed too.
@@ -230,12 +234,11 @@ impl Transform {
         progress: &mut PartProgress<'_, '_>,
         mut filters: impl FnMut(&[ContourPoint], &mut [Complex]) -> Result<()>,
     ) -> Result<()> {
-        let Contour { length, decay_rate, .. } = self.contour;
-        let memory_bytes = BYTES_PER_FILTERED_SAMPLE * length as f64 * function_count as f64;
+        let memory_bytes =
+            BYTES_PER_FILTERED_SAMPLE * self.contour.length as f64 * function_count as f64;
         memory::check("motions in a site", function_count as f64, memory_bytes)?;
         let highest_frequency = self.contour.end()?.im;
         let last_index = self.spectrum.len() - 1;
-        let band_begin = last_index + 1 - self.transition_weights.len();
         self.filtered_spectra.resize(function_count, vec![]);
         for spectrum in &mut self.filtered_spectra {
             spectrum.resize(last_index + 1, Complex64::default());
@@ -247,26 +250,7 @@ impl Transform {
         for begin in (0..=last_index).step_by(FREQUENCIES_PER_BLOCK) {
             let stop = (begin + FREQUENCIES_PER_BLOCK).min(last_index + 1);
             points.clear();
-            for index in begin..stop {
-                let frequency_ratio = index as f64 / last_index as f64;
-                let modified_weight = if index < band_begin {
-                    0.0
-                } else {
-                    self.transition_weights[index - band_begin]
-                };
-                // At s = 0 strains are 0/0 and some laws have no modulus: a frequency slightly above zero replaces it.
-                let is_singular = index == 0 && decay_rate == 0.0;
-                let nonzero_ratio = if is_singular {
-                    ZERO_FREQUENCY_STEPS / last_index as f64
-                } else {
-                    frequency_ratio
-                };
-                points.push(ContourPoint {
-                    s: Complex::new(decay_rate, highest_frequency * nonzero_ratio),
-                    modified_weight,
-                    frequency_ratio,
-                });
-            }
+            points.extend((begin..stop).map(|index| self.point(index, highest_frequency)));
             let block_values = &mut filter_values[..function_count * points.len()];
             filters(&points, block_values)?;
             let functions = block_values.chunks_exact(points.len()).zip(&mut self.filtered_spectra);
@@ -288,6 +272,27 @@ impl Transform {
             spectrum[last_index].im = 0.0;
         }
         Ok(())
+    }
+
+    /// Point on the contour of the frequency with this index; `highest_frequency`: rad/s.
+    fn point(&self, index: usize, highest_frequency: f64) -> ContourPoint {
+        let decay_rate = self.contour.decay_rate;
+        let last_index = self.spectrum.len() - 1;
+        let band_begin = last_index + 1 - self.transition_weights.len();
+        let frequency_ratio = index as f64 / last_index as f64;
+        // At s = 0 strains are 0/0 and some laws have no modulus: a frequency slightly above zero replaces it.
+        let is_zero_frequency = index == 0 && decay_rate == 0.0;
+        let nonzero_ratio = if is_zero_frequency {
+            ZERO_FREQUENCY_STEPS / last_index as f64
+        } else {
+            frequency_ratio
+        };
+        let band_index = index.checked_sub(band_begin);
+        ContourPoint {
+            s: Complex::new(decay_rate, highest_frequency * nonzero_ratio),
+            modified_weight: band_index.map_or(0.0, |index| self.transition_weights[index]),
+            frequency_ratio,
+        }
     }
 
     /// Samples of a filtered motion during the original motion; call it once for each motion.
@@ -363,33 +368,6 @@ impl Transform {
         let Self { filtered_spectra, windowed_samples, scratch, .. } = self;
         let spectrum = &mut filtered_spectra[motion_index];
         let result = self.inverse.process_with_scratch(spectrum, windowed_samples, scratch);
-        result.map_err(|_| self.contour.failed())
-    }
-}
-
-/// Sums over the spectrum X of a motion and its product with a function F.
-#[derive(Debug, Clone, Copy, Default)]
-struct SpectrumSums {
-    /// Σ|F|².
-    squared_gain: f64,
-    /// Σ|FX|².
-    power: f64,
-    /// Part of the power at frequencies with |F| above the limit of amplification.
-    amplified_power: f64,
-    /// Lowest of these frequencies, Hz.
-    lowest_amplified_frequency: Option<f64>,
-}
-
-impl SpectrumSums {
-    /// Adds the next frequency, ω in rad/s.
-    fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
-        let squared_gain = filter.square();
-        let power = product.square();
-        self.squared_gain += squared_gain;
-        self.power += power;
-        if squared_gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {
-            self.amplified_power += power;
-            self.lowest_amplified_frequency.get_or_insert(omega / std::f64::consts::TAU);
-        }
+        result.map_err(|_| self.contour.transform_error())
     }
 }

@@ -218,14 +218,14 @@ impl<'a> TrenchWaves<'a> {
             true,
             progress,
             |points, filters| {
-                for (i, point) in points.iter().enumerate() {
+                for (index, point) in points.iter().enumerate() {
                     self.profile.moduli(point.s, &mut moduli)?;
                     self.mean_values(surface_component, point.s, &moduli, &mut level_means);
                     let nonzero_means = level_means
                         .iter()
                         .flat_map(|means| nonzero_indices.iter().map(|k| means[*k]));
-                    let filters = filters[i..].iter_mut().step_by(points.len());
-                    for (filter, value) in filters.zip(nonzero_means) {
+                    let point_filters = filters[index..].iter_mut().step_by(points.len());
+                    for (filter, value) in point_filters.zip(nonzero_means) {
                         *filter = value.scale(1.0 - point.modified_weight);
                     }
                 }

@@ -5,9 +5,9 @@ use std::io::{ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::file::{Ending, RowsByCase, StoredRow, add_rows, name, read};
+use super::file::{Ending, RowsByCase, StoredRow, add_rows, path_text, read_file};
 use super::run::Sweep;
-use super::table::{CaseTable, Columns, FILE_BEGINNING, TableRow, first_lines, heading_sum};
+use super::table::{CaseTable, Columns, FILE_BEGINNING, TableRow, first_lines, heading_check_sum};
 use super::{CaseGrid, Parameter, check_names};
 use crate::error::{Error, Result, SweepError, require_part, same_length};
 use crate::text::check_sum::CheckSum;
@@ -40,28 +40,41 @@ use crate::text::file::{make_folder_of, replace_file, write_error};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct CaseFile {
+    /// Combinations of the sweep's parameters.
     grid: Arc<CaseGrid>,
-    /// Numbers of the cases of the sweep, ascending.
+    /// Indices of the cases of the sweep, ascending.
     cases: Vec<usize>,
+    /// Path of the complete file.
     path: PathBuf,
     /// File of the rows while cases are missing, with `.part` at the end of its name.
     part_path: PathBuf,
+    /// Columns of results and warnings so far.
     columns: Columns,
+    /// Rows so far.
     rows: RowsByCase,
-    /// The file at `part_path`, unless all rows were there.
-    file: Option<File>,
+    /// The open file at `part_path`; `None` if no row was missing.
+    part_file: Option<File>,
     /// Check sum of the rows in that file.
-    sum: CheckSum,
-    /// Why a row was not written; later rows are then not written either.
-    fault: Option<ErrorKind>,
+    check_sum: CheckSum,
+    /// Reason for which a row was not written; later rows are then not written either.
+    write_fault: Option<ErrorKind>,
 }
 
-/// A file of rows that exists already.
+/// Columns that existing files of a sweep may have.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum FileColumns {
+    /// The columns of the present table.
+    MustBeSame,
+    /// Any columns; new ones are added.
+    MayDiffer,
+}
+
+/// An existing file of rows, as it was read.
 struct StartedFile {
     columns: Columns,
-    sum: CheckSum,
-    /// Number of bytes up to the end of its last whole row.
-    end: u64,
+    check_sum: CheckSum,
+    /// Number of bytes up to the end of its last complete row.
+    end_byte: u64,
 }
 
 short_debug! { CaseFile; self; path: self.path, cases: self.cases.len(), rows: self.rows.len() }
@@ -73,17 +86,17 @@ impl Sweep<'_> {
     /// [`Error::File`] if the file cannot be read or opened, has other values of parameters or cases outside this shard,
     /// is of another version of the format, or does not agree with its check sum.
     pub fn open(&self, path: impl AsRef<Path>) -> Result<CaseFile> {
-        CaseFile::new(self, path.as_ref(), Columns::default(), false)
+        CaseFile::new(self, path.as_ref(), Columns::default(), FileColumns::MayDiffer)
     }
 }
 
 impl CaseFile {
-    /// Reads the rows that are there; `are_fixed`: whether existing files must have these `columns`.
+    /// Reads the rows of existing files, and opens the file of rows if a case has none.
     pub(super) fn new(
         sweep: &Sweep<'_>,
         path: &Path,
         columns: Columns,
-        are_fixed: bool,
+        file_columns: FileColumns,
     ) -> Result<Self> {
         let mut part_path = path.as_os_str().to_owned();
         part_path.push(".part");
@@ -94,101 +107,107 @@ impl CaseFile {
             part_path: part_path.into(),
             columns,
             rows: RowsByCase::new(),
-            file: None,
-            sum: CheckSum::default(),
-            fault: None,
+            part_file: None,
+            check_sum: CheckSum::default(),
+            write_fault: None,
         };
-        let heading = case_file.columns.clone();
+        let first_heading = case_file.columns.clone();
         if path.exists() {
-            case_file.read_rows(path, Ending::Whole, are_fixed)?;
+            case_file.read_rows(path, Ending::Whole, file_columns)?;
         }
-        let mut started = None;
+        let mut started_file = None;
         if case_file.part_path.exists() {
-            let path = case_file.part_path.clone();
-            let ending = Ending::Anywhere { heading: &heading };
-            started = Some(case_file.read_rows(&path, ending, are_fixed)?);
+            let part_path = case_file.part_path.clone();
+            let ending = Ending::Anywhere { heading: &first_heading };
+            started_file = Some(case_file.read_rows(&part_path, ending, file_columns)?);
         }
         make_folder_of(path)?;
         if !case_file.missing().is_empty() {
-            case_file.open_part(started).map_err(write_error(&case_file.part_path))?;
+            case_file.open_part(started_file).map_err(write_error(&case_file.part_path))?;
         }
         Ok(case_file)
     }
 
-    /// Adds the rows of a file.
+    /// Adds the rows and columns of an existing file.
     fn read_rows(
         &mut self,
         path: &Path,
         ending: Ending<'_>,
-        are_fixed: bool,
+        file_columns: FileColumns,
     ) -> Result<StartedFile> {
-        let wanted = |case| self.cases.binary_search(&case).is_ok();
-        let columns = are_fixed.then_some(&self.columns);
-        let content = read(path, &self.grid, &wanted, columns, ending)?;
-        self.extend(&content.columns)?;
+        let is_of_sweep = |case| self.cases.binary_search(&case).is_ok();
+        let must_be_same = file_columns == FileColumns::MustBeSame;
+        let columns = must_be_same.then_some(&self.columns);
+        let content = read_file(path, &self.grid, &is_of_sweep, columns, ending)?;
+        self.extend_columns(&content.columns)?;
         let names = &content.columns.names;
         let rows = content.rows.into_iter().map(|row| TableRow {
             outcome: row.outcome.map(|results| self.columns.arranged(names, results)),
             ..row
         });
         add_rows(&mut self.rows, rows, path, ending)?;
-        Ok(StartedFile { columns: content.columns, sum: content.sum, end: content.end })
+        Ok(StartedFile {
+            columns: content.columns,
+            check_sum: content.check_sum,
+            end_byte: content.end_byte,
+        })
     }
 
-    /// Adds columns; returns whether there are new ones.
-    fn extend(&mut self, others: &Columns) -> Result<bool> {
-        let mut columns = self.columns.clone();
-        for name in &others.names {
+    /// Adds columns that are not there; returns whether there were such.
+    fn extend_columns(&mut self, new_columns: &Columns) -> Result<bool> {
+        let mut all_columns = self.columns.clone();
+        for name in &new_columns.names {
             if !self.columns.names.contains(name) {
-                columns.names.push(name.clone());
+                all_columns.names.push(name.clone());
             }
         }
-        columns.with_warnings |= others.with_warnings;
+        all_columns.with_warnings |= new_columns.with_warnings;
         let parameters = self.grid.parameters.iter().map(Parameter::name);
-        check_names(parameters.chain(columns.names.iter().map(String::as_str)))?;
-        if columns == self.columns {
+        check_names(parameters.chain(all_columns.names.iter().map(String::as_str)))?;
+        if all_columns == self.columns {
             return Ok(false);
         }
         for stored in self.rows.values_mut() {
             if let Ok(results) = &mut stored.row.outcome {
-                results.resize(columns.names.len(), f64::NAN);
+                results.resize(all_columns.names.len(), f64::NAN);
             }
         }
-        self.columns = columns;
+        self.columns = all_columns;
         Ok(true)
     }
 
     /// Opens the file of rows, or begins it.
     ///
-    /// `started`: the file as it was read, if it exists.
-    fn open_part(&mut self, started: Option<StartedFile>) -> std::io::Result<()> {
-        let Some(started) = started.filter(|started| started.end > 0) else {
+    /// `started_file`: the file as it was read, if it exists.
+    fn open_part(&mut self, started_file: Option<StartedFile>) -> std::io::Result<()> {
+        let Some(started_file) = started_file.filter(|started_file| started_file.end_byte > 0)
+        else {
             return self.rewrite_part();
         };
-        if started.columns != self.columns {
+        if started_file.columns != self.columns {
             return self.rewrite_part();
         }
         let file = OpenOptions::new().write(true).open(&self.part_path)?;
-        // The row within which a process was killed is deleted.
-        file.set_len(started.end)?;
-        self.file = Some(file);
-        self.sum = started.sum;
+        // The last row is removed if a process was killed while it wrote the row.
+        file.set_len(started_file.end_byte)?;
+        self.part_file = Some(file);
+        self.check_sum = started_file.check_sum;
         Ok(())
     }
 
     /// Writes the file of rows at once, as when columns are added.
     fn rewrite_part(&mut self) -> std::io::Result<()> {
-        self.sum = heading_sum(&self.grid, &self.columns);
+        self.check_sum = heading_check_sum(&self.grid, &self.columns);
         let mut lines = Vec::new();
         for stored in self.rows.values() {
-            stored.row.add_to(&self.grid, &self.columns, &mut self.sum);
+            stored.row.add_to_check_sum(&self.grid, &self.columns, &mut self.check_sum);
             lines.push(stored.row.csv(&self.grid, &self.columns));
         }
-        let text = first_lines(&self.grid, &self.columns, self.sum) + &lines.concat();
+        let text = first_lines(&self.grid, &self.columns, self.check_sum) + &lines.concat();
         // Some systems cannot replace an open file.
-        self.file = None;
+        self.part_file = None;
         replace_file(&self.part_path, text.as_bytes())?;
-        self.file = Some(OpenOptions::new().write(true).open(&self.part_path)?);
+        self.part_file = Some(OpenOptions::new().write(true).open(&self.part_path)?);
         Ok(())
     }
 
@@ -199,7 +218,7 @@ impl CaseFile {
 
     /// Appends the row of a case: its results under their names, or the text of its error, and its run's warnings.
     ///
-    /// A process that is killed later has stored the row.
+    /// After the call the row is in the file, even if the process is killed.
     ///
     /// # Errors
     /// [`SweepError::Unwritten`] with all rows so far if the row cannot be written; later rows then fail in the same
@@ -214,14 +233,14 @@ impl CaseFile {
         warnings: &str,
     ) -> Result<()> {
         let names: Vec<_> = names.iter().map(|name| name.as_ref().to_owned()).collect();
-        let is_new = self.cases.binary_search(&case).is_ok() && !self.rows.contains_key(&case);
-        require_part("case", is_new, "it must belong to the sweep and have no row")?;
+        let is_missing = self.cases.binary_search(&case).is_ok() && !self.rows.contains_key(&case);
+        require_part("case", is_missing, "it must belong to the sweep and have no row")?;
         if let Ok(results) = &outcome {
             same_length("list of results of a case", results.len(), names.len())?;
         }
         let columns = Columns { names, with_warnings: !warnings.is_empty() };
-        if self.extend(&columns)? && self.fault.is_none() {
-            self.fault = self.rewrite_part().err().map(|fault| fault.kind());
+        if self.extend_columns(&columns)? && self.write_fault.is_none() {
+            self.write_fault = self.rewrite_part().err().map(|fault| fault.kind());
         }
         let outcome = outcome.map(|results| self.columns.arranged(&columns.names, results));
         let row = TableRow { warnings: warnings.to_owned(), ..TableRow::new(case, outcome) };
@@ -230,16 +249,17 @@ impl CaseFile {
 
     /// [`CaseFile::append`] for a row with these columns.
     pub(super) fn append_row(&mut self, row: TableRow) -> Result<()> {
-        let text = row.csv(&self.grid, &self.columns);
-        row.add_to(&self.grid, &self.columns, &mut self.sum);
+        let row_text = row.csv(&self.grid, &self.columns);
+        row.add_to_check_sum(&self.grid, &self.columns, &mut self.check_sum);
         let path = self.part_path.clone();
         self.rows.insert(row.case, StoredRow { row, path });
-        if self.fault.is_none()
-            && let Some(file) = &mut self.file
+        if self.write_fault.is_none()
+            && let Some(file) = &mut self.part_file
         {
-            self.fault = append_text(file, &text, self.sum).err().map(|fault| fault.kind());
+            self.write_fault =
+                append_text(file, &row_text, self.check_sum).err().map(|fault| fault.kind());
         }
-        self.fault
+        self.write_fault
             .map_or(Ok(()), |reason| Err(self.unwritten_error(&self.part_path, reason)))
     }
 
@@ -261,7 +281,7 @@ impl CaseFile {
             return Err(SweepError::Missing { cases, shards: Vec::new() }.into());
         }
         let table = self.table();
-        let is_open = self.file.take().is_some();
+        let is_open = self.part_file.take().is_some();
         if is_open || self.part_path.exists() || !self.path.exists() {
             replace_file(&self.path, table.csv().as_ref())
                 .map_err(|fault| self.unwritten_error(&self.path, fault.kind()))?;
@@ -274,7 +294,7 @@ impl CaseFile {
     /// The error for a file that cannot be written, with the rows so far.
     fn unwritten_error(&self, file: &Path, reason: ErrorKind) -> Error {
         let error = SweepError::Unwritten {
-            file: name(file),
+            file: path_text(file),
             reason,
             computed: self.rows.len(),
             left: self.missing().len(),
@@ -284,12 +304,12 @@ impl CaseFile {
     }
 }
 
-/// Appends a row to a file, and then changes its check sum.
+/// Appends a row to a file, and then updates the check sum.
 ///
-/// A process that is killed in between has not stored the row.
-fn append_text(file: &mut File, row: &str, sum: CheckSum) -> std::io::Result<()> {
+/// The row does not count if the process is killed between both writes.
+fn append_text(file: &mut File, row: &str, check_sum: CheckSum) -> std::io::Result<()> {
     file.seek(SeekFrom::End(0))?;
     file.write_all(row.as_bytes())?;
     file.seek(SeekFrom::Start(FILE_BEGINNING.len() as u64))?;
-    file.write_all(sum.text().as_bytes())
+    file.write_all(check_sum.text().as_bytes())
 }

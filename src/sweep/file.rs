@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use csv::{ReaderBuilder, StringRecord};
 
 use super::table::{
-    Columns, FILE_BEGINNING, TableRow, first_lines, heading, heading_sum, parameter_cells,
+    Columns, FILE_BEGINNING, TableRow, first_lines, heading, heading_check_sum, parameter_cells,
 };
 use super::{CaseGrid, ERROR_COLUMN, WARNINGS_COLUMN};
 use crate::error::{FileFault, Result};
@@ -15,137 +15,165 @@ use crate::text::bounded_line::LineResult;
 use crate::text::check_sum::CheckSum;
 use crate::text::decimal::{excerpt, quoted};
 
-/// Columns and rows of a file, in the file's order.
+/// Columns and rows of a file.
 pub(super) struct FileContent {
+    /// Columns of results and warnings.
     pub(super) columns: Columns,
+    /// Rows, in the order of the file.
     pub(super) rows: Vec<TableRow>,
     /// Check sum of these rows.
-    pub(super) sum: CheckSum,
+    pub(super) check_sum: CheckSum,
     /// Number of bytes up to the end of the last of these rows.
-    pub(super) end: u64,
+    pub(super) end_byte: u64,
 }
 
 /// Where a file may end.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending<'a> {
-    /// The file ends with the last row of its check sum, as a file that was written to its end.
+    /// The file is complete: it ends with the last row of its check sum.
     Whole,
-    /// The file ends anywhere, as when the process was killed: behind the rows of its check sum, or within the
-    /// `heading` with which it was begun.
+    /// The process may have been killed while it wrote the file.
+    ///
+    /// The file may then end after the rows of its check sum, or within its first `heading`.
     Anywhere { heading: &'a Columns },
 }
 
 /// The path as text.
-pub(super) fn name(path: &Path) -> String {
+pub(super) fn path_text(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Reads a file with rows of `grid`; an error for cases that are not `wanted`.
+/// Reads a file with rows of `grid`; an error for a case that is not expected.
 ///
-/// `columns`: the columns of results, if they are known. A file whose cases all failed may have no names of results.
-pub(super) fn read(
+/// `columns`: the columns of results that the file must have, if any. A file whose cases all failed may have no names of
+/// results.
+pub(super) fn read_file(
     path: &Path,
     grid: &CaseGrid,
-    wanted: &dyn Fn(usize) -> bool,
+    is_expected_case: &dyn Fn(usize) -> bool,
     columns: Option<&Columns>,
     ending: Ending<'_>,
 ) -> Result<FileContent> {
     let bytes = std::fs::read(path)
-        .map_err(|error| FileFault::Unreadable(error.kind()).of(name(path), 0))?;
+        .map_err(|error| FileFault::Unreadable(error.kind()).of(path_text(path), 0))?;
     if let Ending::Anywhere { heading } = ending {
-        let sum = heading_sum(grid, heading);
-        if first_lines(grid, heading, sum).as_bytes().starts_with(&bytes) {
+        let check_sum = heading_check_sum(grid, heading);
+        if first_lines(grid, heading, check_sum).as_bytes().starts_with(&bytes) {
             // The process was killed before the whole heading was written.
-            return Ok(FileContent { columns: heading.clone(), rows: vec![], sum, end: 0 });
+            return Ok(FileContent {
+                columns: heading.clone(),
+                rows: vec![],
+                check_sum,
+                end_byte: 0,
+            });
         }
     }
-    read_lines(&bytes, grid, wanted, columns, ending)
-        .map_err(|(line, fault)| fault.of(name(path), line))
+    read_lines(&bytes, grid, is_expected_case, columns, ending)
+        .map_err(|(line, fault)| fault.of(path_text(path), line))
 }
 
-/// A part of a file that agrees with its check sum.
+/// The beginning of a file, up to a row, that agrees with the check sum.
 struct IntactPart {
-    sum: CheckSum,
+    check_sum: CheckSum,
     /// Number of rows.
-    rows: usize,
+    row_count: usize,
     /// Number of bytes up to its end.
-    end: u64,
+    end_byte: u64,
 }
 
 /// Reads the content of a file whose heading is complete.
 fn read_lines(
     bytes: &[u8],
     grid: &CaseGrid,
-    wanted: &dyn Fn(usize) -> bool,
+    is_expected_case: &dyn Fn(usize) -> bool,
     columns: Option<&Columns>,
     ending: Ending<'_>,
 ) -> LineResult<FileContent> {
     // A byte-order mark is skipped.
-    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let first_line = text.split_inclusive(|&byte| byte == b'\n').next().unwrap_or_default();
+    let bytes_without_mark = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let first_line =
+        bytes_without_mark.split_inclusive(|&byte| byte == b'\n').next().unwrap_or_default();
     let stored_sum = stored_sum(first_line, ending)?;
-    let start = bytes.len() - text.len() + first_line.len();
-    let mut reader =
-        ReaderBuilder::new().has_headers(false).flexible(true).from_reader(&bytes[start..]);
+    let table_start = bytes.len() - bytes_without_mark.len() + first_line.len();
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(&bytes[table_start..]);
     let mut file_columns: Option<Columns> = None;
     let mut rows = Vec::new();
-    let mut sum = CheckSum::default();
+    let mut check_sum = CheckSum::default();
     let mut longest_intact: Option<IntactPart> = None;
     let mut record = StringRecord::new();
     loop {
         let line = usize::try_from(reader.position().line()).map_or(usize::MAX, |line| line + 1);
-        let read = match reader.read_record(&mut record) {
+        let result = match reader.read_record(&mut record) {
             Ok(false) => break,
             Ok(true) => match &file_columns {
-                Some(columns) => table_row(&record, grid, wanted, columns).map(|row| {
-                    row.add_to(grid, columns, &mut sum);
+                Some(columns) => table_row(&record, grid, is_expected_case, columns).map(|row| {
+                    row.add_to_check_sum(grid, columns, &mut check_sum);
                     rows.push(row);
                 }),
                 None => columns_of_heading(&record, grid, columns).map(|columns| {
-                    sum = heading_sum(grid, &columns);
+                    check_sum = heading_check_sum(grid, &columns);
                     file_columns = Some(columns);
                 }),
             },
             Err(_) => Err(FileFault::format("other bytes", "UTF-8")),
         };
-        if let Err(fault) = read {
-            let was_cut = ending != Ending::Whole && longest_intact.is_some();
-            if was_cut {
+        if let Err(fault) = result {
+            let may_be_incomplete = ending != Ending::Whole && longest_intact.is_some();
+            if may_be_incomplete {
                 break;
             }
             return Err((line, fault));
         }
-        if stored_sum.is_none_or(|stored| stored == sum.value()) {
-            let end = start as u64 + reader.position().byte();
-            longest_intact = Some(IntactPart { sum, rows: rows.len(), end });
+        if stored_sum.is_none_or(|stored| stored == check_sum.value()) {
+            let end_byte = table_start as u64 + reader.position().byte();
+            longest_intact = Some(IntactPart { check_sum, row_count: rows.len(), end_byte });
         }
     }
+    intact_content(longest_intact, file_columns.unwrap_or_default(), rows, ending)
+}
+
+/// Content of the part of a file that agrees with its check sum; an error if the file is damaged.
+fn intact_content(
+    longest_intact: Option<IntactPart>,
+    columns: Columns,
+    mut rows: Vec<TableRow>,
+    ending: Ending<'_>,
+) -> LineResult<FileContent> {
     match longest_intact {
-        Some(intact) if ending != Ending::Whole || intact.rows == rows.len() => {
-            rows.truncate(intact.rows);
-            let columns = file_columns.unwrap_or_default();
-            Ok(FileContent { columns, rows, sum: intact.sum, end: intact.end })
+        Some(intact) if ending != Ending::Whole || intact.row_count == rows.len() => {
+            rows.truncate(intact.row_count);
+            Ok(FileContent {
+                columns,
+                rows,
+                check_sum: intact.check_sum,
+                end_byte: intact.end_byte,
+            })
         }
         _ => Err((0, FileFault::Damaged { quantity: "the table".into() })),
     }
 }
 
-/// The check sum in the first line of a file; `None` if it was deleted from a whole file, to change rows by hand.
+/// The check sum in the first line of a file, if it has one.
+///
+/// A user may delete the check sum of a complete file to change rows by hand.
 fn stored_sum(line: &[u8], ending: Ending<'_>) -> LineResult<Option<u64>> {
-    let line = String::from_utf8_lossy(line);
-    // A program for tables adds empty cells.
-    let line = line.trim_end_matches(['\n', '\r', ',']);
-    let Some(sum) = line.strip_prefix(FILE_BEGINNING.trim_end()) else {
+    let text = String::from_utf8_lossy(line);
+    // A spreadsheet adds empty cells.
+    let line = text.trim_end_matches(['\n', '\r', ',']);
+    let Some(sum_text) = line.strip_prefix(FILE_BEGINNING.trim_end()) else {
         return Err((1, FileFault::format(excerpt(line), format!("'{FILE_BEGINNING}…'"))));
     };
-    let sum = sum.trim();
-    if sum.is_empty() && ending == Ending::Whole {
+    let sum_text = sum_text.trim();
+    if sum_text.is_empty() && ending == Ending::Whole {
         return Ok(None);
     }
-    if let Ok(value) = u64::from_str_radix(sum, 16) {
+    if let Ok(value) = u64::from_str_radix(sum_text, 16) {
         Ok(Some(value))
     } else {
-        let fault = FileFault::value("check sum", quoted(sum), "a hexadecimal number");
+        let fault = FileFault::value("check sum", quoted(sum_text), "a hexadecimal number");
         Err((1, fault))
     }
 }
@@ -157,69 +185,71 @@ fn columns_of_heading(
     columns: Option<&Columns>,
 ) -> std::result::Result<Columns, FileFault> {
     let cells: Vec<_> = record.iter().map(str::to_owned).collect();
-    // The names between the parameters and the last column belong to the file.
-    let names = cells.get(1 + grid.parameters.len()..).unwrap_or_default();
-    let names = names.strip_suffix(&[ERROR_COLUMN.to_owned()]).unwrap_or(names);
-    let results = names.strip_suffix(&[WARNINGS_COLUMN.to_owned()]);
-    let with_warnings = results.is_some();
-    let mut names = results.unwrap_or(names);
+    // Names of results stand between the parameters and the last columns.
+    let names_and_error = cells.get(1 + grid.parameters.len()..).unwrap_or_default();
+    let names = names_and_error.strip_suffix(&[ERROR_COLUMN.to_owned()]).unwrap_or(names_and_error);
+    let names_before_warnings = names.strip_suffix(&[WARNINGS_COLUMN.to_owned()]);
+    let with_warnings = names_before_warnings.is_some();
+    let mut result_names = names_before_warnings.unwrap_or(names);
     if let Some(columns) = columns
-        && !names.is_empty()
+        && !result_names.is_empty()
     {
-        names = &columns.names;
+        result_names = &columns.names;
     }
-    let file_columns = Columns { names: names.to_vec(), with_warnings };
-    let expected = heading(grid, &file_columns);
-    for (column, needed) in expected.iter().enumerate() {
-        let found = cells.get(column).map_or("", String::as_str);
-        if found != needed {
-            let quantity = format!("heading of column {}", column + 1);
-            return Err(FileFault::value(quantity, quoted(found), format!("'{needed}'")));
+    let file_columns = Columns { names: result_names.to_vec(), with_warnings };
+    let expected_cells = heading(grid, &file_columns);
+    for (index, expected_cell) in expected_cells.iter().enumerate() {
+        let found = cells.get(index).map_or("", String::as_str);
+        if found != expected_cell {
+            let quantity = format!("heading of column {}", index + 1);
+            return Err(FileFault::value(quantity, quoted(found), format!("'{expected_cell}'")));
         }
     }
-    if cells.len() != expected.len() {
-        return Err(FileFault::count("cells", cells.len(), expected.len().to_string()));
+    if cells.len() != expected_cells.len() {
+        return Err(FileFault::count("cells", cells.len(), expected_cells.len().to_string()));
     }
     Ok(file_columns)
 }
 
-/// Reads a row; an error unless its case is wanted and has the parameters of the sweep.
+/// Reads a row; an error unless its case is expected and has the parameters of the sweep.
 fn table_row(
     record: &StringRecord,
     grid: &CaseGrid,
-    wanted: &dyn Fn(usize) -> bool,
+    is_expected_case: &dyn Fn(usize) -> bool,
     columns: &Columns,
 ) -> std::result::Result<TableRow, FileFault> {
     let cells: Vec<_> = record.iter().collect();
-    let needed = heading(grid, columns).len();
+    let cell_count = heading(grid, columns).len();
     let [case_text, cells @ .., reason] = &cells[..] else {
-        return Err(FileFault::count("cells", cells.len(), needed.to_string()));
+        return Err(FileFault::count("cells", cells.len(), cell_count.to_string()));
     };
-    if cells.len() + 2 != needed {
-        return Err(FileFault::count("cells", cells.len() + 2, needed.to_string()));
+    if cells.len() + 2 != cell_count {
+        return Err(FileFault::count("cells", cells.len() + 2, cell_count.to_string()));
     }
     let results_begin = grid.parameters.len();
     let results_end = results_begin + columns.names.len();
     let parameters = &cells[..results_begin];
     let results = &cells[results_begin..results_end];
     let warnings = cells[results_end..].concat();
-    let is_in_digits = case_text.bytes().all(|byte| byte.is_ascii_digit());
-    let case = case_text.parse().ok().filter(|&case| is_in_digits && wanted(case));
+    let has_only_digits = case_text.bytes().all(|byte| byte.is_ascii_digit());
+    let case = case_text.parse().ok().filter(|&case| has_only_digits && is_expected_case(case));
     let case = case.ok_or_else(|| {
         FileFault::value("case", quoted(case_text), "one of this sweep, in digits")
     })?;
-    for (index, (cell, needed)) in parameters.iter().zip(parameter_cells(grid, case)).enumerate() {
+    for (index, (cell, expected_cell)) in
+        parameters.iter().zip(parameter_cells(grid, case)).enumerate()
+    {
         let parameter = &grid.parameters[index];
-        // Another program may have printed the numbers, but they must be the same to the last bit.
-        let is_same = match parameter.number(grid.place_of(case, index)) {
+        // Another program may have printed the numbers in another form, but their bits must be the same.
+        let is_same = match parameter.number(grid.value_index(case, index)) {
             Some(number) => {
-                cell_number(cell).is_some_and(|found| found.to_bits() == number.to_bits())
+                cell_number(cell).is_some_and(|value| value.to_bits() == number.to_bits())
             }
-            None => *cell == needed,
+            None => *cell == expected_cell,
         };
         if !is_same {
             let quantity = format!("{} of case {case}", parameter.name());
-            return Err(FileFault::value(quantity, quoted(cell), format!("'{needed}'")));
+            return Err(FileFault::value(quantity, quoted(cell), format!("'{expected_cell}'")));
         }
     }
     if reason.is_empty() {
@@ -258,7 +288,7 @@ pub(super) type RowsByCase = BTreeMap<usize, StoredRow>;
 
 /// Adds the rows of a file; an error for a case that has a row already.
 ///
-/// Of a file that ends anywhere, a row that is already there may occur again: the file was not removed.
+/// A file of an unfinished process may repeat the same row, since a complete file may exist beside it.
 pub(super) fn add_rows(
     rows_by_case: &mut RowsByCase,
     rows: impl IntoIterator<Item = TableRow>,
@@ -271,11 +301,13 @@ pub(super) fn add_rows(
                 entry.insert(StoredRow { row, path: path.to_owned() });
             }
             Entry::Occupied(entry) => {
-                let stored = entry.get();
-                if ending == Ending::Whole || stored.row != row {
-                    let found = format!("here and in {}", name(&stored.path));
+                let stored_row = entry.get();
+                if ending == Ending::Whole || stored_row.row != row {
+                    let found = format!("here and in {}", path_text(&stored_row.path));
                     let case = format!("case {}", row.case);
-                    return Err(FileFault::value(case, found, "in one place").of(name(path), 0));
+                    return Err(
+                        FileFault::value(case, found, "in one place").of(path_text(path), 0)
+                    );
                 }
             }
         }

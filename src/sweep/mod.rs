@@ -31,7 +31,7 @@
 //! ```
 //!
 //! Thousands of runs can be distributed over many processes. [`Sweep::shard`] selects a part of the cases.
-//! [`Sweep::table_in`] stores its rows in a file, from which a restarted process continues. [`Sweep::merge`]
+//! [`Sweep::table_in`] stores their rows in a file, from which a restarted process continues. [`Sweep::merge`]
 //! combines the files of all shards. `docs/guide.md` has a complete job array.
 
 #[cfg(feature = "io")]
@@ -55,66 +55,76 @@ use std::hash::Hash;
 
 use crate::error::{Error, Result, all_finite, at_least, memory, require_part};
 
-/// Bytes of a case in tables and while files are merged: its number, and its outcome without results.
+/// Bytes of a case in tables and merged files: its number, and its outcome without results.
 const BYTES_PER_CASE: f64 = 40.0;
 
 /// All combinations of the parameters' values, numbered with the last parameter fastest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CaseGrid {
     pub(super) parameters: Vec<Parameter>,
-    pub(super) count: usize,
+    /// Number of combinations.
+    pub(super) case_count: usize,
 }
 
 impl CaseGrid {
-    /// An error for a parameter that is not valid, or more cases than a table holds.
+    /// Grid of these parameters; an error for an invalid one, or too many cases.
     pub(super) fn new(parameters: Vec<Parameter>) -> Result<Self> {
         check_names(parameters.iter().map(Parameter::name))?;
-        let mut count = 1_usize;
+        let mut case_count = 1_usize;
         for parameter in &parameters {
             parameter.check()?;
-            let product = count as f64 * parameter.len() as f64;
+            let product = case_count as f64 * parameter.len() as f64;
             memory::check("cases of the sweep", product, BYTES_PER_CASE * product)?;
-            count = count.saturating_mul(parameter.len());
+            case_count = case_count.saturating_mul(parameter.len());
         }
-        Ok(Self { parameters, count })
+        Ok(Self { parameters, case_count })
     }
 
     /// Index of the parameter called `name`.
-    fn index(&self, name: &str) -> Option<usize> {
+    fn parameter_index(&self, name: &str) -> Option<usize> {
         self.parameters.iter().position(|parameter| parameter.name() == name)
     }
 
-    /// Place of case `case` among the values of parameter `index`.
-    pub(super) fn place_of(&self, case: usize, index: usize) -> usize {
+    /// Index of the value that a parameter has in a case.
+    pub(super) fn value_index(&self, case: usize, parameter_index: usize) -> usize {
         let cases_per_value =
-            self.parameters[index + 1..].iter().map(Parameter::len).product::<usize>();
-        case / cases_per_value % self.parameters[index].len()
+            self.parameters[parameter_index + 1..].iter().map(Parameter::len).product::<usize>();
+        case / cases_per_value % self.parameters[parameter_index].len()
     }
 
-    /// The parameter called `name`, and the place of case `case` among its values.
-    fn find(&self, case: usize, name: &str) -> Option<(&Parameter, usize)> {
-        let index = self.index(name)?;
-        Some((&self.parameters[index], self.place_of(case, index)))
+    /// The parameter called `name`, and the index of its value in a case.
+    fn parameter_and_value_index(&self, case: usize, name: &str) -> Option<(&Parameter, usize)> {
+        let index = self.parameter_index(name)?;
+        Some((&self.parameters[index], self.value_index(case, index)))
     }
 
+    /// Number of a parameter in a case, if there is such a parameter.
     pub(super) fn number(&self, case: usize, name: &str) -> Option<f64> {
-        self.find(case, name).and_then(|(parameter, place)| parameter.number(place))
+        self.parameter_and_value_index(case, name)
+            .and_then(|(parameter, index)| parameter.number(index))
     }
 
+    /// Text of a parameter in a case; an error if there is no such parameter.
     pub(super) fn text(&self, case: usize, name: &str) -> Result<&str> {
-        self.find(case, name)
-            .and_then(|(parameter, place)| parameter.text(place))
-            .ok_or_else(|| self.no_name("parameter with texts", name, &[]))
+        self.parameter_and_value_index(case, name)
+            .and_then(|(parameter, index)| parameter.text(index))
+            .ok_or_else(|| self.missing_name_error("parameter with texts", name, &[]))
     }
 
-    pub(super) fn place(&self, case: usize, name: &str) -> Result<usize> {
-        self.find(case, name)
-            .map(|(_, place)| place)
-            .ok_or_else(|| self.no_name("parameter", name, &[]))
+    /// Index of the value that the parameter called `name` has in a case.
+    pub(super) fn named_value_index(&self, case: usize, name: &str) -> Result<usize> {
+        self.parameter_and_value_index(case, name)
+            .map(|(_, index)| index)
+            .ok_or_else(|| self.missing_name_error("parameter", name, &[]))
     }
 
     /// The error for a name that is neither a parameter nor one of `columns`.
-    pub(super) fn no_name(&self, quantity: &'static str, name: &str, columns: &[String]) -> Error {
+    pub(super) fn missing_name_error(
+        &self,
+        quantity: &'static str,
+        name: &str,
+        columns: &[String],
+    ) -> Error {
         let parameters = self.parameters.iter().map(Parameter::name);
         Error::no_name(quantity, name, parameters.chain(columns.iter().map(String::as_str)))
     }
@@ -128,10 +138,10 @@ pub(super) const ERROR_COLUMN: &str = "error";
 
 /// Error for a column without a name, or with a name that occurs twice or is reserved.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut names_before = HashSet::from(["case", WARNINGS_COLUMN, ERROR_COLUMN]);
+    let mut earlier_names = HashSet::from(["case", WARNINGS_COLUMN, ERROR_COLUMN]);
     for name in names {
         require_part("column", !name.is_empty(), "it must have a name")?;
-        if !names_before.insert(name) {
+        if !earlier_names.insert(name) {
             return Err(Error::DuplicateName { quantity: "column", name: name.to_owned() });
         }
     }
@@ -148,6 +158,7 @@ pub struct Parameter {
     values: ParameterValues,
 }
 
+/// Values of a parameter, all of one kind.
 #[derive(Debug, Clone, PartialEq)]
 enum ParameterValues {
     Numbers(Vec<f64>),
@@ -185,32 +196,30 @@ impl Parameter {
         }
     }
 
-    /// Number at `place`; `None` for a parameter with texts or beyond the last value.
-    pub(super) fn number(&self, place: usize) -> Option<f64> {
+    /// Number at `index`; `None` for a parameter with texts or beyond the last value.
+    pub(super) fn number(&self, index: usize) -> Option<f64> {
         match &self.values {
-            ParameterValues::Numbers(numbers) => numbers.get(place).copied(),
+            ParameterValues::Numbers(numbers) => numbers.get(index).copied(),
             ParameterValues::Texts(_) => None,
         }
     }
 
-    /// Text at `place`; `None` for a parameter with numbers or beyond the last value.
-    pub(super) fn text(&self, place: usize) -> Option<&str> {
+    /// Text at `index`; `None` for a parameter with numbers or beyond the last value.
+    pub(super) fn text(&self, index: usize) -> Option<&str> {
         match &self.values {
             ParameterValues::Numbers(_) => None,
-            ParameterValues::Texts(texts) => texts.get(place).map(String::as_str),
+            ParameterValues::Texts(texts) => texts.get(index).map(String::as_str),
         }
     }
 
-    /// Error for no values, a value twice, a number that is not finite, or an empty text.
+    /// Error for no values, a repeated value, a number that is not finite, or an empty text.
     pub(super) fn check(&self) -> Result<()> {
-        let repeated = self.repeated_value();
-        let repeated =
-            repeated.map_err(|error| error.within(format!("parameter '{}'", self.name)))?;
-        match repeated {
+        let item = format!("parameter '{}'", self.name);
+        match self.repeated_value().map_err(|error| error.within(item.clone()))? {
             None => Ok(()),
             Some(name) => {
                 let error = Error::DuplicateName { quantity: "value", name };
-                Err(error.within(format!("parameter '{}'", self.name)))
+                Err(error.within(item))
             }
         }
     }
@@ -222,8 +231,8 @@ impl Parameter {
             ParameterValues::Numbers(numbers) => {
                 all_finite("list of values", numbers)?;
                 // Positive and negative zero are the same value.
-                let repeated = first_repeated(numbers, |value| (value + 0.0).to_bits());
-                Ok(repeated.map(f64::to_string))
+                let repeated_number = first_repeated(numbers, |value| (value + 0.0).to_bits());
+                Ok(repeated_number.map(f64::to_string))
             }
             ParameterValues::Texts(texts) => {
                 let has_no_empty_text = !texts.iter().any(String::is_empty);
@@ -236,6 +245,6 @@ impl Parameter {
 
 /// The first value whose key has occurred before.
 fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
-    let mut keys_before = HashSet::new();
-    values.iter().find(|value| !keys_before.insert(key(value)))
+    let mut earlier_keys = HashSet::new();
+    values.iter().find(|value| !earlier_keys.insert(key(value)))
 }

@@ -41,16 +41,19 @@ use crate::error::{CaseError, Error, Result};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct Sweep<'a> {
+    /// Combinations of all parameters.
     pub(super) grid: Arc<CaseGrid>,
-    /// Cases `first`, `first + stride`, … of the grid.
-    first: usize,
+    /// Index of the first case that is run.
+    first_case: usize,
+    /// Difference of the indices of two successive cases.
     stride: NonZeroUsize,
+    /// Receives the index of a case and its completed fraction.
     pub(super) progress: Box<dyn Fn(usize, f64) + Sync + 'a>,
 }
 
 short_debug! {
     Sweep<'_>; self;
-    count: self.cases().len(), parameters: self.grid.parameters, first: self.first,
+    count: self.cases().len(), parameters: self.grid.parameters, first: self.first_case,
     stride: self.stride
 }
 
@@ -72,7 +75,7 @@ impl SweepCase<'_> {
     /// [`Error::Name`] if no such parameter has this name.
     pub fn value(&self, parameter: &str) -> Result<f64> {
         let number = self.grid.number(self.index, parameter);
-        number.ok_or_else(|| self.grid.no_name("parameter with numbers", parameter, &[]))
+        number.ok_or_else(|| self.grid.missing_name_error("parameter with numbers", parameter, &[]))
     }
 
     /// Value of a parameter with texts.
@@ -90,7 +93,7 @@ impl SweepCase<'_> {
     /// # Errors
     /// [`Error::Name`] if there is no parameter of this name.
     pub fn place(&self, parameter: &str) -> Result<usize> {
-        self.grid.place(self.index, parameter)
+        self.grid.named_value_index(self.index, parameter)
     }
 
     /// Reports to the sweep's progress callback the completed `fraction` of this case.
@@ -102,7 +105,7 @@ impl SweepCase<'_> {
 impl<'a> Sweep<'a> {
     /// A sweep over the cases 0 … `count` − 1.
     pub fn new(count: usize) -> Self {
-        Self::over(CaseGrid { parameters: Vec::new(), count })
+        Self::over_grid(CaseGrid { parameters: Vec::new(), case_count: count })
     }
 
     /// A sweep over all combinations of the parameters' values.
@@ -115,38 +118,41 @@ impl<'a> Sweep<'a> {
     /// `error`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
     /// is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
-        Ok(Self::over(CaseGrid::new(parameters.into_iter().collect())?))
+        Ok(Self::over_grid(CaseGrid::new(parameters.into_iter().collect())?))
     }
 
     /// The sweep over all cases of a grid.
-    fn over(grid: CaseGrid) -> Self {
+    fn over_grid(grid: CaseGrid) -> Self {
         let progress = Box::new(|_, _| ());
-        Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
+        Self { grid: Arc::new(grid), first_case: 0, stride: NonZeroUsize::MIN, progress }
     }
 
-    /// Keeps only every `of`-th case, from case `index` on: part `index` (from 0) of `of` equal parts.
+    /// Selects one of `shard_count` equal parts of the cases.
     ///
-    /// Cases keep their numbers. A shard may be cut into shards again.
+    /// The part `index`, from 0, has every `shard_count`-th case from case `index` on. Cases keep their numbers. A shard may
+    /// be divided into shards again.
     ///
     /// # Errors
-    /// [`Error::Index`] unless `index` is below `of`.
-    pub fn shard(self, index: usize, of: usize) -> Result<Self> {
-        let outside = Error::Index { quantity: "shard", index, bound: of };
-        let of = NonZeroUsize::new(of).filter(|of| index < of.get()).ok_or(outside)?;
-        // A saturated start is beyond the last case.
-        let first = self.first.saturating_add(self.stride.get().saturating_mul(index));
-        Ok(Self { first, stride: self.stride.saturating_mul(of), ..self })
+    /// [`Error::Index`] unless `index` is below `shard_count`.
+    pub fn shard(self, index: usize, shard_count: usize) -> Result<Self> {
+        let index_error = Error::Index { quantity: "shard", index, bound: shard_count };
+        let shard_count = NonZeroUsize::new(shard_count)
+            .filter(|shard_count| index < shard_count.get())
+            .ok_or(index_error)?;
+        // A saturated index is beyond the last case, so that the shard is empty.
+        let first_case = self.first_case.saturating_add(self.stride.get().saturating_mul(index));
+        Ok(Self { first_case, stride: self.stride.saturating_mul(shard_count), ..self })
     }
 
     /// Numbers of the cases that are run: all cases, or the cases of the shard.
     pub fn cases(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
-        (self.first.min(self.grid.count)..self.grid.count).step_by(self.stride.get())
+        (self.first_case.min(self.grid.case_count)..self.grid.case_count).step_by(self.stride.get())
     }
 
     /// Position of a case among the cases that are run; `None` if it is not run.
     #[cfg(feature = "io")]
-    pub(super) fn place(&self, case: usize) -> Option<usize> {
-        let distance = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
+    pub(super) fn position(&self, case: usize) -> Option<usize> {
+        let distance = case.checked_sub(self.first_case).filter(|_| case < self.grid.case_count)?;
         (distance % self.stride == 0).then(|| distance / self.stride)
     }
 
@@ -186,26 +192,28 @@ impl<'a> Sweep<'a> {
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
         mut sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
     ) {
-        let number = |place: usize| self.first + place * self.stride.get();
-        self.run_each(self.cases().len(), &number, run, |index, result| {
+        let case_index = |position: usize| self.first_case + position * self.stride.get();
+        self.run_each(self.cases().len(), &case_index, run, |index, result| {
             sink(index, result);
             ControlFlow::Continue(())
         });
     }
 
-    /// [`Sweep::run`] for `count` cases with the numbers `number`, until `sink` breaks.
+    /// Runs `count` cases until `sink` breaks.
+    ///
+    /// `case_index`: index of the case at each position, from 0 to `count` − 1.
     ///
     /// Cases that are running then still pass their results to `sink`; no others are started.
     pub(super) fn run_each<T: Send, E: Send>(
         &self,
         count: usize,
-        number: &(dyn Fn(usize) -> usize + Sync),
+        case_index: &(dyn Fn(usize) -> usize + Sync),
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
         sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) -> ControlFlow<()> + Send,
     ) {
         let sink = Mutex::new(sink);
-        for_each(count, &|place| {
-            let index = number(place);
+        for_each(count, &|position| {
+            let index = case_index(position);
             let case = SweepCase { index, grid: &self.grid, progress: &*self.progress };
             // A case that panics drops its values; the caller must keep state that cases share valid.
             let result = match catch_unwind(AssertUnwindSafe(|| run(&case))) {
@@ -219,7 +227,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// Calls `run` for the numbers below `count`, on all processors, until it breaks.
+/// Calls `run` for all numbers below `count`, on all processors, until it breaks.
 #[cfg(feature = "rayon")]
 fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -227,7 +235,7 @@ fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     let _ = (0..count).into_par_iter().with_max_len(1).try_for_each(run);
 }
 
-/// Calls `run` for the numbers below `count`, one after the other, until it breaks.
+/// Calls `run` for all numbers below `count`, one after the other, until it breaks.
 #[cfg(not(feature = "rayon"))]
 fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     let _ = (0..count).try_for_each(run);
@@ -268,18 +276,18 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let columns = self.checked_columns(&columns)?;
+        let names = self.checked_columns(&columns)?;
         let mut rows = Vec::new();
         self.run(run, |case, result| rows.push(table_row(case, result)));
         rows.sort_unstable_by_key(|row| row.case);
-        Ok(CaseTable { grid: self.grid.clone(), columns: Columns::of_results(columns), rows })
+        Ok(CaseTable { grid: self.grid.clone(), columns: Columns::of_results(names), rows })
     }
 
     /// The columns' names; an error if one is empty, reserved or occurs twice.
     pub(super) fn checked_columns<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
-        let columns: Vec<String> = columns.iter().map(|name| name.as_ref().to_owned()).collect();
+        let names: Vec<String> = columns.iter().map(|name| name.as_ref().to_owned()).collect();
         let parameters = self.grid.parameters.iter().map(Parameter::name);
-        check_names(parameters.chain(columns.iter().map(String::as_str)))?;
-        Ok(columns)
+        check_names(parameters.chain(names.iter().map(String::as_str)))?;
+        Ok(names)
     }
 }

@@ -4,8 +4,8 @@ use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::case_file::CaseFile;
-use super::file::{Ending, RowsByCase, add_rows, name, read};
+use super::case_file::{CaseFile, FileColumns};
+use super::file::{Ending, RowsByCase, add_rows, path_text, read_file};
 use super::run::{Sweep, SweepCase, table_row};
 use super::table::{CaseTable, Columns};
 use crate::error::{FileFault, Result, SweepError};
@@ -33,16 +33,25 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let columns = Columns::of_results(self.checked_columns(&columns)?);
-        let mut file = CaseFile::new(self, path.as_ref(), columns, true)?;
-        let missing = file.missing();
-        let mut fault = None;
-        self.run_each(missing.len(), &|place| missing[place], run, |case, result| {
-            // After a failed write the file only collects the rows of the cases that still run.
-            fault = file.append_row(table_row(case, result)).err();
-            if fault.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-        fault.map_or_else(|| file.finish(), Err)
+        let result_columns = Columns::of_results(self.checked_columns(&columns)?);
+        let mut file = CaseFile::new(self, path.as_ref(), result_columns, FileColumns::MustBeSame)?;
+        let missing_cases = file.missing();
+        let mut write_error = None;
+        self.run_each(
+            missing_cases.len(),
+            &|position| missing_cases[position],
+            run,
+            |case, result| {
+                // After a failed write, the rows of cases that still run are stored in memory only.
+                write_error = file.append_row(table_row(case, result)).err();
+                if write_error.is_none() {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            },
+        );
+        write_error.map_or_else(|| file.finish(), Err)
     }
 
     /// Combines the files of all shards into the table of all cases.
@@ -60,10 +69,11 @@ impl Sweep<'_> {
         let mut columns: Option<Columns> = None;
         let mut file_count = 0;
         let mut with_warnings = false;
-        let wanted = |case| self.place(case).is_some();
+        let is_of_sweep = |case| self.position(case).is_some();
         for path in paths {
             let path = path.as_ref();
-            let content = read(path, &self.grid, &wanted, columns.as_ref(), Ending::Whole)?;
+            let content =
+                read_file(path, &self.grid, &is_of_sweep, columns.as_ref(), Ending::Whole)?;
             add_rows(&mut rows, content.rows, path, Ending::Whole)?;
             file_count += 1;
             with_warnings |= content.columns.with_warnings;
@@ -71,68 +81,80 @@ impl Sweep<'_> {
                 columns.get_or_insert(content.columns);
             }
         }
-        let cases: Vec<_> = self.cases().filter(|case| !rows.contains_key(case)).collect();
-        if !cases.is_empty() {
-            let places: Vec<_> = cases.iter().filter_map(|&case| self.place(case)).collect();
-            let shards = missing_shards(&places, self.cases().len(), file_count);
-            return Err(SweepError::Missing { cases, shards }.into());
+        let missing_cases: Vec<_> = self.cases().filter(|case| !rows.contains_key(case)).collect();
+        if !missing_cases.is_empty() {
+            let missing_positions: Vec<_> =
+                missing_cases.iter().filter_map(|&case| self.position(case)).collect();
+            let shards = missing_shards(&missing_positions, self.cases().len(), file_count);
+            return Err(SweepError::Missing { cases: missing_cases, shards }.into());
         }
-        let columns = Columns { with_warnings, ..columns.unwrap_or_default() };
-        self.checked_columns(&columns.names)?;
+        let merged_columns = Columns { with_warnings, ..columns.unwrap_or_default() };
+        self.checked_columns(&merged_columns.names)?;
         // Without names of results all cases of a file must have failed.
         for stored in rows.values() {
             let row = &stored.row;
-            let count = row.outcome.as_ref().map_or(columns.names.len(), Vec::len);
-            if count != columns.names.len() {
+            let result_count = row.outcome.as_ref().map_or(merged_columns.names.len(), Vec::len);
+            if result_count != merged_columns.names.len() {
                 let results = format!("results of case {}", row.case);
-                let needed = columns.names.len().to_string();
-                return Err(FileFault::count(&results, count, needed).of(name(&stored.path), 0));
+                let needed = merged_columns.names.len().to_string();
+                return Err(
+                    FileFault::count(&results, result_count, needed).of(path_text(&stored.path), 0)
+                );
             }
         }
         let rows = rows.into_values().map(|stored| stored.row).collect();
-        Ok(CaseTable { grid: self.grid.clone(), columns, rows })
+        Ok(CaseTable { grid: self.grid.clone(), columns: merged_columns, rows })
     }
 }
 
 /// Largest number of missing shards that an error lists; above, it lists cases.
 const MAX_LISTED_SHARDS: usize = 256;
 
-/// The shards `[index, of]` whose cases are exactly the missing cases of `count`.
+/// The shards `[index, shard_count]` whose cases are exactly the missing ones, if there are such.
 ///
-/// `files`: number of other shards that are there.
-fn missing_shards(missing: &[usize], count: usize, files: usize) -> Vec<[usize; 2]> {
-    if files == 0 {
+/// `missing_positions`: positions of the missing cases among all `case_count` cases. `file_count`: number of files, which
+/// have the other shards.
+fn missing_shards(
+    missing_positions: &[usize],
+    case_count: usize,
+    file_count: usize,
+) -> Vec<[usize; 2]> {
+    if file_count == 0 {
         return Vec::new();
     }
-    let max_shards = (files + missing.len().min(MAX_LISTED_SHARDS)).min(count);
-    for of in files + 1..=max_shards {
-        let missing_count = of - files;
-        let min_cases = missing_count * (count / of);
-        if !(min_cases..=min_cases + missing_count).contains(&missing.len()) {
+    let max_shard_count =
+        (file_count + missing_positions.len().min(MAX_LISTED_SHARDS)).min(case_count);
+    for shard_count in file_count + 1..=max_shard_count {
+        let missing_shard_count = shard_count - file_count;
+        let min_case_count = missing_shard_count * (case_count / shard_count);
+        if !(min_case_count..=min_case_count + missing_shard_count)
+            .contains(&missing_positions.len())
+        {
             continue;
         }
-        let mut missing_cases = vec![0; of];
-        for place in missing {
-            missing_cases[place % of] += 1;
+        let mut missing_counts = vec![0; shard_count];
+        for position in missing_positions {
+            missing_counts[position % shard_count] += 1;
         }
         let mut shards = Vec::new();
-        let mut are_whole = true;
-        for (index, &cases) in missing_cases.iter().enumerate() {
-            if cases > 0 {
-                shards.push([index, of]);
-                are_whole &= cases == shard_cases(index, of, count);
+        let mut are_complete = true;
+        for (index, &missing_in_shard) in missing_counts.iter().enumerate() {
+            if missing_in_shard > 0 {
+                shards.push([index, shard_count]);
+                are_complete &=
+                    missing_in_shard == shard_case_count(index, shard_count, case_count);
             }
         }
-        if are_whole && shards.len() == missing_count {
+        if are_complete && shards.len() == missing_shard_count {
             return shards;
         }
     }
     Vec::new()
 }
 
-/// Number of cases of a shard: count / of, or one more.
-fn shard_cases(index: usize, of: usize, count: usize) -> usize {
-    count / of + usize::from(index < count % of)
+/// Number of cases of a shard: the quotient of both counts, or one more.
+fn shard_case_count(index: usize, shard_count: usize, case_count: usize) -> usize {
+    case_count / shard_count + usize::from(index < case_count % shard_count)
 }
 
 #[cfg(test)]

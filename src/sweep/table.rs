@@ -41,7 +41,9 @@ impl Columns {
         Self { names, with_warnings: false }
     }
 
-    /// The `results` of columns with other `names`, in the order of these columns; NaN where there is none.
+    /// Results in the order of these columns, NaN for a column without a result.
+    ///
+    /// `names`: columns of the `results`.
     #[cfg(feature = "io")]
     pub(super) fn arranged(&self, names: &[String], results: Vec<f64>) -> Vec<f64> {
         if self.names == names {
@@ -49,7 +51,7 @@ impl Columns {
         }
         let mut arranged = Vec::with_capacity(self.names.len());
         for name in &self.names {
-            let index = names.iter().position(|other| other == name);
+            let index = names.iter().position(|result_name| result_name == name);
             arranged.push(index.map_or(f64::NAN, |index| results[index]));
         }
         arranged
@@ -59,14 +61,18 @@ impl Columns {
 /// A case with its results or its error.
 #[derive(Debug, Clone)]
 pub(super) struct TableRow {
+    /// Index of the case.
     pub(super) case: usize,
+    /// Results in the order of the columns, or the text of the error.
     pub(super) outcome: std::result::Result<Vec<f64>, String>,
-    /// Texts of the run's warnings, empty without any.
+    /// Texts of the run's warnings; empty if there are none.
     pub(super) warnings: String,
 }
 
 impl TableRow {
-    /// Makes a row; a NaN loses its sign and payload, and an empty error text becomes "failed".
+    /// Row without warnings, in the form in which it is read back.
+    ///
+    /// Every NaN becomes the same NaN, and an empty error text becomes "failed".
     pub(super) fn new(case: usize, outcome: std::result::Result<Vec<f64>, String>) -> Self {
         let outcome = match outcome {
             Ok(mut results) => {
@@ -84,17 +90,22 @@ impl TableRow {
     }
 
     /// Adds the values of all cells to the check sum of a table.
-    pub(super) fn add_to(&self, grid: &CaseGrid, columns: &Columns, sum: &mut CheckSum) {
-        sum.add(self.case as u64);
+    pub(super) fn add_to_check_sum(
+        &self,
+        grid: &CaseGrid,
+        columns: &Columns,
+        check_sum: &mut CheckSum,
+    ) {
+        check_sum.add(self.case as u64);
         for cell in parameter_cells(grid, self.case) {
-            sum.add_text(&cell);
+            check_sum.add_text(&cell);
         }
         match &self.outcome {
-            Ok(results) => sum.add_numbers(results),
-            Err(reason) => sum.add_text(reason),
+            Ok(results) => check_sum.add_numbers(results),
+            Err(reason) => check_sum.add_text(reason),
         }
         if columns.with_warnings {
-            sum.add_text(&self.warnings);
+            check_sum.add_text(&self.warnings);
         }
     }
 
@@ -139,10 +150,10 @@ impl PartialEq for CaseTable {
 /// Values of a case's parameters, as text.
 pub(super) fn parameter_cells(grid: &CaseGrid, case: usize) -> impl Iterator<Item = String> {
     grid.parameters.iter().enumerate().map(move |(index, parameter)| {
-        let place = grid.place_of(case, index);
-        match parameter.number(place) {
+        let value_index = grid.value_index(case, index);
+        match parameter.number(value_index) {
             Some(number) => NumberCell(number).to_string(),
-            None => parameter.text(place).unwrap_or_default().to_owned(),
+            None => parameter.text(value_index).unwrap_or_default().to_owned(),
         }
     })
 }
@@ -163,17 +174,17 @@ pub(super) fn heading(grid: &CaseGrid, columns: &Columns) -> Vec<String> {
 pub(super) const FILE_BEGINNING: &str = "# basemat sweep 1 check sum ";
 
 /// Check sum of a table without rows.
-pub(super) fn heading_sum(grid: &CaseGrid, columns: &Columns) -> CheckSum {
-    let mut sum = CheckSum::default();
+pub(super) fn heading_check_sum(grid: &CaseGrid, columns: &Columns) -> CheckSum {
+    let mut check_sum = CheckSum::default();
     for name in heading(grid, columns) {
-        sum.add_text(&name);
+        check_sum.add_text(&name);
     }
-    sum
+    check_sum
 }
 
 /// The first two lines of a table's file.
-pub(super) fn first_lines(grid: &CaseGrid, columns: &Columns, sum: CheckSum) -> String {
-    format!("{FILE_BEGINNING}{}\n{}", sum.text(), csv_line(&heading(grid, columns)))
+pub(super) fn first_lines(grid: &CaseGrid, columns: &Columns, check_sum: CheckSum) -> String {
+    format!("{FILE_BEGINNING}{}\n{}", check_sum.text(), csv_line(&heading(grid, columns)))
 }
 
 /// A row of a [`CaseTable`].
@@ -202,8 +213,9 @@ impl<'a> CaseRow<'a> {
         }
         let columns = &self.table.columns.names;
         let index = columns.iter().position(|name| name == column);
-        let index =
-            index.ok_or_else(|| self.table.grid.no_name("column of numbers", column, columns))?;
+        let index = index.ok_or_else(|| {
+            self.table.grid.missing_name_error("column of numbers", column, columns)
+        })?;
         match self.results {
             Ok(results) => Ok(results[index]),
             Err(reason) => Err(Error::part(format!("case {} failed", self.index), reason)),
@@ -223,7 +235,7 @@ impl<'a> CaseRow<'a> {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is no parameter of this name.
     pub fn place(&self, parameter: &str) -> Result<usize> {
-        self.table.grid.place(self.index, parameter)
+        self.table.grid.named_value_index(self.index, parameter)
     }
 }
 
@@ -249,9 +261,9 @@ impl CaseTable {
     /// back to the last bit. NaN is an empty cell, infinities are `inf` and `-inf`. A case that failed has empty results and
     /// a text in `error`.
     pub fn csv(&self) -> Csv {
-        let mut sum = heading_sum(&self.grid, &self.columns);
+        let mut sum = heading_check_sum(&self.grid, &self.columns);
         for row in &self.rows {
-            row.add_to(&self.grid, &self.columns, &mut sum);
+            row.add_to_check_sum(&self.grid, &self.columns, &mut sum);
         }
         let mut text = first_lines(&self.grid, &self.columns, sum);
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
@@ -259,12 +271,19 @@ impl CaseTable {
     }
 }
 
-/// Writes a number with five figures, a whole number in full, the smallest numbers with an exponent.
+/// Largest magnitude, excluded, of a whole number that is printed with all digits.
+const MAX_WHOLE_NUMBER: f64 = 1e15;
+/// Smallest magnitude of a number that is printed without an exponent.
+const MIN_DECIMAL_NUMBER: f64 = 1e-6;
+
+/// Text of a number for a printed table, with five figures.
+///
+/// A whole number has all digits; very small numbers have an exponent.
 fn five_figures(value: f64) -> String {
-    if value.fract() == 0.0 && value.abs() < 1e15 {
+    if value.fract() == 0.0 && value.abs() < MAX_WHOLE_NUMBER {
         // Adding zero removes a negative sign of zero.
         format!("{}", value + 0.0)
-    } else if value.abs() < 1e-6 {
+    } else if value.abs() < MIN_DECIMAL_NUMBER {
         format!("{value:.3e}")
     } else {
         number(value)

@@ -12,7 +12,7 @@ use super::fault::{FaultResult, not_acceleration, out_of_range, unclear, unproce
 use super::lines::{LineResult, Lines, read_numbers};
 use super::series::{Series, select_component, to_record, to_records};
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::Result;
+use crate::error::{FileFault, Result};
 use crate::text::decimal::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
@@ -107,8 +107,7 @@ fn read(
     let mut channels = Vec::new();
     let mut cosmos_header = CosmosHeader::default();
     let mut csmip_header = CsmipHeader::default();
-    let mut uncorrected_title = None;
-    let mut other_quantity_fault = None;
+    let mut other_titles = OtherTitles::default();
     let mut next_line = None;
     while let Some(line) = match next_line.take() {
         Some(line) => Some(line),
@@ -125,14 +124,7 @@ fn read(
             cosmos_header.block(&line, format.unit)
         } else {
             csmip_header.read(&lower_case_line);
-            let is_other_quantity = is_title_of(&lower_case_line, &["vel", "disp"])
-                || csmip::is_other_title(&lower_case_line);
-            if other_quantity_fault.is_none() && is_other_quantity {
-                other_quantity_fault = Some(lines.fault(not_acceleration(line.trim())));
-            }
-            if lines.number == 1 && lower_case_line.contains("uncorrected accelerogram") {
-                uncorrected_title = Some(line);
-            }
+            other_titles.read(lines, &line, &lower_case_line);
             continue;
         };
         channel_count += 1;
@@ -153,15 +145,40 @@ fn read(
     if channel_count > 0 && selected_channel.is_none() {
         return Ok(channels);
     }
-    if channel_count == 0 {
-        if let Some(fault) = other_quantity_fault {
-            return Err(fault);
+    let missing_channel = out_of_range("channel", channel_count, selected_channel.unwrap_or(1));
+    let explanation = if channel_count == 0 { other_titles.fault() } else { None };
+    Err(explanation.unwrap_or_else(|| lines.fault(missing_channel)))
+}
+
+/// Titles that explain why a file has no block of acceleration.
+#[derive(Default)]
+struct OtherTitles {
+    /// Fault of the first title of another quantity, with its line number.
+    other_quantity_fault: Option<(usize, FileFault)>,
+    /// First line of a file of uncorrected data.
+    uncorrected_title: Option<String>,
+}
+
+impl OtherTitles {
+    /// Reads a line that is no title of a block of acceleration.
+    fn read(&mut self, lines: &Lines, line: &str, lower_case_line: &str) {
+        let is_other_quantity = is_title_of(lower_case_line, &["vel", "disp"])
+            || csmip::is_other_title(lower_case_line);
+        if self.other_quantity_fault.is_none() && is_other_quantity {
+            self.other_quantity_fault = Some(lines.fault(not_acceleration(line.trim())));
         }
-        if let Some(title) = uncorrected_title {
-            return Err((1, unprocessed(&title, "uncorrected data in unequal steps")));
+        if lines.number == 1 && lower_case_line.contains("uncorrected accelerogram") {
+            self.uncorrected_title = Some(line.to_owned());
         }
     }
-    Err(lines.fault(out_of_range("channel", channel_count, selected_channel.unwrap_or(1))))
+
+    /// Fault of the file, with its line number, if a title explains it.
+    fn fault(self) -> Option<(usize, FileFault)> {
+        self.other_quantity_fault.or_else(|| {
+            let title = self.uncorrected_title?;
+            Some((1, unprocessed(&title, "uncorrected data in unequal steps")))
+        })
+    }
 }
 
 /// Whether a line in lower case is the title of a block of one of the `quantities`.

@@ -55,7 +55,7 @@ impl EsmHeader {
         match key.to_ascii_uppercase().as_str() {
             "SAMPLING_INTERVAL_S" => self.time_step = HeaderNumber::TimeStep.read(value)?,
             "NDATA" => {
-                self.sample_count = HeaderNumber::Points.read(value)?.and_then(whole_sample_count)
+                self.sample_count = HeaderNumber::Points.read(value)?.and_then(whole_sample_count);
             }
             "DURATION_S" => self.duration = HeaderNumber::Duration.read(value)?,
             "UNITS" => {

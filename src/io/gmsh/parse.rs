@@ -37,7 +37,7 @@ pub(super) fn read(source: impl Read, accepted_kinds: &AcceptedKinds) -> LineRes
             }
             "Nodes" if may_be_version_4 => version4::nodes(&mut fields, &mut mesh)?,
             "Elements" if may_be_version_4 => {
-                version4::elements(&mut fields, &mut mesh, accepted_kinds)?
+                version4::elements(&mut fields, &mut mesh, accepted_kinds)?;
             }
             "Nodes" => version2::nodes(&mut fields, &mut mesh)?,
             "Elements" => version2::elements(&mut fields, &mut mesh, accepted_kinds)?,
