@@ -16,22 +16,22 @@ use crate::error::{LawError, StepError};
 use crate::interface::Limits;
 
 /// Distance from the curve at which a pressure is accepted, relative to the pressure.
-pub(super) const CURVE_TOLERANCE: f64 = 1e-9;
+const CURVE_TOLERANCE: f64 = 1e-9;
 /// Largest number of linearisations of a step.
 const MAX_LINEARISATIONS: usize = 80;
 /// Number of linearisations after which steps are halved.
 const WHOLE_STEPS: usize = 15;
 /// Largest number of tangents in the solution of one element: a curve that bends within 1e-12 of the settlement takes 40.
 const MAX_LOCAL_TANGENTS: usize = 60;
-/// Relative change of a settlement that ends the solution of one element.
-const LOCAL_TOLERANCE: f64 = 1e-12;
+/// Relative change of a settlement that ends the solution of one element: the other elements still move.
+const LOCAL_TOLERANCE: f64 = 1e-3;
 
 /// Solution of an element with the tangent of its law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TangentSolution {
     pub(super) element: usize,
     pub(super) pressure: f64,
-    /// v; below zero if the element is open. Zero if it does not yield.
+    /// v; below zero if the element is open.
     pub(super) settlement: f64,
     pub(super) yields: bool,
     /// ρ.
@@ -58,30 +58,35 @@ impl Linearisation {
         self.worst = None;
     }
 
-    /// Compares a solution with the curve, and moves the trial `settlement` of its element.
+    /// Compares a solution with the curve; returns the next trial settlement of its element, m, unless it is near enough.
+    ///
+    /// `trial_settlement`: the present one.
     pub(super) fn compare(
         &mut self,
         input: &ContactInput<'_>,
         solution: &TangentSolution,
-        settlement: &mut f64,
-    ) -> Result<(), LawError> {
+        trial_settlement: f64,
+    ) -> Result<Option<f64>, LawError> {
         let &TangentSolution { element, pressure, yields, .. } = solution;
         let present = if yields { solution.settlement.max(0.0) } else { 0.0 };
-        let Limits { pressure_cap, hardening, .. } = input.limits(element, present)?;
+        let limits = input.limits(element, present)?;
+        let Limits { pressure_cap, hardening, .. } = limits;
         let on_curve = pressure_cap + hardening * present;
         let difference = pressure - on_curve;
         let distance = if yields { difference.abs() } else { difference.max(0.0) };
         let tolerance = CURVE_TOLERANCE * on_curve.max(pressure)
             + solution.pressure_rounding
             + hardening * solution.settlement_rounding;
+        if distance <= tolerance {
+            return Ok(None);
+        }
         let excess = distance / tolerance.max(f64::MIN_POSITIVE);
-        // Also for a distance that is not a number.
-        if !(excess <= 1.0) && self.worst.is_none_or(|(_, worst)| !(excess <= worst)) {
+        if self.worst.is_none_or(|(_, worst)| excess > worst) {
             self.worst = Some((element, excess));
         }
-        let next = settlement_on_curve(input, solution, present)?;
-        *settlement = if self.count > WHOLE_STEPS { 0.5 * (*settlement + next) } else { next };
-        Ok(())
+        let next = settlement_on_curve(input, solution, limits, present)?;
+        let is_whole = self.count <= WHOLE_STEPS;
+        Ok(Some(if is_whole { next } else { 0.5 * (trial_settlement + next) }))
     }
 
     /// Whether all pressures are on their curves.
@@ -103,23 +108,25 @@ impl Linearisation {
 
 /// The settlement at which the line p + ρ v = constant through a solution meets the law's curve; zero below it.
 ///
-/// `guess`: where the first tangent touches the curve.
+/// `limits`: the tangent at a settlement `begin`.
 pub(super) fn settlement_on_curve(
     input: &ContactInput<'_>,
     solution: &TangentSolution,
-    guess: f64,
+    mut limits: Limits,
+    begin: f64,
 ) -> Result<f64, LawError> {
     let &TangentSolution { element, pressure, settlement, stiffness, .. } = solution;
     let trial = pressure + stiffness * settlement;
-    let mut found = guess;
+    let mut found = begin;
     for _ in 0..MAX_LOCAL_TANGENTS {
-        let Limits { pressure_cap, hardening, .. } = input.limits(element, found)?;
+        let Limits { pressure_cap, hardening, .. } = limits;
         let next = ((trial - pressure_cap) / (hardening + stiffness)).max(0.0);
         let change = (next - found).abs();
         found = next;
         if change <= LOCAL_TOLERANCE * found {
             break;
         }
+        limits = input.limits(element, found)?;
     }
     Ok(found)
 }

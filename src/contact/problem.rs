@@ -9,6 +9,8 @@
 //! jump = j₀ + W τ. Its normal components are gaps. The slip of the structure is minus its tangential
 //! components.
 
+use std::cell::Cell;
+
 use super::delassus::Delassus;
 use crate::error::{Error, LawError};
 use crate::interface::{
@@ -45,7 +47,7 @@ pub(crate) struct ContactInput<'a> {
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
     /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
-    pub(crate) trial_settlements: &'a [f64],
+    pub(crate) trial_settlements: &'a [Cell<f64>],
     /// In plan, whether friction and cohesion are left out, as while the weight comes on.
     pub(crate) frictionless: bool,
 }
@@ -67,7 +69,7 @@ impl ContactInput<'_> {
         let mut start = self.start.element(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
         if let Some(settlement) = self.trial_settlements.get(element) {
-            start.trial_settlement = *settlement;
+            start.trial_settlement = settlement.get();
         }
         start
     }

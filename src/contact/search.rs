@@ -15,8 +15,11 @@
 //! one of these problems is not solved, all bonds break. Where friction alone lets an element stick, its bond
 //! carries less than its strength, so the solution without bonds satisfies the law, too.
 
+use std::cell::Cell;
+
 use super::element::local_mode;
 use super::fixed_modes::FixedModeSolver;
+use super::linearisation::Linearisation;
 use super::path::Path;
 use super::problem::{Bond, ContactInput};
 use super::{ContactSearch, SearchMethod};
@@ -47,7 +50,7 @@ pub(crate) struct ModeSearch {
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
     /// Settlements at which the laws are linearised, m.
-    trial_settlements: Vec<f64>,
+    trial_settlements: Vec<Cell<f64>>,
     /// Number of trials of this search so far.
     trials: usize,
     /// Number of all sets of modes, if the last search tried all of them without success.
@@ -66,7 +69,7 @@ impl ModeSearch {
             path: Path::new(count),
             bonds: vec![Bond::Free; count],
             overloads: Vec::with_capacity(count),
-            trial_settlements: vec![0.0; count],
+            trial_settlements: vec![Cell::new(0.0); count],
             trials: 0,
             sets: None,
             search,
@@ -87,9 +90,10 @@ impl ModeSearch {
         if is_bonded && self.solver.trial(input, modes)? {
             return Ok((1, SearchMethod::ActiveSet));
         }
-        let mut trial_settlements = std::mem::take(&mut self.trial_settlements);
-        trial_settlements.fill(0.0);
-        let method = self.follow_curves(input, modes, &mut trial_settlements);
+        let trial_settlements = std::mem::take(&mut self.trial_settlements);
+        trial_settlements.iter().for_each(|settlement| settlement.set(0.0));
+        let linearised = ContactInput { trial_settlements: &trial_settlements, ..*input };
+        let method = self.follow_curves(&linearised, modes);
         self.trial_settlements = trial_settlements;
         Ok((self.trials, method?))
     }
@@ -286,12 +290,20 @@ impl ModeSearch {
             ContactSearch::Robust => ACTIVE_SET_TRIALS,
             ContactSearch::FlowChart { iterations } => iterations,
         };
+        let mut linearisation = Linearisation::new();
         for _ in 0..max_trials {
             self.trials += 1;
             if !self.solver.trial(input, modes)? {
                 return Ok(false);
             }
-            if self.update_next_modes(input, modes)? {
+            let is_admissible = self.update_next_modes(input, modes)?;
+            if self.move_tangents(input, modes, &mut linearisation)? {
+                // Other tangents make another problem, in which the same modes may occur again.
+                modes.copy_from_slice(&self.next);
+                self.visited.clear();
+                continue;
+            }
+            if is_admissible {
                 return Ok(true);
             }
             self.visited.extend_from_slice(modes);

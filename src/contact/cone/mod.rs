@@ -46,11 +46,15 @@ use crate::error::{LawError, StepError};
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::Mode;
 use newton::Newton;
-use problem::ConeProblem;
+use problem::{ConeProblem, RELATIVE_RESIDUAL_TOLERANCE};
 use proximal::Proximal;
 use search::search;
 use status::{Normal, Status, Tangential};
 
+/// Residual at which the tangents of curves first move, relative to the largest force.
+const TANGENT_TOLERANCE: f64 = 1e-5;
+/// Error of a solution in units of the residual at which it is accepted.
+const ROUNDING_FACTOR: f64 = 10.0;
 /// Gap at which a bond breaks, relative to the largest displacement.
 const BOND_BREAKING_GAP: f64 = 1e-12;
 
@@ -119,6 +123,9 @@ impl ForceSearch {
         for mode in modes.iter_mut() {
             *mode = mode.in_any_direction();
         }
+        // The tangents of curves move before the solution is exact.
+        self.problem.relative_tolerance =
+            if self.hardens { TANGENT_TOLERANCE } else { RELATIVE_RESIDUAL_TOLERANCE };
         let tried = self.try_previous_statuses(modes);
         let mut trials = usize::from(tried);
         if !(tried && self.problem.is_solved()) {
@@ -127,7 +134,7 @@ impl ForceSearch {
             self.write_modes(modes);
         }
         if self.hardens {
-            method = method.max(self.follow_curves(input, modes, &mut trials)?);
+            method = method.max(self.follow_curves(input, method, modes, &mut trials)?);
         }
         self.update_traction(input)?;
         self.update_jump(input);
@@ -157,47 +164,63 @@ impl ForceSearch {
     }
 
     /// Solves with other tangents until the pressures are on the curves of their laws.
+    ///
+    /// `first_method`: of the present forces, up to [`TANGENT_TOLERANCE`].
     fn follow_curves(
         &mut self,
         input: &ContactInput<'_>,
+        first_method: SearchMethod,
         modes: &mut [Mode],
         trials: &mut usize,
     ) -> Result<SearchMethod, StepError> {
-        let mut method = SearchMethod::ActiveSet;
+        let mut method = first_method;
         let mut linearisation = Linearisation::new();
+        self.problem.relative_tolerance = RELATIVE_RESIDUAL_TOLERANCE;
+        let mut is_exact = false;
         loop {
-            self.compare_with_curves(input, &mut linearisation)?;
-            if linearisation.is_done()? {
+            let has_moved = self.move_tangents(input, &mut linearisation)?;
+            if !has_moved && (is_exact || self.problem.is_solved()) {
                 return Ok(method);
             }
-            for e in 0..self.areas.len() {
-                if self.problem.bounds[e].hardening > 0.0 || self.trial_settlements[e] > 0.0 {
-                    self.linearise(input, e)?;
-                }
-            }
-            method = method.max(self.solve_again(input, trials)?);
+            linearisation.is_done()?;
+            // Factors of this step solve again in less time than sweeps do; without any, sweeps go on.
+            let is_swept = method == SearchMethod::GaussSeidel || method == SearchMethod::Proximal;
+            let found = if is_swept {
+                self.search_forces(input, trials)?
+            } else {
+                self.solve_again(input, trials)?
+            };
+            method = method.max(found);
             self.write_modes(modes);
+            is_exact = true;
         }
     }
 
-    /// Compares the present forces with the curves of the laws, and moves the trial settlements.
-    fn compare_with_curves(
+    /// Compares the present forces with the curves of the laws, and moves the tangents; returns whether any has moved.
+    fn move_tangents(
         &mut self,
         input: &ContactInput<'_>,
         linearisation: &mut Linearisation,
-    ) -> Result<(), LawError> {
+    ) -> Result<bool, LawError> {
         linearisation.begin();
+        let mut has_moved = false;
+        let residual = ROUNDING_FACTOR * self.problem.tolerance();
         for e in 0..self.areas.len() {
-            let solution = self.tangent_solution(input, e);
+            let settlement = self.trial_settlements[e];
             let hardens = self.problem.bounds[e].hardening > 0.0;
-            if self.trial_settlements[e] > 0.0 || hardens && solution.yields {
-                linearisation.compare(input, &solution, &mut self.trial_settlements[e])?;
+            if settlement > 0.0 || hardens && self.newton.statuses[e].is_yield() {
+                let solution = self.tangent_solution(input, e, residual);
+                if let Some(next) = linearisation.compare(input, &solution, settlement)? {
+                    self.trial_settlements[e] = next;
+                    self.linearise(input, e)?;
+                    has_moved = true;
+                }
             }
         }
-        Ok(())
+        Ok(has_moved)
     }
 
-    /// Finds forces from a solution whose bounds have changed a little.
+    /// Finds forces by Newton's method from a solution whose bounds have changed a little.
     fn solve_again(
         &mut self,
         input: &ContactInput<'_>,

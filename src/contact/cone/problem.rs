@@ -27,7 +27,7 @@ use super::wide::DenseLattice;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
 /// Residual at which a solution is accepted, relative to the largest force.
-const RELATIVE_RESIDUAL_TOLERANCE: f64 = 1e-11;
+pub(super) const RELATIVE_RESIDUAL_TOLERANCE: f64 = 1e-11;
 /// Number of elements from which a factorization takes longer than several sweeps.
 const MANY_ELEMENTS: usize = 64;
 
@@ -83,6 +83,8 @@ pub(super) struct ConeProblem {
     pub(super) y: Vec<f64>,
     /// ρ of each element: normal, tangential.
     pub(super) rho: Vec<[f64; 2]>,
+    /// Residual at which a solution is accepted, relative to the largest force.
+    pub(super) relative_tolerance: f64,
     /// Smallest force used to normalise residuals, N; in `rounding_residual` the residual at rounding level, N.
     pub(super) min_force_scale: f64,
     pub(super) rounding_residual: f64,
@@ -113,6 +115,7 @@ impl ConeProblem {
             change: zero.clone(),
             y: zero.clone(),
             rho: vec![[0.0; 2]; count],
+            relative_tolerance: RELATIVE_RESIDUAL_TOLERANCE,
             min_force_scale: 0.0,
             rounding_residual: 0.0,
         }
@@ -347,7 +350,7 @@ impl ConeProblem {
 
     /// Residual below which r is a solution, N.
     pub(super) fn tolerance(&self) -> f64 {
-        (RELATIVE_RESIDUAL_TOLERANCE * self.largest_force()).max(self.rounding_residual)
+        (self.relative_tolerance * self.largest_force()).max(self.rounding_residual)
     }
 
     /// Whether the present r is a solution of the problem, by the motions of blocks as they are.

@@ -12,9 +12,6 @@ use crate::error::LawError;
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
 
-/// Error of a solution in units of the residual at which it is accepted.
-const ROUNDING_FACTOR: f64 = 10.0;
-
 impl ForceSearch {
     /// Reads W, q and the limits of the laws.
     pub(super) fn read_step(&mut self, input: &ContactInput<'_>) -> Result<(), LawError> {
@@ -60,22 +57,27 @@ impl ForceSearch {
         self.problem.update_motions();
         for e in 0..self.areas.len() {
             if self.problem.bounds[e].hardening > 0.0 {
-                let solution = TangentSolution { yields: true, ..self.tangent_solution(input, e) };
-                let guess = solution.settlement.max(0.0);
-                self.trial_settlements[e] = settlement_on_curve(input, &solution, guess)?;
+                let solution =
+                    TangentSolution { yields: true, ..self.tangent_solution(input, e, 0.0) };
+                let begin = solution.settlement.max(0.0);
+                let limits = input.limits(e, begin)?;
+                self.trial_settlements[e] = settlement_on_curve(input, &solution, limits, begin)?;
                 self.linearise(input, e)?;
             }
         }
         Ok(())
     }
 
-    /// Solution of an element in its present status.
-    pub(super) fn tangent_solution(&self, input: &ContactInput<'_>, e: usize) -> TangentSolution {
+    /// Solution of an element in its present status, with a `residual` (N) that is a force, or a gap times ρ.
+    pub(super) fn tangent_solution(
+        &self,
+        input: &ContactInput<'_>,
+        e: usize,
+        residual: f64,
+    ) -> TangentSolution {
         let Self { problem, newton, areas, .. } = self;
         let area = areas[e];
         let [stiffness, _] = problem.rho[e];
-        // A solution is accepted with this residual, which is a force or a gap times ρ.
-        let residual = ROUNDING_FACTOR * problem.tolerance();
         let rounding_of_length = 4.0 * f64::EPSILON * input.length_scale;
         TangentSolution {
             element: e,
