@@ -210,7 +210,7 @@ impl ElementNodes {
 
     /// Inverse of the inertia tensor of unit masses at the nodes, 1/m².
     ///
-    /// Nodes on a line have no inertia about it: the inverse is then that of rotations about axes at right angles to
+    /// Nodes on a line have no inertia about it: the inverse then refers to rotations about axes at right angles to
     /// the line.
     fn inverse_inertia(&self, line_direction: Option<[f64; 3]>) -> [[f64; 3]; 3] {
         if let Some(tangent) = line_direction {

@@ -110,7 +110,7 @@ fn horizontal_in_the_plane(structure: &dyn Structure, height: f64) -> Result<Dof
 
 /// Motion of a base in the plane: its middle to the right, rotation, and its middle upwards.
 ///
-/// The rotation is that of the line between its ends. Nodes of walls do not count.
+/// The line between its ends determines the rotation. Nodes of walls do not count.
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
     let floor_nodes = BaseNode::floor(nodes);

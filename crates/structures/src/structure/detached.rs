@@ -33,12 +33,12 @@ pub fn check_attached(
     if dofs.is_empty() {
         return Ok(());
     }
-    let place = structure.describe(&dofs).unwrap_or_else(|| numbers(&dofs));
+    let place = structure.describe(&dofs).unwrap_or_else(|| dof_list_text(&dofs));
     Err(StructureError::Detached { dofs, place }.into())
 }
 
 /// Text that lists degrees of freedom by their indices.
-pub fn numbers(dofs: &[usize]) -> String {
+pub fn dof_list_text(dofs: &[usize]) -> String {
     let indices: Vec<String> =
         dofs.iter().take(MAX_LISTED_ITEMS).map(ToString::to_string).collect();
     let noun = if dofs.len() == 1 { "degree of freedom" } else { "degrees of freedom" };

@@ -35,7 +35,7 @@ use crate::structure::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ModalDampingForm"))]
 pub struct ModalDamping {
-    /// Damping ratios of the modes, ascending in frequency; the last one is that of all further modes.
+    /// Damping ratios of the modes, ascending in frequency; all further modes have the last one.
     ratios: Vec<f64>,
 }
 

@@ -125,7 +125,7 @@ impl Probe {
 ///
 /// # Errors
 /// [`Error::Item`] for degrees of freedom of at least `dofs`, and [`Error::DuplicateName`] for two probes of one name.
-pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
+pub fn check_probes(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
         let name = &probe.name;

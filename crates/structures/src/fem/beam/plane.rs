@@ -97,7 +97,7 @@ impl Beam {
     /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and P–δ). It is
     /// the force of the static state, for example the weight above.
     /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from this method.
-    /// In a rigid rotation the end forces of the beam form a couple, as those of a real column do.
+    /// In a rigid rotation the end forces of the beam form a couple, as in a real column.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.

@@ -117,7 +117,7 @@ impl Shell {
 
     /// Matches triangles to the quadrilaterals with which they share sides.
     ///
-    /// By default the sides of triangles bulge more with the rotations of their ends than those of quadrilaterals,
+    /// By default the sides of triangles bulge more with the rotations of their ends than the sides of quadrilaterals,
     /// which makes walls of triangles bend accurately. At quadrilaterals the difference would disturb the membrane
     /// forces: by a quarter of a uniform stress where a line between triangles and quadrilaterals begins, ends or
     /// turns, and by 0.4 of it everywhere on a chessboard of both. Refinement does not reduce the error. Matched sides

@@ -8,7 +8,7 @@ use crate::error::{Result, positive, require};
 use crate::linalg::gauss;
 use crate::structure::InternalEnergy;
 
-/// Exponent n without [`BoucWen::with_shape`]: that of the coupled law, whose loops are elementary functions.
+/// Exponent n without [`BoucWen::with_shape`]; the coupled law has the same exponent.
 const DEFAULT_EXPONENT: f64 = 2.0;
 /// β without [`BoucWen::with_shape`]: unloading is straight.
 const DEFAULT_BETA: f64 = 0.5;
@@ -88,7 +88,7 @@ impl BoucWen {
 
     /// A new spring with these parameters for two directions.
     ///
-    /// Its law is that of Park, Wen & Ang (1986),
+    /// It follows the law of Park, Wen & Ang (1986),
     ///
     /// ```text
     /// F = α k d + (1 − α) F_y z,      ż = (ḋ − (β |ḋ·z| + γ ḋ·z) z)/d_y

@@ -141,7 +141,7 @@ fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame
 /// Weights of the displacements of a beam's nodes in the force or moment along `axis` at an end.
 ///
 /// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam. The
-/// force at the end is that of its node, and its resultant is the work on a unit rigid motion about the end.
+/// force at the end is the force of its node, and its resultant is the work on a unit rigid motion about the end.
 fn end_force_row(
     directions: &[Direction],
     frame: &EndFrame,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
-use crate::structure::detached::numbers;
+use crate::structure::detached::dof_list_text;
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::probe::Probe;
 use crate::structure::{
@@ -201,7 +201,7 @@ impl Member {
     }
 }
 
-/// A weighted sum of a member's degrees of freedom, converted to those of the group.
+/// A weighted sum of a member's degrees of freedom, converted to degrees of freedom of the group.
 ///
 /// `member_dofs`: degrees of freedom of the member in the group. An index out of their range is also out of the group's
 /// range afterwards.
@@ -275,7 +275,7 @@ impl Structure for StructureGroup {
                 let member_dofs: Vec<usize> =
                     group_dofs.iter().map(|dof| dof - range.start).collect();
                 let description = member.structure.describe(&member_dofs);
-                let text = description.unwrap_or_else(|| numbers(&group_dofs));
+                let text = description.unwrap_or_else(|| dof_list_text(&group_dofs));
                 texts.push(format!("structure {index}: {text}"));
             }
         }

@@ -98,7 +98,7 @@ impl MatrixModel {
     /// gives the force in its direction, a rotation about a point the moment about this point. The weights of the
     /// accelerations are −motionᵀ M. The result is exact for a part without loads and without damping to the ground;
     /// with the midpoint rule it is the mean over the step. To include the weight, add the acceleration of gravity to
-    /// the vertical accelerations. The unit is that of a force.
+    /// the vertical accelerations. The unit is the unit of a force.
     ///
     /// ```
     /// use basemat::structure::{BaseNode, MatrixModel, Triplets};

@@ -97,8 +97,8 @@ impl FemModel {
 
     /// Factor on the axial forces of the elements at which the structure buckles.
     ///
-    /// The contact nodes are fixed. The forces are those of [`with_p_delta`](FemModel::with_p_delta), or prescribed
-    /// ones. The factor is infinite if the structure does not buckle under a million times the forces. For the present
+    /// The contact nodes are fixed. The forces come from [`with_p_delta`](FemModel::with_p_delta), or are prescribed.
+    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present
     /// mesh it is accurate to nine digits, by some forty sparse factorisations.
     ///
     /// # Errors

@@ -14,14 +14,14 @@ use super::dof_partition::DofPartition;
 use super::recovery::Basis;
 use crate::error::{Result, damping_ratio, require_part, same_length};
 use crate::linalg::{SparseMatrix, dot};
-use crate::structure::detached::{check_attached, numbers};
+use crate::structure::detached::{check_attached, dof_list_text};
 use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{Base, Structure, StructureDescription, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
-/// The modes are those of the interior degrees of freedom with the kept degrees of freedom fixed. Rigid motions, weight
+/// The modes belong to the interior degrees of freedom with the kept degrees of freedom fixed. Rigid motions, weight
 /// and slow loads at the kept degrees of freedom are exact. Motion above the frequency of the highest mode
 /// ([`ReducedModel::frequencies`]) is filtered out. A usual choice is modes up to twice the highest frequency of
 /// interest.
@@ -47,7 +47,7 @@ use crate::structure::{Base, Structure, StructureDescription, Triplets};
 pub struct CraigBampton {
     /// Number of modes.
     mode_count: usize,
-    /// Degrees of freedom to keep beside those of the contact nodes.
+    /// Degrees of freedom to keep beside the contact nodes.
     kept_dofs: Vec<usize>,
 }
 
@@ -297,7 +297,7 @@ impl Structure for ReducedModel {
         let mut texts = Vec::new();
         if !full_dofs.is_empty() {
             let description = full.structure.describe(&full_dofs);
-            texts.push(description.unwrap_or_else(|| numbers(&full_dofs)));
+            texts.push(description.unwrap_or_else(|| dof_list_text(&full_dofs)));
         }
         if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept_dofs.len()) {
             texts.push(format!("mode {} of the reduction", dof - kept_dofs.len()));

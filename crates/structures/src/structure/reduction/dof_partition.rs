@@ -18,7 +18,7 @@ pub(super) struct DofPartition {
 }
 
 impl DofPartition {
-    /// Partition of `n` degrees of freedom, which keeps those of the base and `further_dofs`.
+    /// Partition of `n` degrees of freedom, which keeps the base and `further_dofs`.
     pub(super) fn new(n: usize, base: &Base, further_dofs: &[usize]) -> Result<Self> {
         let base_terms = base.nodes().flat_map(BaseNode::rows).flatten();
         let mut is_kept = vec![false; n];
