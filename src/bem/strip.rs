@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::error::{Error, Result, at_least, finite, positive, require};
 use crate::fundamental::branch::KernelWeight;
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
-use crate::structure::{Base, BaseNode, Structure, check_line, from_the_left};
+use crate::structure::{Base, BaseNode, Structure, check_left_to_right, check_line};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -121,7 +121,7 @@ impl Strip {
             check_line(nodes)?;
             let left_end = nodes[0].x;
             let right_end = nodes[nodes.len() - 1].x;
-            from_the_left(left_end, right_end)?;
+            check_left_to_right(left_end, right_end)?;
             let element_count = if count == 0 { 0 } else { count.max(BaseNode::segments(nodes)) };
             strips.push(Self::new(left_end..right_end, element_count, grading)?);
         }

@@ -19,16 +19,16 @@ use basemat_linalg as linalg;
 #[doc(hidden)]
 pub mod internal {
     pub use crate::fem::coincident::first_coincident_points;
-    pub use crate::structure::base_node::{check_line, from_the_left};
-    pub use crate::structure::detached::{check_attached, numbers as unknown_numbers};
+    pub use crate::structure::base_node::{check_left_to_right, check_line};
+    pub use crate::structure::detached::{check_attached, dof_list_text};
     pub use crate::structure::held_base::{HeldBase, stiffest};
     pub use crate::structure::matrix_checks::{
-        NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, combination,
-        massless,
+        NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, massless,
+        proportional_factors,
     };
     pub use crate::structure::nonlinear::{
         MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
         restore_variables, save_variables,
     };
-    pub use crate::structure::probe::{Probe, check as check_probes, probe_index};
+    pub use crate::structure::probe::{Probe, check_probes, probe_index};
 }

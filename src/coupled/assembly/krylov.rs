@@ -27,7 +27,7 @@ use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix};
-use crate::structure::combination;
+use crate::structure::proportional_factors;
 
 /// Ratio of a shift to the previous one.
 const SHIFT_RATIO: f64 = 4.0;
@@ -101,7 +101,7 @@ impl<'a> Reduction<'a> {
         let floating = Cell::new(floating);
         let damping = &assembled.damping;
         let is_proportional = damping.is_empty()
-            || combination(damping, [&assembled.stiffness, &assembled.mass]).is_some();
+            || proportional_factors(damping, [&assembled.stiffness, &assembled.mass]).is_some();
         let without_p_delta = if is_proportional {
             None
         } else {

@@ -19,7 +19,7 @@ use crate::linalg::{
     Eigenpairs, SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes,
     symmetric_products,
 };
-use crate::structure::combination;
+use crate::structure::proportional_factors;
 
 /// Largest residual of modes, and off-diagonal modal damping, relative to their terms.
 pub(crate) const MAX_MODE_COUPLING: f64 = 1e-10;
@@ -66,7 +66,7 @@ impl<'a> Subspace<'a> {
         let rows = OrthonormalRows::new(mass, rounding);
         let projected = [Vec::new(), Vec::new()];
         let undamped = damping.is_empty().then_some([0.0; 2]);
-        let proportional = undamped.or_else(|| combination(damping, [stiffness, mass]));
+        let proportional = undamped.or_else(|| proportional_factors(damping, [stiffness, mass]));
         let mut space = Self { matrices, rows, projected, proportional, translations: usize::MAX };
         space.extend(translations, MIN_TRANSLATION_REMAINDER);
         space.translations = space.count();

@@ -6,7 +6,7 @@ use super::{BasePoint, Outline, PlacedBase, check_covered};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, number_text};
 use crate::geometry::Patch;
-use crate::structure::{BaseNode, check_line, from_the_left};
+use crate::structure::{BaseNode, check_left_to_right, check_line};
 
 /// Distance from an element's line and ends that counts as rounding, relative to its length.
 const ON_ELEMENT_TOLERANCE: f64 = 1e-9;
@@ -23,7 +23,7 @@ impl PlacedBase {
         let mut element = 0;
         for line in lines {
             check_line(line)?;
-            from_the_left(line[0].x, line[line.len() - 1].x)?;
+            check_left_to_right(line[0].x, line[line.len() - 1].x)?;
             let range = first..first + line.len();
             let floor = BaseNode::floor(line);
             let last = range.end - 1;
@@ -74,7 +74,7 @@ impl PlacedBase {
 /// Nodes of one height run from left to right.
 fn check_order(nodes: &[BaseNode]) -> Result<()> {
     let mut level = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
-    level.try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
+    level.try_for_each(|pair| check_left_to_right(pair[0].x, pair[1].x))
 }
 
 /// Mean displacement over the length between the first node and the last, downwards.

@@ -20,7 +20,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, HeldBase, Structure, StructureError, Tangent, Triplets, check_attached,
-    check_damping, check_mass, check_stiffness, combination, stiffest,
+    check_damping, check_mass, check_stiffness, proportional_factors, stiffest,
 };
 
 /// Number of passes that refine the influence vectors.
@@ -109,7 +109,7 @@ impl Assembled {
     /// β and α of a damping in proportion to the stiffness without P–Δ, and to the mass; `None` for any other.
     pub(crate) fn damping_without_p_delta(&self, structure: &dyn Structure) -> Option<[f64; 2]> {
         let elastic = LoadedStiffness::new(structure, &self.stiffness)?.at(0.0).ok()?;
-        combination(&self.damping, [&elastic, &self.mass])
+        proportional_factors(&self.damping, [&elastic, &self.mass])
     }
 
     /// Error for a damping that is not positive semi-definite, unless it may be.
@@ -120,8 +120,9 @@ impl Assembled {
         structure: &dyn Structure,
         floating: Option<&SparseMatrix>,
     ) -> Result<()> {
-        let is_proportional = floating
-            .is_some_and(|matrix| combination(&self.damping, [matrix, &self.mass]).is_some());
+        let is_proportional = floating.is_some_and(|matrix| {
+            proportional_factors(&self.damping, [matrix, &self.mass]).is_some()
+        });
         if structure.has_active_damping() || is_proportional {
             return Ok(());
         }

@@ -3,7 +3,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
-use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
+use crate::structure::{HeldBase, Structure, Triplets, dof_list_text};
 
 /// Mass that keeps mechanisms regular, relative to a mass as large as the stiffness.
 const REGULARISING_MASS_RATIO: f64 = 1e-12;
@@ -85,7 +85,7 @@ pub(crate) fn unresisted(
 
 /// The structure's names of degrees of freedom, or their numbers.
 fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
-    structure.describe(dofs).unwrap_or_else(|| unknown_numbers(dofs))
+    structure.describe(dofs).unwrap_or_else(|| dof_list_text(dofs))
 }
 
 /// A stiffness, and terms that keep it regular.

@@ -63,8 +63,8 @@ impl Hex8 {
 
     /// Stresses at the eight nodes, Pa: `[σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx]`, tension positive.
     ///
-    /// `displacement` holds the element's degrees of freedom, m. The stresses at the Gauss points, with the inner modes,
-    /// are extrapolated to the nodes. Stresses of neighbouring bricks differ at a common node; take their mean.
+    /// `displacement` holds the element's degrees of freedom, m. The stresses at the Gauss points, with the inner
+    /// modes, are extrapolated to the nodes. Stresses of neighbouring bricks differ at a common node; take their mean.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless there are 8 points and 24 displacements, and errors of
@@ -289,8 +289,8 @@ impl ShapeDerivatives {
 
     /// Derivatives of the shape functions and of the inner modes at the `point` of this value.
     ///
-    /// The modes are 1 − ξ², 1 − η² and 1 − ζ². Their derivatives use the Jacobian at the `centre` and are scaled so that
-    /// their integral over the element vanishes: a constant stress does no work on them.
+    /// The modes are 1 − ξ², 1 − η² and 1 − ζ². Their derivatives use the Jacobian at the `centre` and are scaled so
+    /// that their integral over the element vanishes: a constant stress does no work on them.
     fn pattern_derivatives(&self, point: [f64; 3], centre: &Self) -> [[f64; 3]; PATTERN_COUNT] {
         let scale = -2.0 / self.determinant;
         std::array::from_fn(|i| match i.checked_sub(8) {

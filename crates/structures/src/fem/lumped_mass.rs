@@ -70,8 +70,8 @@ impl LumpedMass {
     /// If the rotary inertia is above zero, the node gets a rotation. Other elements should restrain this rotation.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative. [`Error::Scene`](crate::Error::Scene)
-    /// for a mass in space, which has three rotary inertias.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.
+    /// [`Error::Scene`](crate::Error::Scene) for a mass in space, which has three rotary inertias.
     pub fn with_rotary_inertia(self, rotary_inertia: f64) -> Result<Self> {
         not_negative("rotary inertia of the lumped mass", rotary_inertia)?;
         let needed = "from LumpedMass::in_space for a mass in space, about three axes";

@@ -8,6 +8,7 @@ pub(crate) mod coincident;
 mod duplicate;
 mod element;
 mod element_matrix;
+mod element_nodes;
 mod force_rotation;
 mod grid;
 mod hex8;

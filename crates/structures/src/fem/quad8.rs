@@ -162,7 +162,7 @@ impl Element for Quad8 {
 
     /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element.
     ///
-    /// The method is that of Hinton, Rock & Zienkiewicz (1976). Row sums would be negative at the corners.
+    /// The method is due to Hinton, Rock & Zienkiewicz (1976). Row sums would be negative at the corners.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut nodal_mass = [[0.0; 8]; 8];
         let mut total_mass = 0.0;

@@ -17,11 +17,11 @@ pub enum Base {
     Lines(Vec<Vec<BaseNode>>),
     /// Faces of a structure in space.
     ///
-    /// Faces are triangles or other convex polygons, each given by its corners in either sense of rotation. They are flat,
-    /// at one height, and do not overlap. The base is flat over a triangle and bilinear over a quadrilateral; a
-    /// polygon of more corners is divided into triangles from its first corner. A rigid base needs one face,
-    /// its outline. Faces that share a corner, or have a corner on the other's edge, belong to one
-    /// foundation; other faces are foundations of their own.
+    /// Faces are triangles or other convex polygons, each given by its corners in either sense of rotation. They are
+    /// flat, at one height, and do not overlap. The base is flat over a triangle and bilinear over a quadrilateral; a
+    /// polygon of more corners is divided into triangles from its first corner. A rigid base needs one face, its
+    /// outline. Faces that share a corner, or have a corner on the other's edge, belong to one foundation; other faces
+    /// are foundations of their own.
     Faces(Vec<Vec<BaseNode>>),
 }
 
@@ -60,8 +60,8 @@ impl Base {
         parts.into_iter().flatten().collect()
     }
 
-    /// Returns an error for too few nodes, for coordinates or weights that are not finite, and for degrees of freedom of
-    /// at least `dof_count`.
+    /// Returns an error for too few nodes, for coordinates or weights that are not finite, and for degrees of freedom
+    /// of at least `dof_count`.
     #[doc(hidden)]
     pub fn check(&self, dof_count: usize) -> Result<()> {
         at_least("list of contact nodes", self.nodes().count(), 2)?;

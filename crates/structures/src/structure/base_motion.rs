@@ -8,14 +8,13 @@ impl DofCombination {
     /// Displacement to the right relative to the middle of the base.
     ///
     /// The translation of the base is subtracted, its rotation is not. The sum must refer to degrees of freedom of
-    /// `structure`, whose base extends from its first to its last contact node. For a member of a group, call this method
-    /// before [`StructureGroup::row`](super::StructureGroup::row).
+    /// `structure`, whose base extends from its first to its last contact node. For a member of a group, call this
+    /// method before [`StructureGroup::row`](super::StructureGroup::row).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a structure with fewer than two contact nodes,
-    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place,
-    /// [`Error::Scene`](crate::Error::Scene) in space, where a sum does not distinguish x from y: subtract a displacement
-    /// of [`DofCombination::of_base`] there.
+    /// [`Error::Input`](crate::Error::Input) for contact nodes at one place, [`Error::Scene`](crate::Error::Scene) in
+    /// space, where a sum does not distinguish x from y: subtract a displacement of [`DofCombination::of_base`] there.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         Ok(self.clone() - horizontal_in_the_plane(structure, 0.0)?)
     }
@@ -51,8 +50,8 @@ impl DofCombination {
 
     /// Displacements of a point of the rigid base: along x, along y, up.
     ///
-    /// `place`: `[x, y, height]` (m) from the middle of the base. A displacement less these is the displacement relative to
-    /// the base. In the plane there is no displacement along y, and y is ignored.
+    /// `place`: `[x, y, height]` (m) from the middle of the base. A displacement less these is the displacement
+    /// relative to the base. In the plane there is no displacement along y, and y is ignored.
     ///
     /// ```
     /// use basemat::structure::{DofCombination, PlanStorey, RigidBody, StoreyBuilding};
@@ -111,7 +110,7 @@ fn horizontal_in_the_plane(structure: &dyn Structure, height: f64) -> Result<Dof
 
 /// Motion of a base in the plane: its middle to the right, rotation, and its middle upwards.
 ///
-/// The rotation is that of the line between its ends. Nodes of walls do not count.
+/// The line between its ends determines the rotation. Nodes of walls do not count.
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
     let floor_nodes = BaseNode::floor(nodes);

@@ -306,7 +306,7 @@ fn largest_weight(row: &DofCombination) -> f64 {
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input).
-pub fn from_the_left(previous_x: f64, x: f64) -> Result<()> {
+pub fn check_left_to_right(previous_x: f64, x: f64) -> Result<()> {
     let needed = "to the right of the previous node: contact nodes are listed from left to right";
     require("coordinate of a contact node", x, x > previous_x, needed).map(drop)
 }

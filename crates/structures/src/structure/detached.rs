@@ -33,12 +33,12 @@ pub fn check_attached(
     if dofs.is_empty() {
         return Ok(());
     }
-    let place = structure.describe(&dofs).unwrap_or_else(|| numbers(&dofs));
+    let place = structure.describe(&dofs).unwrap_or_else(|| dof_list_text(&dofs));
     Err(StructureError::Detached { dofs, place }.into())
 }
 
 /// Text that lists degrees of freedom by their indices.
-pub fn numbers(dofs: &[usize]) -> String {
+pub fn dof_list_text(dofs: &[usize]) -> String {
     let indices: Vec<String> =
         dofs.iter().take(MAX_LISTED_ITEMS).map(ToString::to_string).collect();
     let noun = if dofs.len() == 1 { "degree of freedom" } else { "degrees of freedom" };
@@ -58,9 +58,9 @@ pub(super) fn joined_items(first_items: &[String], item_count: usize) -> String 
 /// Degrees of freedom of all parts that are not attached to the base, ascending.
 ///
 /// Stiffness connects degrees of freedom to parts; entries that are exactly zero connect nothing. A part without mass
-/// and stiffness does not count. A part that its own stiffness supports is attached if the mass couples it with the base:
-/// its degrees of freedom are coordinates relative to the base, for example of modes. A mode that the base does not excite
-/// is recognised by its unit mass.
+/// and stiffness does not count. A part that its own stiffness supports is attached if the mass couples it with the
+/// base: its degrees of freedom are coordinates relative to the base, for example of modes. A mode that the base does
+/// not excite is recognised by its unit mass.
 fn detached_dofs(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,

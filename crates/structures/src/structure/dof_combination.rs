@@ -8,9 +8,9 @@ use crate::error::{Result, finite, in_bounds};
 ///
 /// Examples: a displacement of a point, a drift, a rotation.
 ///
-/// It stores (degree of freedom, weight) terms in the order of their input. A degree of freedom that occurs more than once
-/// counts with the sum of its weights. A function with a combination as argument also accepts a degree of freedom (with
-/// weight one), a term, or a list of terms.
+/// It stores (degree of freedom, weight) terms in the order of their input. A degree of freedom that occurs more than
+/// once counts with the sum of its weights. A function with a combination as argument also accepts a degree of freedom
+/// (with weight one), a term, or a list of terms.
 ///
 /// ```
 /// use basemat::structure::DofCombination;

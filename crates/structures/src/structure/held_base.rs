@@ -55,8 +55,8 @@ impl<'a> HeldBase<'a> {
 
     /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
     ///
-    /// In the plane there is one rotation, which tilts x upwards, about the height of the lowest node. In space there are
-    /// three: they tilt x upwards, tilt y upwards, and turn x towards y.
+    /// In the plane there is one rotation, which tilts x upwards, about the height of the lowest node. In space there
+    /// are three: they tilt x upwards, tilt y upwards, and turn x towards y.
     #[doc(hidden)]
     pub fn turns<'b>(
         &self,

@@ -98,7 +98,7 @@ pub fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -> Resul
 ///
 /// The sparsity pattern of A contains the patterns of B and of the matrix. If A is positive definite and B positive
 /// semi-definite, the matrix is positive semi-definite within the tolerance of [`check_damping`].
-pub fn combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> Option<[f64; 2]> {
+pub fn proportional_factors(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> Option<[f64; 2]> {
     let diagonal = matrix.diagonal();
     let matrix_values = matrix.values_at(a)?;
     let b_values = b.values_at(a)?;
@@ -188,15 +188,15 @@ mod tests {
         let masses = Triplets::from_entries(30, (0..30).map(|i| (i, i, 2.0)));
         let mass = SparseMatrix::new("mass", &masses).unwrap();
         // The matrix has the sparsity pattern of the mass, or no entries.
-        let factors = combination(&sum(&[(0.7, &mass)]), [&stiffness, &mass]).unwrap();
+        let factors = proportional_factors(&sum(&[(0.7, &mass)]), [&stiffness, &mass]).unwrap();
         assert!(factors[0] == 0.0 && (factors[1] - 0.7).abs() < 1e-14, "{factors:?}");
         let zero = SparseMatrix::new("zero", &Triplets::new(30)).unwrap();
-        assert_eq!(combination(&zero, [&stiffness, &mass]), Some([0.0; 2]));
+        assert_eq!(proportional_factors(&zero, [&stiffness, &mass]), Some([0.0; 2]));
         let terms = [&stiffness, &mass];
         // The damping is proportional to both, to the stiffness, or to the mass.
         for [beta, alpha] in [[1e-3, 0.7], [1e-3, 0.0], [0.0, 0.7], [1e-3, -1e-6]] {
             let damping = sum(&[(beta, &stiffness), (alpha, &mass)]);
-            let factors = combination(&damping, terms).unwrap();
+            let factors = proportional_factors(&damping, terms).unwrap();
             let beta_error = (factors[0] - beta).abs();
             assert!(beta_error < 1e-12 * (beta + alpha.abs()), "{factors:?} for {beta}");
             // Rounding of α is relative to the entries of the damping.
@@ -207,7 +207,7 @@ mod tests {
         // A factor is negative by more than rounding.
         for [beta, alpha] in [[-1e-3, 0.7], [1e-3, -0.7], [0.0, -0.7]] {
             let damping = sum(&[(beta, &stiffness), (alpha, &mass)]);
-            assert!(combination(&damping, terms).is_none());
+            assert!(proportional_factors(&damping, terms).is_none());
         }
         // There is one more dashpot, between neighbours or between others.
         for mass_index in [17, 25] {
@@ -215,7 +215,7 @@ mod tests {
             dashpot_entries.add_spring(16, mass_index, 1.0);
             let dashpot = SparseMatrix::new("dashpot", &dashpot_entries).unwrap();
             let damping = sum(&[(1e-3, &stiffness), (0.7, &mass), (1.0, &dashpot)]);
-            assert!(combination(&damping, terms).is_none());
+            assert!(proportional_factors(&damping, terms).is_none());
         }
     }
 }

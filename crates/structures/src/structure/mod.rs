@@ -111,28 +111,28 @@ use crate::error::Result;
 /// ```
 ///
 /// A structure has `n` degrees of freedom: displacements and rotations (m, rad; x to the right, y up, rotations
-/// counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute** displacements. A translation
-/// causes no strain. The force f is therefore evaluated, and a step committed, at displacements from which the mean
-/// translation of the base (of each connected part) is subtracted; static displacements are included. The equation of motion
-/// is
+/// counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute** displacements. A
+/// translation causes no strain. The force f is therefore evaluated, and a step committed, at displacements from which
+/// the mean translation of the base (of each connected part) is subtracted; static displacements are included. The
+/// equation of motion is
 ///
 /// ```text
 /// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
 /// ```
 ///
-/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act on the translation
-/// with the ground) and f the optional [`NonlinearForce`].
+/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act on the
+/// translation with the ground) and f the optional [`NonlinearForce`].
 ///
-/// The structure has no fixed support; the ground supports it. Neither K nor the tangent of f at rest may resist a rigid
-/// translation to the right or upwards. Building a simulation returns [`StructureError::Restrained`] for stiffness to a fixed
-/// point. It returns [`StructureError::Detached`] for a part that has mass or stiffness but is not connected by stiffness to
-/// the degrees of freedom of a contact node. Modal and other coordinates relative to the base are allowed: they have their own
-/// stiffness, and mass couples them to the base.
+/// The structure has no fixed support; the ground supports it. Neither K nor the tangent of f at rest may resist a
+/// rigid translation to the right or upwards. Building a simulation returns [`StructureError::Restrained`] for
+/// stiffness to a fixed point. It returns [`StructureError::Detached`] for a part that has mass or stiffness but is not
+/// connected by stiffness to the degrees of freedom of a contact node. Modal and other coordinates relative to the base
+/// are allowed: they have their own stiffness, and mass couples them to the base.
 ///
-/// All forces are per metre of thickness, except for a structure in space ([`Base::Faces`]), which has displacements in three
-/// directions: x to the right, y away from the reader, z up. Matrices and loads may return an error;
-/// [`Error::part`](crate::Error::part) makes one with your reason. The error ends the build, or a step of which nothing is
-/// committed.
+/// All forces are per metre of thickness, except for a structure in space ([`Base::Faces`]), which has displacements in
+/// three directions: x to the right, y away from the reader, z up. Matrices and loads may return an error;
+/// [`Error::part`](crate::Error::part) makes one with your reason. The error ends the build, or a step of which nothing
+/// is committed.
 ///
 /// Every structure is [`Any`], so that `Simulation::structure` can be downcast to your type with its current internal
 /// variables.
@@ -143,18 +143,18 @@ pub trait Structure: Any + Send {
 
     /// Base of the structure: the nodes that touch the ground.
     ///
-    /// In the plane it lists nodes from left to right, `nodes.into()`, and is straight between neighbours. A rigid base needs
-    /// its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] belong to a
-    /// structure in space. Every call returns the same base.
+    /// In the plane it lists nodes from left to right, `nodes.into()`, and is straight between neighbours. A rigid base
+    /// needs its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] belong
+    /// to a structure in space. Every call returns the same base.
     fn base(&self) -> Base;
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`.
     ///
     /// It is symmetric and positive semi-definite.
     ///
-    /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to
-    /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a diagonal of one. For
-    /// lower values `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
+    /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to −10⁻¹² of the
+    /// largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a diagonal of one. For lower
+    /// values `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
     ///
     /// # Errors
     /// Any: `build` returns it.
@@ -188,8 +188,9 @@ pub trait Structure: Any + Send {
 
     /// Adds the geometric stiffness of the static forces (P–Δ), n × n, to `matrix`. Default: none.
     ///
-    /// [`stiffness`](Structure::stiffness) contains this part. By it, errors state the load factor at which the structure
-    /// buckles, and `build` returns an error for a structure that buckles on its ground (`StabilityError::Buckling`).
+    /// [`stiffness`](Structure::stiffness) contains this part. By it, errors state the load factor at which the
+    /// structure buckles, and `build` returns an error for a structure that buckles on its ground
+    /// (`StabilityError::Buckling`).
     ///
     /// # Errors
     /// Any; `build` returns it.
@@ -206,8 +207,8 @@ pub trait Structure: Any + Send {
 
     /// Whether the stiffness matrix may be unsymmetric. Default: no.
     ///
-    /// Follower forces have such a stiffness. The matrix is then not checked. The energy balance does not contain its work, which
-    /// is part of the energy error.
+    /// Follower forces have such a stiffness. The matrix is then not checked. The energy balance does not contain its
+    /// work, which is part of the energy error.
     fn has_active_stiffness(&self) -> bool {
         false
     }

@@ -35,7 +35,7 @@ use crate::structure::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ModalDampingForm"))]
 pub struct ModalDamping {
-    /// Damping ratios of the modes, ascending in frequency; the last one is that of all further modes.
+    /// Damping ratios of the modes, ascending in frequency; all further modes have the last one.
     ratios: Vec<f64>,
 }
 
@@ -61,8 +61,8 @@ short_debug! {
 const MAX_DAMPED_DOFS: usize = 3000;
 /// A mode is rigid if rigid motions contain more than this fraction of its kinetic energy.
 ///
-/// Eigenvalues do not distinguish rigid modes: their rounded values are small but arbitrary, and in fine meshes the lowest
-/// modes that are not rigid have 10⁻¹² of the highest eigenvalue.
+/// Eigenvalues do not distinguish rigid modes: their rounded values are small but arbitrary, and in fine meshes the
+/// lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
 const MAX_RIGID_ENERGY_FRACTION: f64 = 0.5;
 /// Stiffness of the springs under a fixed base, relative to the largest stiffness of the structure.
 ///

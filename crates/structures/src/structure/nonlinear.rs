@@ -27,10 +27,10 @@ impl std::ops::Add for InternalEnergy {
 /// The nonlinear force f(u) of a structure, beyond K u.
 ///
 /// Implement this trait for yielding materials, nonlinear geometry or impacts. A [`Structure`] returns it by
-/// [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force, tangent and energy belong to a trial `displacement`
-/// on a path from the last **committed** displacement; these methods change no state. [`commit`](NonlinearForce::commit)
-/// accepts the end of a step. Force and tangent are evaluated at the time at which the time scheme enforces equilibrium
-/// (midpoint rule: the middle of the step), at every iterate of Newton's method.
+/// [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force, tangent and energy belong to a trial
+/// `displacement` on a path from the last **committed** displacement; these methods change no state.
+/// [`commit`](NonlinearForce::commit) accepts the end of a step. Force and tangent are evaluated at the time at which
+/// the time scheme enforces equilibrium (midpoint rule: the middle of the step), at every iterate of Newton's method.
 ///
 /// ```
 /// use basemat::structure::{Base, NonlinearForce, RigidBlock, Structure, Triplets};
@@ -91,8 +91,8 @@ pub trait NonlinearForce {
     /// # Errors
     /// Any error ends the step with `StepError::Part`, and nothing of the step is committed;
     /// [`Error::part`](crate::Error::part) makes one with your reason. An error at an intermediate iterate of Newton's
-    /// method also ends the step. To end a run because the structure exceeds a limit, return an error from the observer of
-    /// `Simulation::run`: the run then ends after the step.
+    /// method also ends the step. To end a run because the structure exceeds a limit, return an error from the observer
+    /// of `Simulation::run`: the run then ends after the step.
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.

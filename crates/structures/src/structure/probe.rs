@@ -6,8 +6,8 @@ use crate::text::column::column;
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities, accelerations.
 ///
-/// Displacements are changes from the static state, relative to the translation of the free field under the connected part.
-/// [`Probe::absolute_displacement`] includes that translation; [`DofCombination::relative_to_base`] and
+/// Displacements are changes from the static state, relative to the translation of the free field under the connected
+/// part. [`Probe::absolute_displacement`] includes that translation; [`DofCombination::relative_to_base`] and
 /// [`DofCombination::total_drift`] also subtract the motion of the base. Velocities and accelerations are absolute.
 ///
 /// ```
@@ -125,7 +125,7 @@ impl Probe {
 ///
 /// # Errors
 /// [`Error::Item`] for degrees of freedom of at least `dofs`, and [`Error::DuplicateName`] for two probes of one name.
-pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
+pub fn check_probes(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
         let name = &probe.name;

@@ -94,10 +94,10 @@ impl Beam {
 
     /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
     ///
-    /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and
-    /// P–δ). It is the force of the static state, for example the weight above.
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from this method. In
-    /// a rigid rotation the end forces of the beam form a couple, as those of a real column do.
+    /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and P–δ). It is
+    /// the force of the static state, for example the weight above.
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from this method.
+    /// In a rigid rotation the end forces of the beam form a couple, as in a real column.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -178,8 +178,8 @@ impl Element for Beam {
 
     /// Lumped: half the mass and the rotary inertia m L²/78 at each node.
     ///
-    /// The rotary inertia has the ratio of the consistent diagonal (Hinton, Rock & Zienkiewicz 1976). With rotary inertia
-    /// of the sections, each node gets half of it.
+    /// The rotary inertia has the ratio of the consistent diagonal (Hinton, Rock & Zienkiewicz 1976). With rotary
+    /// inertia of the sections, each node gets half of it.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = ElementLine::between(coordinates) else {
             return;

@@ -4,8 +4,8 @@ use crate::error::{Result, positive};
 
 /// Cross-section of a beam in space: area, second moments, torsion constant, shear areas.
 ///
-/// y and z are the principal axes of the section through its centroid: y along the orientation of the beam, z at a right
-/// angle to it.
+/// y and z are the principal axes of the section through its centroid: y along the orientation of the beam, z at a
+/// right angle to it.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};

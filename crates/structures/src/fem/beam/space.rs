@@ -16,14 +16,14 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 /// Straight prismatic beam in space, rigidly connected to its two nodes.
 ///
 /// It stretches, twists (St Venant) and bends in two planes; shear areas of its
-/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the axis of the
-/// beam, y the component of its `orientation` normal to x, and z completes a right-handed system.
+/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the axis of
+/// the beam, y the component of its `orientation` normal to x, and z completes a right-handed system.
 ///
 /// Its lumped mass is diagonal in the axes of the beam. In other axes it couples the rotations of a node, and offsets
-/// couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending and the P–Δ effect of axial
-/// forces are options. Warping and the effect of axial forces on torsion are neglected. In the static state of
-/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) shear forces, moments and torque rotate with the
-/// beam, so that several beams along a girder can buckle laterally.
+/// couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending and the P–Δ effect of
+/// axial forces are options. Warping and the effect of axial forces on torsion are neglected. In the static state of
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) shear forces, moments and torque rotate with
+/// the beam, so that several beams along a girder can buckle laterally.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};
@@ -60,8 +60,8 @@ impl SpaceBeam {
     ///
     /// The section's y axis lies in the plane of the beam and the `orientation`.
     ///
-    /// The orientation is a vector [x, y, z] of any length. Releases and forces refer to the axes of the section even if
-    /// both second moments are equal.
+    /// The orientation is a vector [x, y, z] of any length. Releases and forces refer to the axes of the section even
+    /// if both second moments are equal.
     ///
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::Input`] for an orientation that is not finite or has no length, and for
@@ -137,8 +137,8 @@ impl SpaceBeam {
 
     /// Releases an end (0 or 1) in `directions`, in the axes of the beam.
     ///
-    /// The beam exerts no force in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending along y.
-    /// The releases add to earlier ones. A lumped mass has no entries in released directions.
+    /// The beam exerts no force in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending along
+    /// y. The releases add to earlier ones. A lumped mass has no entries in released directions.
     ///
     /// # Errors
     /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that make

@@ -37,16 +37,16 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 /// begins, nor on the sense of rotation in which nodes are listed.
 ///
 /// * **Four nodes**: MITC4 in bending (Bathe & Dvorkin 1985). The membrane has bending modes, and sides that bulge with
-///   the rotations of their ends (Allman 1984); a penalty ties these rotations to the rotation of the material (Hughes &
-///   Brezzi 1989). If the nodes lie in no common plane, rigid links connect them to their projections: rigid motions of
-///   a warped element are exact.
+///   the rotations of their ends (Allman 1984); a penalty ties these rotations to the rotation of the material (Hughes
+///   & Brezzi 1989). If the nodes lie in no common plane, rigid links connect them to their projections: rigid motions
+///   of a warped element are exact.
 /// * **Three nodes**: MITC3+ in bending (Lee, Lee & Bathe 2014, with bounded shear strains) and Felippa's optimal
 ///   triangle (2003).
 ///
 /// Use quadrilaterals for curved shells. Triangles are much too stiff on a curved thin shell where their sides exceed
 /// √(Rt), with the radius R and the thickness t: a pinched hemisphere has 0.49 of its displacement with triangles of
-/// 3√(Rt), and 0.92 with quadrilaterals of that size. Triangles are accurate in plane walls and slabs, nearly as accurate
-/// as quadrilaterals on cylinders, and suitable where meshes converge, as at the top of a dome.
+/// 3√(Rt), and 0.92 with quadrilaterals of that size. Triangles are accurate in plane walls and slabs, nearly as
+/// accurate as quadrilaterals on cylinders, and suitable where meshes converge, as at the top of a dome.
 ///
 /// Triangles and quadrilaterals in one wall need [`Shell::match_sides`].
 ///
@@ -57,8 +57,8 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 /// A shell itself has no geometric stiffness. With
 /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) its static forces rotate with it.
 ///
-/// The mass matrix has rotary inertia, ρt³/12 times the area, about all three axes. The lumped matrix is diagonal in any
-/// axes.
+/// The mass matrix has rotary inertia, ρt³/12 times the area, about all three axes. The lumped matrix is diagonal in
+/// any axes.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Shell};
@@ -117,11 +117,11 @@ impl Shell {
 
     /// Matches triangles to the quadrilaterals with which they share sides.
     ///
-    /// By default the sides of triangles bulge more with the rotations of their ends than those of quadrilaterals, which
-    /// makes walls of triangles bend accurately. At quadrilaterals the difference would disturb the membrane forces: by a
-    /// quarter of a uniform stress where a line between triangles and quadrilaterals begins, ends or turns, and by 0.4 of
-    /// it everywhere on a chessboard of both. Refinement does not reduce the error. Matched sides bulge equally, and a
-    /// uniform stress is exact. Bending needs no matching.
+    /// By default the sides of triangles bulge more with the rotations of their ends than the sides of quadrilaterals,
+    /// which makes walls of triangles bend accurately. At quadrilaterals the difference would disturb the membrane
+    /// forces: by a quarter of a uniform stress where a line between triangles and quadrilaterals begins, ends or
+    /// turns, and by 0.4 of it everywhere on a chessboard of both. Refinement does not reduce the error. Matched sides
+    /// bulge equally, and a uniform stress is exact. Bending needs no matching.
     ///
     /// Pass all shells of a mesh in one call, before they are added to the mesh.
     ///
@@ -177,8 +177,8 @@ impl Shell {
 
     /// Forces [x, y, z] (N) of a `pressure` (Pa) at each node; a positive pressure acts along the normal.
     ///
-    /// The normal n points to the side from which the nodes are seen counter-clockwise. The forces on a closed surface are
-    /// in equilibrium.
+    /// The normal n points to the side from which the nodes are seen counter-clockwise. The forces on a closed surface
+    /// are in equilibrium.
     ///
     /// # Errors
     /// As for [`Element::check`].
@@ -201,9 +201,9 @@ impl Shell {
     /// Forces and moments per metre at each node, in the axes of the element.
     ///
     /// `displacement` holds the six displacements (m, rad) of each node, node by node. The normal n points to the side
-    /// from which the nodes are seen counter-clockwise. e1 runs from the middle of the side 4–1 to the middle of the side
-    /// 2–3, in a triangle along the side 1–2. [`ShellResultants::in_axes`] transforms resultants to axes that do not depend
-    /// on the list of nodes. Values at a node differ between its elements: their mean is far more accurate.
+    /// from which the nodes are seen counter-clockwise. e1 runs from the middle of the side 4–1 to the middle of the
+    /// side 2–3, in a triangle along the side 1–2. [`ShellResultants::in_axes`] transforms resultants to axes that do
+    /// not depend on the list of nodes. Values at a node differ between its elements: their mean is far more accurate.
     ///
     /// # Errors
     /// As for [`Element::check`]; [`Error::Size`] unless there are six displacements a node, and

@@ -28,8 +28,8 @@ impl QuadMembrane<'_> {
     ///
     /// The degrees of freedom are u, v, ω of the nodes.
     ///
-    /// The strain energy has a penalty term (Hughes & Brezzi 1989): the shear stiffness ties the rotation ω to the rotation
-    /// ½(v,x − u,y) of the displacements. `Quad4` has the same bending modes (QM6).
+    /// The strain energy has a penalty term (Hughes & Brezzi 1989): the shear stiffness ties the rotation ω to the
+    /// rotation ½(v,x − u,y) of the displacements. `Quad4` has the same bending modes (QM6).
     pub(super) fn stiffness(&self) -> [[f64; FULL_DOF_COUNT]; FULL_DOF_COUNT] {
         let ShellSection { shear_modulus, thickness, .. } = *self.section;
         let centre_jacobian = Jacobian::at([0.0; 2], self.points);

@@ -53,9 +53,9 @@ impl ShellResultants {
 
     /// The same forces and moments in other axes.
     ///
-    /// The new e1 is the part of `along` in the plane of the element. The new n is the normal on the side of `outward`, so
-    /// that the signs of moments and shear forces do not depend on the order of an element's nodes. Both vectors may have
-    /// any length.
+    /// The new e1 is the part of `along` in the plane of the element. The new n is the normal on the side of `outward`,
+    /// so that the signs of moments and shear forces do not depend on the order of an element's nodes. Both vectors may
+    /// have any length.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) if `along` is normal to the element or `outward` lies in its plane.

@@ -25,9 +25,9 @@ const NODE_COORDINATES: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 
 /// Plate of a triangle in its plane (Lee, Lee & Bathe 2014, with one change).
 ///
-/// The published element evaluates the linear part ĉ of its shear strains close to the centroid, where ĉ nearly vanishes:
-/// the element is then almost a mechanism, or locks. Here ĉ is evaluated at the middles of the sides and multiplied by
-/// t/√(t² + l²), with the longest side l.
+/// The published element evaluates the linear part ĉ of its shear strains close to the centroid, where ĉ nearly
+/// vanishes: the element is then almost a mechanism, or locks. Here ĉ is evaluated at the middles of the sides and
+/// multiplied by t/√(t² + l²), with the longest side l.
 pub(super) struct TriangleBending<'a> {
     pub(super) points: &'a [[f64; 2]; 3],
     pub(super) section: &'a ShellSection,
@@ -166,7 +166,8 @@ fn rotation_dofs(pattern: usize) -> [usize; 2] {
 
 /// Shape functions of the rotations of the three nodes and of the bubble.
 ///
-/// The bubble is 27 L_1 L_2 L_3 with the area coordinates L_i. The function of a node is L_i less a third of the bubble.
+/// The bubble is 27 L_1 L_2 L_3 with the area coordinates L_i. The function of a node is L_i less a third of the
+/// bubble.
 fn rotation_shapes([r, s]: [f64; 2]) -> [f64; 4] {
     let bubble = 27.0 * r * s * (1.0 - r - s);
     [1.0 - r - s - bubble / 3.0, r - bubble / 3.0, s - bubble / 3.0, bubble]

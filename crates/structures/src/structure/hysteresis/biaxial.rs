@@ -11,12 +11,13 @@ use crate::structure::InternalEnergy;
 /// [`Bilinear::coupled`](crate::structure::Bilinear::coupled),
 /// [`FrictionPendulum::coupled`](crate::structure::FrictionPendulum::coupled),
 /// [`LeadRubber::coupled`](crate::structure::LeadRubber::coupled) and
-/// [`BoucWen::coupled`](crate::structure::BoucWen::coupled) make such springs. The limit of the force is a circle, so that
-/// the law does not depend on the axes. Along a straight line through the origin it is the law of the uniaxial spring. Two
-/// uniaxial springs along x and y have a square limit instead, and up to √2 times the force along its diagonals.
+/// [`BoucWen::coupled`](crate::structure::BoucWen::coupled) make such springs. The limit of the force is a circle, so
+/// that the law does not depend on the axes. Along a straight line through the origin it is the law of the uniaxial
+/// spring. Two uniaxial springs along x and y have a square limit instead, and up to √2 times the force along its
+/// diagonals.
 ///
-/// Deformations are in m, forces in N. The spring stores the last **committed** deformation; trial deformations change no
-/// state, as for [`Hysteresis`](crate::structure::Hysteresis).
+/// Deformations are in m, forces in N. The spring stores the last **committed** deformation; trial deformations change
+/// no state, as for [`Hysteresis`](crate::structure::Hysteresis).
 ///
 /// ```
 /// use basemat::structure::FrictionPendulum;

@@ -8,7 +8,7 @@ use crate::error::{Result, positive, require};
 use crate::linalg::gauss;
 use crate::structure::InternalEnergy;
 
-/// Exponent n without [`BoucWen::with_shape`]: that of the coupled law, whose loops are elementary functions.
+/// Exponent n without [`BoucWen::with_shape`]; the coupled law has the same exponent.
 const DEFAULT_EXPONENT: f64 = 2.0;
 /// β without [`BoucWen::with_shape`]: unloading is straight.
 const DEFAULT_BETA: f64 = 0.5;
@@ -47,8 +47,8 @@ pub struct BoucWen {
 impl BoucWen {
     /// Spring with initial stiffness k, yield force F_y and hardening α.
     ///
-    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the final to the initial stiffness. Stiffness and force are
-    /// per metre of thickness. The exponent n is 2 and β is ½ unless set otherwise.
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the final to the initial stiffness. Stiffness and
+    /// force are per metre of thickness. The exponent n is 2 and β is ½ unless set otherwise.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
@@ -88,13 +88,14 @@ impl BoucWen {
 
     /// A new spring with these parameters for two directions.
     ///
-    /// Its law is that of Park, Wen & Ang (1986),
+    /// It follows the law of Park, Wen & Ang (1986),
     ///
     /// ```text
     /// F = α k d + (1 − α) F_y z,      ż = (ḋ − (β |ḋ·z| + γ ḋ·z) z)/d_y
     /// ```
     ///
-    /// with vectors F, d and z. Steps follow this equation exactly on straight paths of any length. |ḋ·z| replaces the sum
+    /// with vectors F, d and z. Steps follow this equation exactly on straight paths of any length. |ḋ·z| replaces the
+    /// sum
     /// |ḋ_x z_x| + |ḋ_y z_y| of the paper, with which the force depends on the axes: on an ellipse of 3 by 1.5 d_y it
     /// changes by 0.11 F_y if the axes are rotated by 45°. Both laws agree along straight lines.
     ///
@@ -291,8 +292,8 @@ impl LoopShape {
 
     /// w = |y| at which the spring is unloaded after the further path `remaining_length`.
     ///
-    /// Solves ∫₀^w ds/(1 + b sⁿ) = `remaining_length` by Newton's method, which converges from the left: the integral is
-    /// concave.
+    /// Solves ∫₀^w ds/(1 + b sⁿ) = `remaining_length` by Newton's method, which converges from the left: the integral
+    /// is concave.
     fn find_unloaded(&self, remaining_length: f64) -> f64 {
         let mut w = remaining_length.min(1.0);
         for _ in 0..MAX_NEWTON_ITERATIONS {

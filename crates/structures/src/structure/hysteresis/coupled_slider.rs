@@ -7,8 +7,8 @@ use crate::structure::InternalEnergy;
 
 /// A [`Slider`] that yields in any direction of a plane.
 ///
-/// The slider follows the deformation by the shortest path to the circle of its limit (radial return). In a step the force
-/// is the gradient of a convex energy, the sum of the stored and the dissipated energy.
+/// The slider follows the deformation by the shortest path to the circle of its limit (radial return). In a step the
+/// force is the gradient of a convex energy, the sum of the stored and the dissipated energy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CoupledSlider {
     /// Stiffness of the parallel spring, N/m.

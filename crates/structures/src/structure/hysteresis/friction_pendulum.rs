@@ -11,11 +11,11 @@ use crate::error::{Result, not_negative, positive};
 /// F = W d/R + friction · W · sgn(ḋ).
 ///
 /// The weight W on the bearing and its coefficient of friction are constant, and the structure does not rise when the
-/// bearing climbs. Overturning of a rigid floor increases the weight on one side as much as it reduces the weight on the
-/// other, so the sum of the horizontal forces does not change. Vertical motion changes all weights: with ±30 % at 0.4 to
-/// 3 Hz the force of a block under El Centro differs by up to 30 %, its displacement by up to 17 %; with a vertical record
-/// by 13 % and 1 %. A bearing from [`with_vertical_stiffness`](FrictionPendulum::with_vertical_stiffness) uses the vertical
-/// force on it as its weight.
+/// bearing climbs. Overturning of a rigid floor increases the weight on one side as much as it reduces the weight on
+/// the other, so the sum of the horizontal forces does not change. Vertical motion changes all weights: with ±30 % at
+/// 0.4 to 3 Hz the force of a block under El Centro differs by up to 30 %, its displacement by up to 17 %; with a
+/// vertical record by 13 % and 1 %. A bearing from
+/// [`with_vertical_stiffness`](FrictionPendulum::with_vertical_stiffness) uses the vertical force on it as its weight.
 ///
 /// Before it slides, the bearing is elastic up to a small displacement, which makes the tangent finite (Zayas, Low &
 /// Mahin 1990; Mokha, Constantinou & Reinhorn 1991 use 0.1 to 0.5 mm).
@@ -88,16 +88,16 @@ impl FrictionPendulum {
 
     /// A new bearing with these parameters that slides in any horizontal direction.
     ///
-    /// F = W d/R + friction · W · n, with the unit vector n in the direction of sliding. The weight W is constant: neither
-    /// vertical motion nor the displacement of the bearing changes it.
+    /// F = W d/R + friction · W · n, with the unit vector n in the direction of sliding. The weight W is constant:
+    /// neither vertical motion nor the displacement of the bearing changes it.
     pub fn coupled(&self) -> BiaxialSpring {
         CoupledSlider::new(&self.slider).into()
     }
 
     /// A new bearing with these parameters whose weight is the vertical force on it.
     ///
-    /// It has a vertical `stiffness` (N/m). The weight W determines the stiffness before sliding, and the friction in the
-    /// static state.
+    /// It has a vertical `stiffness` (N/m). The weight W determines the stiffness before sliding, and the friction in
+    /// the static state.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the stiffness is positive.

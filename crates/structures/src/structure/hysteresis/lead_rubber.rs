@@ -7,9 +7,9 @@ use crate::error::{Result, finite, positive, require};
 
 /// Lead–rubber bearing: a bilinear spring from engineering parameters.
 ///
-/// The stiffness after yield is that of the rubber, K₂ = G A/t. The characteristic strength is Q = τ_y A_lead of the lead core
-/// (the force at zero displacement of a wide loop). The initial stiffness of both is K₁ = r K₂ (Skinner, Robinson
-/// & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
+/// The rubber determines the stiffness after yield, K₂ = G A/t. The characteristic strength is Q = τ_y A_lead of the
+/// lead core (the force at zero displacement of a wide loop). The initial stiffness of both is K₁ = r K₂ (Skinner,
+/// Robinson & McVerry 1993; Naeim & Kelly 1999: r ≈ 10, τ_y ≈ 10 MPa).
 ///
 /// ```
 /// use basemat::structure::{Hysteresis, LeadRubber};

@@ -40,8 +40,8 @@ pub struct BiaxialResponse {
     pub force: [f64; 2],
     /// Derivatives of the force by the deformation, N/m: a symmetric matrix, by rows.
     ///
-    /// A coupled [`BoucWen`] gives the symmetric part of the derivatives; the antisymmetric part decreases with the square
-    /// of the step.
+    /// A coupled [`BoucWen`] gives the symmetric part of the derivatives; the antisymmetric part decreases with the
+    /// square of the step.
     pub tangent: [[f64; 2]; 2],
 }
 
@@ -49,9 +49,9 @@ pub struct BiaxialResponse {
 ///
 /// Its force depends on its past deformations.
 ///
-/// The spring stores the deformation and the internal variables of the last **committed** step. Newton's method evaluates
-/// trial deformations at the end of a straight path from there, any number of times; these evaluations change no state.
-/// [`commit`](Hysteresis::commit) accepts a deformation.
+/// The spring stores the deformation and the internal variables of the last **committed** step. Newton's method
+/// evaluates trial deformations at the end of a straight path from there, any number of times; these evaluations change
+/// no state. [`commit`](Hysteresis::commit) accepts a deformation.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, Hysteresis};

@@ -9,16 +9,16 @@ use crate::structure::InternalEnergy;
 ///
 /// [`FrictionPendulum::with_vertical_stiffness`](crate::structure::FrictionPendulum::with_vertical_stiffness) makes it;
 /// [`WithSprings::pendulum`](crate::structure::WithSprings::pendulum) attaches it. Its deformations d_x, d_y, d_z are
-/// displacements (m) of the part above relative to the part below. The bearing slides in any horizontal direction, climbs
-/// on its dish of radius R, has a vertical stiffness k, and can lift off:
+/// displacements (m) of the part above relative to the part below. The bearing slides in any horizontal direction,
+/// climbs on its dish of radius R, has a vertical stiffness k, and can lift off:
 ///
 /// ```text
 /// N = k ⟨|d|²/(2R) − d_z⟩                vertical force; d = (d_x, d_y)
 /// F = N d/R + friction · N₀ · n          n: direction of sliding; N₀: N at the end of the previous step
 /// ```
 ///
-/// N and N d/R are the derivatives of one energy, N²/(2k), so that the work of the climb is done on the vertical motion.
-/// Friction follows N one step later. Overturning moments of N at the displaced bearing are neglected.
+/// N and N d/R are the derivatives of one energy, N²/(2k), so that the work of the climb is done on the vertical
+/// motion. Friction follows N one step later. Overturning moments of N at the displaced bearing are neglected.
 ///
 /// ```
 /// use basemat::structure::FrictionPendulum;
@@ -57,7 +57,8 @@ impl PendulumBearing {
         self.vertical_stiffness * self.shortening(deformation).max(0.0)
     }
 
-    /// Vertical shortening of the bearing, m: climb on the dish less the rise of the part above; negative after lift-off.
+    /// Vertical shortening of the bearing, m: climb on the dish less the rise of the part above; negative after
+    /// lift-off.
     fn shortening(&self, [x, y, z]: [f64; 3]) -> f64 {
         (x * x + y * y) / (2.0 * self.radius) - z
     }

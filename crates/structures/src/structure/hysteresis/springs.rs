@@ -130,18 +130,18 @@ impl NonlinearForce for HystereticSprings {
 
 /// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// The deformation of each spring is a weighted sum of degrees of freedom; its force follows its [`Hysteresis`] law. The
-/// force adds to the other forces of the structure: a storey or a bearing that consists of the spring alone must have no
-/// other stiffness. The damping of the structure does not change; stiffness-proportional damping does not include the
-/// springs. For storeys of a shear building use
+/// The deformation of each spring is a weighted sum of degrees of freedom; its force follows its [`Hysteresis`] law.
+/// The force adds to the other forces of the structure: a storey or a bearing that consists of the spring alone must
+/// have no other stiffness. The damping of the structure does not change; stiffness-proportional damping does not
+/// include the springs. For storeys of a shear building use
 /// [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
 /// Degrees of freedom are absolute. A spring on a single degree of freedom would connect the structure to a fixed point
 /// instead of the moving ground, and `build` returns an error. A deformation must be zero in a translation of the whole
 /// structure.
 ///
-/// A bearing with two horizontal displacements is one [`biaxial_spring`](WithSprings::biaxial_spring). Two springs along x
-/// and y act independently: along the diagonal, two sliders have √2 times the friction of one.
+/// A bearing with two horizontal displacements is one [`biaxial_spring`](WithSprings::biaxial_spring). Two springs
+/// along x and y act independently: along the diagonal, two sliders have √2 times the friction of one.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
@@ -201,8 +201,8 @@ impl WithSprings {
 
     /// Adds a friction pendulum that supports the structure.
     ///
-    /// `rows`: its deformations along x, along y and up. The bearing has a vertical stiffness: the structure must have none
-    /// there.
+    /// `rows`: its deformations along x, along y and up. The bearing has a vertical stiffness: the structure must have
+    /// none there.
     ///
     /// # Errors
     /// As for [`spring`](WithSprings::spring).

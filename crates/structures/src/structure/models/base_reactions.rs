@@ -1,13 +1,13 @@
 //! Geometric stiffness of P–Δ by rigid links, and by reactions of the ground that rotate with the base.
 //!
-//! The forces of the static state are in equilibrium with the weights and with the reactions at the fixed contact nodes. In a
-//! rigid rotation the forces of the elements rotate with them, and the weights keep their direction. The reactions of the
-//! ground follow two rules. A rotation of the structure about the vertical then causes no force, and a rocking rotation
-//! causes the overturning moment of the weights about the height of the base:
+//! The forces of the static state are in equilibrium with the weights and with the reactions at the fixed contact
+//! nodes. In a rigid rotation the forces of the elements rotate with them, and the weights keep their direction. The
+//! reactions of the ground follow two rules. A rotation of the structure about the vertical then causes no force, and a
+//! rocking rotation causes the overturning moment of the weights about the height of the base:
 //!
 //! * Vertical reactions keep their direction.
-//! * Other reactions, such as the thrust between the feet of a portal, are in equilibrium through the base and rotate with
-//!   it. Their distribution between ground and basemat is not a property of the structure.
+//! * Other reactions, such as the thrust between the feet of a portal, are in equilibrium through the base and rotate
+//!   with it. Their distribution between ground and basemat is not a property of the structure.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -305,8 +305,9 @@ impl BaseRotations {
 
 /// Outermost nodes of a base in eight directions, each once.
 ///
-/// Of several equally distant nodes in a direction, the two ends of their row are returned. Few nodes suffice for the mean
-/// rotations of a base, and keep the matrix sparse. The choice depends on the coordinates only, not on the numbering.
+/// Of several equally distant nodes in a direction, the two ends of their row are returned. Few nodes suffice for the
+/// mean rotations of a base, and keep the matrix sparse. The choice depends on the coordinates only, not on the
+/// numbering.
 fn outermost_nodes(nodes: &[BaseNode]) -> Vec<BaseNode> {
     let grid = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
     let mut outermost: Vec<BaseNode> = Vec::new();

@@ -8,17 +8,17 @@ use crate::structure::{DofCombination, FemModel, SectionRows};
 
 /// Forces and moments of a beam at its two ends, as weighted sums of displacements.
 ///
-/// At both ends they act on a section whose outward normal is x, the axis of the beam from its first to its second node.
-/// Axial force, torque and, without loads between the nodes, shear force are therefore equal at both ends. A
-/// `Probe::section` records one of them at every step, as a change from the static state. The static part is the value for
-/// `Simulation::static_displacement`.
+/// At both ends they act on a section whose outward normal is x, the axis of the beam from its first to its second
+/// node. Axial force, torque and, without loads between the nodes, shear force are therefore equal at both ends. A
+/// `Probe::section` records one of them at every step, as a change from the static state. The static part is the value
+/// for `Simulation::static_displacement`.
 ///
-/// The sums contain the elastic forces, without damping and without the inertia of the beam's mass, which acts at its nodes.
-/// With the P–Δ effect ([`FemModel::with_p_delta`],
+/// The sums contain the elastic forces, without damping and without the inertia of the beam's mass, which acts at its
+/// nodes. With the P–Δ effect ([`FemModel::with_p_delta`],
 /// [`Beam::with_compression`](crate::fem::Beam::with_compression)) they also contain the forces of the geometric
-/// stiffness. They then refer to the axes of the undeformed beam: the shear force contains the static axial force times the
-/// rotation of the beam, and the moments are in equilibrium with the loads in the deformed state. The static axial force
-/// itself ([`Element::compression`]) is not part of a change.
+/// stiffness. They then refer to the axes of the undeformed beam: the shear force contains the static axial force times
+/// the rotation of the beam, and the moments are in equilibrium with the loads in the deformed state. The static axial
+/// force itself ([`Element::compression`]) is not part of a change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamRows {
     /// Axes x (along the beam), y and z of the section, as rows.
@@ -140,8 +140,8 @@ fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame
 
 /// Weights of the displacements of a beam's nodes in the force or moment along `axis` at an end.
 ///
-/// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam. The force
-/// at the end is that of its node, and its resultant is the work on a unit rigid motion about the end.
+/// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam. The
+/// force at the end is the force of its node, and its resultant is the work on a unit rigid motion about the end.
 fn end_force_row(
     directions: &[Direction],
     frame: &EndFrame,

@@ -8,8 +8,8 @@ use crate::structure::detached::{MAX_LISTED_ITEMS, joined_items};
 
 /// Text that names the nodes of `dofs` with their coordinates, for an error.
 ///
-/// The text also names a coincident node that is not merged with one of them. `dof_of` returns the degree of freedom of a
-/// node in a direction. `None` if no node has these degrees of freedom.
+/// The text also names a coincident node that is not merged with one of them. `dof_of` returns the degree of freedom of
+/// a node in a direction. `None` if no node has these degrees of freedom.
 pub(super) fn describe(
     mesh: &Mesh,
     dof_of: &dyn Fn(usize, Direction) -> Option<usize>,

@@ -17,8 +17,8 @@ use crate::structure::{
 ///
 /// Elements act on each other through common nodes. A part without a common node with the part on the ground must be
 /// connected to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
-/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and coincident nodes that
-/// were not merged.
+/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and coincident
+/// nodes that were not merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -169,10 +169,10 @@ impl FemModel {
 
     /// Structure in space on the ground with these faces, each of which lists its corner nodes.
     ///
-    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. The underside of a shell is in contact with the ground:
-    /// a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness)) moves with the
-    /// points at half the thickness below its nodes. For a face over several shells the thickest one counts. Other faces move
-    /// with their nodes, such as the outline of nodes that a rigid link connects.
+    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. The underside of a shell is in contact with the
+    /// ground: a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness))
+    /// moves with the points at half the thickness below its nodes. For a face over several shells the thickest one
+    /// counts. Other faces move with their nodes, such as the outline of nodes that a rigid link connects.
     ///
     /// # Errors
     /// [`Error::Scene`] for a mesh in the plane, or for a corner without three displacements;
@@ -292,8 +292,8 @@ impl FemModel {
     /// Displacements of an element's degrees of freedom, in the order of its matrices.
     ///
     /// [`Shell::resultants`](crate::fem::Shell::resultants) and forces of other elements are computed from them.
-    /// `displacement` holds all degrees of freedom of the model, such as `State::displacement`. A follower of a rigid link or
-    /// a diaphragm moves with its leader. The element need not belong to the mesh.
+    /// `displacement` holds all degrees of freedom of the model, such as `State::displacement`. A follower of a rigid
+    /// link or a diaphragm moves with its leader. The element need not belong to the mesh.
     ///
     /// # Errors
     /// [`Error::Size`] for a displacement of another length; as for [`row`](FemModel::row).

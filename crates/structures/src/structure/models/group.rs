@@ -3,31 +3,30 @@
 use std::mem::discriminant;
 use std::ops::Range;
 
-use crate::error::{CheckpointError, Error, Result, finite, in_bounds, require};
+use crate::error::{Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
-use crate::structure::detached::numbers;
-use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use crate::structure::detached::dof_list_text;
+use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::probe::Probe;
 use crate::structure::{
-    Base, BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure,
-    StructureDescription, Triplets,
+    Base, BaseNode, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
 };
 
 /// A structure of the group, and its base in the group.
-struct Member {
-    structure: Box<dyn Structure>,
+pub(super) struct Member {
+    pub(super) structure: Box<dyn Structure>,
     /// Base in coordinates and degrees of freedom of the group.
     base: Base,
     /// Index of its first degree of freedom in the group.
-    first_dof: usize,
+    pub(super) first_dof: usize,
     /// Number of its degrees of freedom.
-    dof_count: usize,
+    pub(super) dof_count: usize,
 }
 
 /// Several structures on foundations of their own, coupled through the soil.
 ///
-/// The simulation treats them as one structure with several foundations. The ground needs a strip under each foundation, or
-/// a mat in space. `State::foundations` has forces and motions of each foundation.
+/// The simulation treats them as one structure with several foundations. The ground needs a strip under each
+/// foundation, or a mat in space. `State::foundations` has forces and motions of each foundation.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -71,7 +70,7 @@ struct Member {
 /// ```
 #[derive(Default)]
 pub struct StructureGroup {
-    members: Vec<Member>,
+    pub(super) members: Vec<Member>,
 }
 
 short_debug! { StructureGroup; self; structures: self.len(), dofs: self.dofs() }
@@ -84,8 +83,8 @@ impl StructureGroup {
 
     /// Adds `structure`, shifted to the right by `shift` (m).
     ///
-    /// In the plane its base must lie to the right of all present members. In space its base may have any position that does
-    /// not touch them; the structure determines its position along y, see
+    /// In the plane its base must lie to the right of all present members. In space its base may have any position that
+    /// does not touch them; the structure determines its position along y, see
     /// [`RigidBody::centered_at`](crate::structure::RigidBody::centered_at).
     ///
     /// # Errors
@@ -188,7 +187,7 @@ impl StructureGroup {
     }
 
     /// Members with a nonlinear force, and these forces.
-    fn nonlinear_members(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
+    pub(super) fn nonlinear_members(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
         self.members
             .iter()
             .filter_map(|member| Some((member, member.structure.nonlinear()?)))
@@ -197,15 +196,15 @@ impl StructureGroup {
 
 impl Member {
     /// Range of its degrees of freedom in the group.
-    fn dof_range(&self) -> Range<usize> {
+    pub(super) fn dof_range(&self) -> Range<usize> {
         self.first_dof..self.first_dof.saturating_add(self.dof_count)
     }
 }
 
-/// A weighted sum of a member's degrees of freedom, converted to those of the group.
+/// A weighted sum of a member's degrees of freedom, converted to degrees of freedom of the group.
 ///
-/// `member_dofs`: degrees of freedom of the member in the group. An index out of their range is also out of the group's range
-/// afterwards.
+/// `member_dofs`: degrees of freedom of the member in the group. An index out of their range is also out of the group's
+/// range afterwards.
 fn group_row(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination {
     row.map_dofs(|dof| {
         if dof < member_dofs.len() {
@@ -276,7 +275,7 @@ impl Structure for StructureGroup {
                 let member_dofs: Vec<usize> =
                     group_dofs.iter().map(|dof| dof - range.start).collect();
                 let description = member.structure.describe(&member_dofs);
-                let text = description.unwrap_or_else(|| numbers(&group_dofs));
+                let text = description.unwrap_or_else(|| dof_list_text(&group_dofs));
                 texts.push(format!("structure {index}: {text}"));
             }
         }
@@ -321,89 +320,4 @@ impl Structure for StructureGroup {
             self.members.iter_mut().all(|m| is_nonlinear(m.structure.as_mut()).is_ok());
         (has_force == is_consistent).then_some(self)
     }
-}
-
-impl NonlinearForce for StructureGroup {
-    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        for (member, nonlinear_force) in self.nonlinear_members() {
-            let range = member.dof_range();
-            if let (Some(u), Some(f)) = (displacement.get(range.clone()), force.get_mut(range)) {
-                nonlinear_force.force(u, f)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        for (member, nonlinear_force) in self.nonlinear_members() {
-            if let Some(u) = displacement.get(member.dof_range()) {
-                matrix.block(member.first_dof, member.dof_count, |block| {
-                    nonlinear_force.tangent(u, block)
-                })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Energies of all members; `None` unless all nonlinear members return theirs.
-    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        self.nonlinear_members().try_fold(
-            InternalEnergy::default(),
-            |sum, (member, nonlinear_force)| {
-                Some(sum + nonlinear_force.energy(displacement.get(member.dof_range())?)?)
-            },
-        )
-    }
-
-    fn commit(&mut self, displacement: &[f64]) {
-        for member in &mut self.members {
-            let u = displacement.get(member.dof_range());
-            if let (Some(u), Some(nonlinear_force)) = (u, member.structure.nonlinear_mut()) {
-                nonlinear_force.commit(u);
-            }
-        }
-    }
-
-    fn save(&self) -> Result<Vec<f64>> {
-        let mut values = Vec::new();
-        for member in &self.members {
-            let variables = save_variables(member.structure.as_ref())?;
-            values.push(variables.len() as f64);
-            values.extend(variables);
-        }
-        Ok(values)
-    }
-
-    fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let member_values = split_by_length(values, self.members.len())?;
-        let saved_states: Vec<Vec<f64>> = self
-            .members
-            .iter()
-            .map(|member| save_variables(member.structure.as_ref()))
-            .collect::<Result<_>>()?;
-        for (index, values) in member_values.into_iter().enumerate() {
-            if let Err(error) = restore_variables(self.members[index].structure.as_mut(), values) {
-                for (member, saved_state) in self.members[..index].iter_mut().zip(&saved_states) {
-                    restore_variables(member.structure.as_mut(), saved_state)?;
-                }
-                return Err(error);
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Splits saved values into `count` lists, each of which follows its length.
-fn split_by_length(values: &[f64], count: usize) -> Result<Vec<&[f64]>> {
-    let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
-    let mut remaining_values = values;
-    let mut lists = Vec::with_capacity(count);
-    for _ in 0..count {
-        let (&saved_length, following) = remaining_values.split_first().ok_or_else(corrupt)?;
-        let length =
-            (0..=following.len()).find(|n| *n as f64 == saved_length).ok_or_else(corrupt)?;
-        lists.push(&following[..length]);
-        remaining_values = &following[length..];
-    }
-    if remaining_values.is_empty() { Ok(lists) } else { Err(corrupt().into()) }
 }

@@ -8,10 +8,11 @@ use crate::structure::FemModel;
 impl FemModel {
     /// Structure in a trench, in contact with the soil at the nodes of its `outline`.
     ///
-    /// The nodes are listed down the left wall, along the base to the right and up the right wall; each corner is listed once.
-    /// y = 0 of the mesh is the surface: the base of a trench 5 m deep has y = −5. Walls and base bend with the elements at
-    /// their nodes; [`with_rigid_link`](FemModel::with_rigid_link) makes them rigid. The ground is a `TrenchGround` of this
-    /// width and depth. The outline must extend to the surface: if the roof is deeper, solids must fill the trench above it.
+    /// The nodes are listed down the left wall, along the base to the right and up the right wall; each corner is
+    /// listed once. y = 0 of the mesh is the surface: the base of a trench 5 m deep has y = −5. Walls and base bend
+    /// with the elements at their nodes; [`with_rigid_link`](FemModel::with_rigid_link) makes them rigid. The ground is
+    /// a `TrenchGround` of this width and depth. The outline must extend to the surface: if the roof is deeper, solids
+    /// must fill the trench above it.
     ///
     /// ```
     /// use basemat::fem::{Beam, Mesh};

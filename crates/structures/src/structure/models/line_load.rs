@@ -16,8 +16,8 @@ impl FemModel {
     /// The pressure acts to the left of the direction from the first to the last node, which is into a body with nodes
     /// counter-clockwise along its boundary.
     ///
-    /// The forces do the same work as the pressure on the elements' edges: one half at each end of a segment, or Simpson's
-    /// weights along the edge of an eight-node element whose middle node is in the list.
+    /// The forces do the same work as the pressure on the elements' edges: one half at each end of a segment, or
+    /// Simpson's weights along the edge of an eight-node element whose middle node is in the list.
     ///
     /// ```
     /// use basemat::coupled::Load;

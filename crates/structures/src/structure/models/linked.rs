@@ -7,11 +7,11 @@ use crate::structure::FemModel;
 impl FemModel {
     /// Connects the nodes `followers` with `leader` so that they move as one rigid body.
     ///
-    /// Uses are stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and the
-    /// remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
+    /// Uses are stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
+    /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
     /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses still act at the
-    /// followers. Contact nodes may be followers. The static forces of [`with_p_delta`](FemModel::with_p_delta) are computed
-    /// again.
+    /// followers. Contact nodes may be followers. The static forces of [`with_p_delta`](FemModel::with_p_delta) are
+    /// computed again.
     ///
     /// ```
     /// use basemat::fem::{Beam, Direction, Mesh};
@@ -34,8 +34,8 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a node that does not exist; [`Error::Scene`](crate::Error::Scene)
-    /// when the leader does not have all degrees of freedom of a node or follows another node, or when a follower is already
+    /// [`Error::Index`](crate::Error::Index) for a node that does not exist; [`Error::Scene`](crate::Error::Scene) when
+    /// the leader does not have all degrees of freedom of a node or follows another node, or when a follower is already
     /// a leader or a follower. After [`with_p_delta`](FemModel::with_p_delta) also its errors.
     pub fn with_rigid_link(self, leader: usize, followers: &[usize]) -> Result<Self> {
         self.with_link(RigidLinkKind::Body, leader, followers)

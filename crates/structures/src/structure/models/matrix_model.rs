@@ -11,15 +11,15 @@ const DAMPING_MATRIX_NAME: &str = "damping matrix";
 /// A structure by its mass, damping and stiffness matrices, for example from another program.
 ///
 /// The degrees of freedom are absolute displacements in m and rotations in rad, in any order. The structure is
-/// **free**, without supports, since the ground supports it: a rigid translation must give no elastic force beyond rounding
-/// (entries with ten digits may be too inaccurate, entries with twelve digits are not). Matrices are per metre of
-/// thickness, except for a structure in space ([`Base::Faces`]). They may come from Matrix Market files
+/// **free**, without supports, since the ground supports it: a rigid translation must give no elastic force beyond
+/// rounding (entries with ten digits may be too inaccurate, entries with twelve digits are not). Matrices are per metre
+/// of thickness, except for a structure in space ([`Base::Faces`]). They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
 /// ([`Triplets::from_csr`]). Large models run faster after a [`CraigBampton`](crate::structure::CraigBampton)
 /// reduction.
 ///
-/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is checked here.
-/// The stiffness matrix must be symmetric, and positive semi-definite with a fixed base, Lagrange multipliers excepted (see
+/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is checked here. The
+/// stiffness matrix must be symmetric, and positive semi-definite with a fixed base, Lagrange multipliers excepted (see
 /// [`Structure::stiffness`]). This is checked when a simulation is built.
 ///
 /// ```
@@ -50,8 +50,8 @@ pub struct MatrixModel {
 impl MatrixModel {
     /// Structure with mass (kg/m) and stiffness (N/m per metre), without damping.
     ///
-    /// `base`: nodes from left to right, or any [`Base`]. With [`Base::Faces`] the structure is in space. Its matrices then
-    /// belong to the whole body (kg, N/m):
+    /// `base`: nodes from left to right, or any [`Base`]. With [`Base::Faces`] the structure is in space. Its matrices
+    /// then belong to the whole body (kg, N/m):
     /// ```
     /// use basemat::structure::{Base, BaseNode, MatrixModel, Structure, Triplets};
     ///
@@ -69,11 +69,10 @@ impl MatrixModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for matrices without rows or of different order and for a base of fewer
-    /// than two nodes, [`Error::Index`] and [`Error::Input`] for entries,
-    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`] for a
-    /// mass matrix that is not symmetric, [`Error::Indefinite`] for a negative mass
-    /// beyond rounding. The order of nodes, and whether faces are flat, convex and apart, are checked when a simulation is
+    /// [`Error::Size`] for matrices without rows or of different order and for a base of fewer than two nodes,
+    /// [`Error::Index`] and [`Error::Input`] for entries, coordinates or weights out of range or not finite,
+    /// [`Error::Unsymmetric`] for a mass matrix that is not symmetric, [`Error::Indefinite`] for a negative mass beyond
+    /// rounding. The order of nodes, and whether faces are flat, convex and apart, are checked when a simulation is
     /// built.
     pub fn new(mass: Triplets, stiffness: Triplets, base: impl Into<Base>) -> Result<Self> {
         let order = mass.order();
@@ -95,11 +94,11 @@ impl MatrixModel {
 
     /// Force or moment that a part of the structure exerts on the other parts, by its inertia.
     ///
-    /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation gives the
-    /// force in its direction, a rotation about a point the moment about this point. The weights of the accelerations are
-    /// −motionᵀ M. The result is exact for a part without loads and without damping to the ground; with the midpoint rule
-    /// it is the mean over the step. To include the weight, add the acceleration of gravity to the vertical accelerations.
-    /// The unit is that of a force.
+    /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation
+    /// gives the force in its direction, a rotation about a point the moment about this point. The weights of the
+    /// accelerations are −motionᵀ M. The result is exact for a part without loads and without damping to the ground;
+    /// with the midpoint rule it is the mean over the step. To include the weight, add the acceleration of gravity to
+    /// the vertical accelerations. The unit is the unit of a force.
     ///
     /// ```
     /// use basemat::structure::{BaseNode, MatrixModel, Triplets};
@@ -141,10 +140,9 @@ impl MatrixModel {
     /// Replaces the damping by a damping matrix (N s/m per metre).
     ///
     /// # Errors
-    /// [`Error::Size`] for another order, [`Error::Index`] and
-    /// [`Error::Input`] for entries out of range or not finite,
-    /// [`Error::Unsymmetric`] for a matrix that is not symmetric (with the name of the stiffness if it is not symmetric either),
-    /// [`Error::Indefinite`] for negative damping beyond rounding.
+    /// [`Error::Size`] for another order, [`Error::Index`] and [`Error::Input`] for entries out of range or not finite,
+    /// [`Error::Unsymmetric`] for a matrix that is not symmetric (with the name of the stiffness if it is not symmetric
+    /// either), [`Error::Indefinite`] for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
         let damping_matrix = checked_matrix(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
         check_damping(&damping_matrix, &Elimination::default()).map_err(|error| match error {

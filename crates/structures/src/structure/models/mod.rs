@@ -7,6 +7,7 @@ mod dof_names;
 mod feet;
 mod fem_model;
 mod group;
+mod group_forces;
 #[cfg(feature = "embedded")]
 mod in_trench;
 mod line_load;
@@ -19,6 +20,7 @@ mod rigid_links;
 mod rigid_motion;
 mod section;
 mod shear_building;
+mod shear_damping;
 mod shell_rows;
 mod space_section;
 mod storey_building;

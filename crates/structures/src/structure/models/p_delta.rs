@@ -20,23 +20,24 @@ const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;
 impl FemModel {
     /// Adds the P–Δ effect of the structure's own weight.
     ///
-    /// The elements get the geometric stiffness of their static forces. These forces follow from first-order statics under
-    /// `gravity` (m/s², downwards) with fixed contact nodes, and do not change during the motion. Every degree of freedom
-    /// that moves a contact node is fixed: a rigid basemat is clamped, and a column that ends on a contact node is hinged
-    /// there, as on the ground. Walls in a trench are free.
+    /// The elements get the geometric stiffness of their static forces. These forces follow from first-order statics
+    /// under `gravity` (m/s², downwards) with fixed contact nodes, and do not change during the motion. Every degree of
+    /// freedom that moves a contact node is fixed: a rigid basemat is clamped, and a column that ends on a contact node
+    /// is hinged there, as on the ground. Walls in a trench are free.
     ///
-    /// * All forces at the nodes of an element rotate with it: shear forces and moments of beams, forces of shells, solids
-    ///   and springs between two nodes. A solid or shell has no curvature between its nodes; use several along a member
-    ///   that may buckle.
-    /// * The axial forces of beams and trusses also act on the lateral displacement between their ends. In a beam the force
-    ///   increases downwards by the weight of the beam; a truss has the mean force.
+    /// * All forces at the nodes of an element rotate with it: shear forces and moments of beams, forces of shells,
+    ///   solids and springs between two nodes. A solid or shell has no curvature between its nodes; use several along a
+    ///   member that may buckle.
+    /// * The axial forces of beams and trusses also act on the lateral displacement between their ends. In a beam the
+    ///   force increases downwards by the weight of the beam; a truss has the mean force.
     ///   [`Element::compression`](crate::fem::Element::compression) returns the force.
     /// * Reactions of the ground that are not vertical, such as the thrust of a portal, rotate with the base.
-    /// * A force prescribed by [`Beam::with_compression`](crate::fem::Beam::with_compression) does not change. Prescribed
-    ///   forces are not in equilibrium with the weights, so the previous rule and the last paragraph do not hold with them.
+    /// * A force prescribed by [`Beam::with_compression`](crate::fem::Beam::with_compression) does not change.
+    ///   Prescribed forces are not in equilibrium with the weights, so the previous rule and the last paragraph do not
+    ///   hold with them.
     ///
-    /// Call [`with_mass`](FemModel::with_mass) before this method, which uses the present kind of mass matrix. Rigid links
-    /// may be added later; the forces are then computed again.
+    /// Call [`with_mass`](FemModel::with_mass) before this method, which uses the present kind of mass matrix. Rigid
+    /// links may be added later; the forces are then computed again.
     ///
     /// Translations and a rotation about the vertical cause no force, so the structure can still move freely. A rocking
     /// rotation ψ causes the overturning moment −W h ψ of the weight W at the height h above the base.
@@ -66,8 +67,8 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the structure is a
-    /// mechanism on fixed contact nodes, [`StructureError::Buckling`] when it buckles there, also under prescribed forces;
-    /// and errors of its matrices.
+    /// mechanism on fixed contact nodes, [`StructureError::Buckling`] when it buckles there, also under prescribed
+    /// forces; and errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
         // The present entries belong to the links of an earlier call.
@@ -96,9 +97,9 @@ impl FemModel {
 
     /// Factor on the axial forces of the elements at which the structure buckles.
     ///
-    /// The contact nodes are fixed. The forces are those of [`with_p_delta`](FemModel::with_p_delta), or prescribed ones.
-    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present mesh it is
-    /// accurate to nine digits, by some forty sparse factorisations.
+    /// The contact nodes are fixed. The forces come from [`with_p_delta`](FemModel::with_p_delta), or are prescribed.
+    /// The factor is infinite if the structure does not buckle under a million times the forces. For the present
+    /// mesh it is accurate to nine digits, by some forty sparse factorisations.
     ///
     /// # Errors
     /// [`Error::Singular`] when the structure is a mechanism on fixed contact nodes.

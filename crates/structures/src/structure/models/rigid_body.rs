@@ -91,9 +91,9 @@ impl RigidBody {
 
     /// Any rigid body, by its convex base, mass, inertia and centre of gravity.
     ///
-    /// `outline`: corners of the base relative to the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor about
-    /// the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of inertia off the
-    /// diagonal. `gravity_center`: relative to the same point, m.
+    /// `outline`: corners of the base relative to the point of the degrees of freedom, m. `mass`: kg. `inertia`: tensor
+    /// about the centre of gravity, kg m², with moments of inertia on the diagonal and minus the products of inertia
+    /// off the diagonal. `gravity_center`: relative to the same point, m.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for numbers that are not finite, a mass that is not positive, a tensor
@@ -214,8 +214,8 @@ impl Structure for RigidBody {
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         let inertia = self.base_inertia();
-        // The centre of gravity moves by u + r × c, which gives the mass of the translations and their coupling with the
-        // rotations.
+        // The centre of gravity moves by u + r × c, which gives the mass of the translations and their coupling with
+        // the rotations.
         let center_rows = self.displacement_at(self.gravity_center);
         for i in 0..3 {
             matrix.add(i, i, self.mass);

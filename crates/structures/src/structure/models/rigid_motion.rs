@@ -6,8 +6,8 @@ use crate::structure::{FemModel, Structure};
 impl FemModel {
     /// Values of all degrees of freedom in a unit rigid motion.
     ///
-    /// The motion is a displacement of 1 m, or a small rotation by 1 rad about `point` (z is zero in the plane). All values
-    /// are zero for a direction that the mesh does not have.
+    /// The motion is a displacement of 1 m, or a small rotation by 1 rad about `point` (z is zero in the plane). All
+    /// values are zero for a direction that the mesh does not have.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 3]) -> Vec<f64> {
         let mut motion = vec![0.0; self.dofs()];
         self.fill_rigid_motion(direction, point, &mut motion, |node, axis| self.dof(node, axis));

@@ -7,9 +7,9 @@ use crate::structure::{FemModel, SectionRows};
 
 /// Forces that the part above a horizontal section exerts on the part below, per metre.
 ///
-/// They consist of elastic forces, of damping forces without mass-proportional damping, and of the inertia of the elements
-/// above at the nodes of the section. To include the weight of the elements above, add the acceleration of gravity to the
-/// vertical accelerations.
+/// They consist of elastic forces, of damping forces without mass-proportional damping, and of the inertia of the
+/// elements above at the nodes of the section. To include the weight of the elements above, add the acceleration of
+/// gravity to the vertical accelerations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Height of the section, m.
@@ -27,9 +27,9 @@ impl FemModel {
     ///
     /// Moments refer to the point (`reference`, `height`).
     ///
-    /// The section consists of the nodes at this height; elements at this height belong to the part below. The rows are −K,
-    /// −C and −M of the elements above, summed over the nodes of the section. A rigid body of linked nodes with a node at or
-    /// below the section belongs to the part below with all its nodes.
+    /// The section consists of the nodes at this height; elements at this height belong to the part below. The rows are
+    /// −K, −C and −M of the elements above, summed over the nodes of the section. A rigid body of linked nodes with a
+    /// node at or below the section belongs to the part below with all its nodes.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no

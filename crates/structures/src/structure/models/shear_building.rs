@@ -1,18 +1,10 @@
 //! Shear building on a rigid base.
 
-use crate::error::{
-    Result, at_least, damping_ratio, finite, in_bounds, not_negative, positive, require,
-};
+use crate::error::{Result, at_least, finite, in_bounds, not_negative, positive, require};
 use crate::structure::hysteresis::HystereticSprings;
 use crate::structure::{
     Base, BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
 };
-use std::f64::consts::{PI, TAU};
-
-/// Limit of inverse iterations, which only matters for nearly equal frequencies: the quotient is then accurate long before.
-const MAX_INVERSE_ITERATIONS: usize = 10_000;
-/// Relative change at which the Rayleigh quotient has converged: a few roundings.
-const QUOTIENT_TOLERANCE: f64 = 1e-15;
 
 /// Storey of a [`ShearBuilding`]: columns and their floor, per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,8 +34,8 @@ impl Storey {
 
 /// Shear building: rigid floors on flexible columns on a rigid base.
 ///
-/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor,
-/// from below. The columns do not shorten, so all floors rise and rotate with the base. A storey's drift is the relative
+/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor, from
+/// below. The columns do not shorten, so all floors rise and rotate with the base. A storey's drift is the relative
 /// displacement of its floors without the part by the rotation, `d_j = u_j − u_(j−1) + h_j θ`.
 ///
 /// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law ([`with_law`](ShearBuilding::with_law)), and
@@ -74,7 +66,7 @@ pub struct ShearBuilding {
     /// Middle of the base on the surface, m.
     center: f64,
     /// Factor β of stiffness-proportional damping, s.
-    stiffness_damping: f64,
+    pub(super) stiffness_damping: f64,
     /// Acceleration of gravity for P–Δ, m/s²; zero without it.
     gravity: f64,
 }
@@ -138,33 +130,15 @@ impl ShearBuilding {
         Ok(Self { center: finite("middle of the base", center)?, ..self })
     }
 
-    /// Adds stiffness-proportional damping with this ratio in the first fixed-base mode.
-    ///
-    /// It adds to the storeys' dashpots. In higher modes the ratio increases with the frequency: `ratio · f_n/f_1`. Five
-    /// equal storeys with 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which strongly reduces the
-    /// accelerations of the upper floors. [`ModalDamping`](crate::structure::ModalDamping) sets the ratio of
-    /// each mode.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless `ratio` is from 0 to below 1.
-    pub fn with_stiffness_damping(self, ratio: f64) -> Result<Self> {
-        damping_ratio("damping ratio", ratio)?;
-        let frequency = self.fixed_base_frequency();
-        positive("first frequency of the building, by masses and stiffnesses", frequency)?;
-        let stiffness_damping = ratio / (PI * frequency);
-        finite("stiffness-proportional damping", stiffness_damping)?;
-        Ok(Self { stiffness_damping, ..self })
-    }
-
     /// Adds the P–Δ effect of the floors' weight.
     ///
-    /// Columns do not shorten, so an inclination of the columns lowers the weight above by `(u_j − u_(j−1))²/(2 h_j)`. This
-    /// reduces the stiffness of a storey under the weight W by W/h.
+    /// Columns do not shorten, so an inclination of the columns lowers the weight above by `(u_j − u_(j−1))²/(2 h_j)`.
+    /// This reduces the stiffness of a storey under the weight W by W/h.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative, and the height of
-    /// every storey is above W/k, at which its columns buckle. k is the storey's stiffness, or the initial tangent of its
-    /// law.
+    /// every storey is above W/k, at which its columns buckle. k is the storey's stiffness, or the initial tangent of
+    /// its law.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
         (0..building.storeys.len()).try_for_each(|storey| building.check_buckling(storey))?;
@@ -208,8 +182,8 @@ impl ShearBuilding {
 
     /// Displacement of the floor on `storey` minus the base's rigid motion there.
     ///
-    /// It is `u_j − u_x + H_j θ` with the height `H_j` of the floor, the sum of the drifts of all storeys up to this one.
-    /// Storeys count from 0.
+    /// It is `u_j − u_x + H_j θ` with the height `H_j` of the floor, the sum of the drifts of all storeys up to this
+    /// one. Storeys count from 0.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -221,10 +195,11 @@ impl ShearBuilding {
 
     /// Horizontal force of the floor on top of `storey` on the part below, N.
     ///
-    /// It is the force of the columns or isolators, positive to the right; for storey 0 it is the base shear. With P–Δ it is
-    /// the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The force of a
-    /// law is not a weighted sum of displacements. For a storey with a law, the force is therefore computed from the inertia
-    /// of the floors above, which is exact for any law; with the midpoint rule it is then the mean over the step.
+    /// It is the force of the columns or isolators, positive to the right; for storey 0 it is the base shear. With P–Δ
+    /// it is the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The
+    /// force of a law is not a weighted sum of displacements. For a storey with a law, the force is therefore computed
+    /// from the inertia of the floors above, which is exact for any law; with the midpoint rule it is then the mean
+    /// over the step.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -249,39 +224,6 @@ impl ShearBuilding {
         }
         let velocity = scaled_drift(self.dashpot(storey)).into();
         Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
-    }
-
-    /// Frequency of the first mode on a fixed base, without P–Δ, Hz.
-    pub fn fixed_base_frequency(&self) -> f64 {
-        let mut shape = vec![1.0; self.storeys.len()];
-        let mut squared_frequency = 0.0;
-        // Inverse iteration: each shape is the deflection under the inertia forces of the previous one.
-        for _ in 0..MAX_INVERSE_ITERATIONS {
-            let mut shear: f64 = self.inertia_forces(&shape).sum();
-            let mut floor_displacement = 0.0;
-            let mut deflection = Vec::with_capacity(shape.len());
-            for (storey, force) in self.storeys.iter().zip(self.inertia_forces(&shape)) {
-                floor_displacement += shear / storey.stiffness;
-                shear -= force;
-                deflection.push(floor_displacement);
-            }
-            let work: f64 = self.inertia_forces(&shape).zip(&deflection).map(|(f, u)| f * u).sum();
-            let inertia: f64 =
-                self.inertia_forces(&deflection).zip(&deflection).map(|(f, u)| f * u).sum();
-            let rayleigh_quotient = work / inertia;
-            let change = (rayleigh_quotient - squared_frequency).abs();
-            squared_frequency = rayleigh_quotient;
-            shape = deflection.iter().map(|u| u / floor_displacement).collect();
-            if change <= QUOTIENT_TOLERANCE * rayleigh_quotient {
-                break;
-            }
-        }
-        squared_frequency.sqrt() / TAU
-    }
-
-    /// Inertia forces of the floors in a shape, for a unit squared frequency.
-    fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
     }
 
     /// Relative displacement `u_j − u_(j−1)`, with the part by the base's rotation.
@@ -317,9 +259,10 @@ impl ShearBuilding {
 
     /// Adds the geometric stiffness of the weight.
     ///
-    /// Columns lower the weight by half the square of the floors' relative displacement, divided by their height. Isolators
-    /// do not: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2 for a drift d at
-    /// the height h. The term in d² is part of the law: W/R, or the stiffness of rubber under its load.
+    /// Columns lower the weight by half the square of the floors' relative displacement, divided by their height.
+    /// Isolators do not: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2
+    /// for a drift d at the height h. The term in d² is part of the law: W/R, or the stiffness of rubber under its
+    /// load.
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             let weight = self.weight_on(index);

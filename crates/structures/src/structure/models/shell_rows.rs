@@ -9,8 +9,8 @@ use crate::structure::{FemModel, SectionRows};
 
 /// Forces and moments of shells per metre at a node, as weighted sums of displacements.
 ///
-/// A `Probe::section` records one of them at every step, as a change from the static state. The static part is the value
-/// for `Simulation::static_displacement`. The sums contain the elastic forces, without damping.
+/// A `Probe::section` records one of them at every step, as a change from the static state. The static part is the
+/// value for `Simulation::static_displacement`. The sums contain the elastic forces, without damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShellRows {
     /// Index of the node.
@@ -48,8 +48,8 @@ impl FemModel {
     /// of freedom. `State::displacement` gives changes from the static state.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a [`Shell`], [`Error::Size`] for a
-    /// displacement of another length, [`Error::NotFinite`] for a displacement that is not finite.
+    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is not a [`Shell`], [`Error::Size`] for
+    /// a displacement of another length, [`Error::NotFinite`] for a displacement that is not finite.
     pub fn shell_resultants(
         &self,
         element: usize,
@@ -62,11 +62,11 @@ impl FemModel {
 
     /// Rows of the forces and moments at every node of some shells, in ascending order of nodes.
     ///
-    /// At each node they are means over these shells. Pass the shells of one mat or one wall only: the moments of another
-    /// wall at a common node are different. `elements` are indices from [`Mesh::add`].
+    /// At each node they are means over these shells. Pass the shells of one mat or one wall only: the moments of
+    /// another wall at a common node are different. `elements` are indices from [`Mesh::add`].
     ///
-    /// `axes` returns [along, outward] at a point [x, y, z] (m): e1 is the part of `along` in the plane of a shell, and the
-    /// normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
+    /// `axes` returns [along, outward] at a point [x, y, z] (m): e1 is the part of `along` in the plane of a shell, and
+    /// the normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
     ///
     /// ```
     /// use basemat::coupled::Probe;

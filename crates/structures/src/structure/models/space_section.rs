@@ -26,11 +26,11 @@ pub struct SpaceSection {
 impl FemModel {
     /// Six resultants that the part above `height` (m) exerts on the part below, in space.
     ///
-    /// Moments refer to the point [x, y] = `reference` (m) at this height. The section consists of the nodes at this height;
-    /// elements at this height belong to the part below, so that a section at the height of a mat has the forces at the feet
-    /// of its walls. The resultants consist of elastic forces, of damping forces without mass-proportional damping, and of
-    /// the inertia of the elements above at the nodes of the section. A rigid body of linked nodes with a node at or below
-    /// the section belongs to the part below with all its nodes.
+    /// Moments refer to the point [x, y] = `reference` (m) at this height. The section consists of the nodes at this
+    /// height; elements at this height belong to the part below, so that a section at the height of a mat has the
+    /// forces at the feet of its walls. The resultants consist of elastic forces, of damping forces without
+    /// mass-proportional damping, and of the inertia of the elements above at the nodes of the section. A rigid body of
+    /// linked nodes with a node at or below the section belongs to the part below with all its nodes.
     ///
     /// To include the weight of the elements above, add the acceleration of gravity to the vertical accelerations.
     ///

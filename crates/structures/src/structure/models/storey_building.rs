@@ -36,8 +36,8 @@ pub struct PlanStorey {
 impl PlanStorey {
     /// Storey with a homogeneous rectangular floor above the middle of the mat.
     ///
-    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as the field. The storey has
-    /// no eccentricities and no dashpots.
+    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as the field. The
+    /// storey has no eccentricities and no dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
         let y_inertia = mass * length * length / 12.0;
         let x_inertia = mass * width * width / 12.0;
@@ -55,14 +55,14 @@ impl PlanStorey {
 
 /// Rigid floors on flexible columns and walls, on a rigid mat in space.
 ///
-/// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from
-/// below, the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not
-/// shorten: all floors rise and tilt with the mat. The deformation of a storey is the relative motion of its floors without
-/// the part by the tilt. Along one axis and without eccentricities the building is a
+/// Degrees of freedom: `[u_x, u_y, u_z, r_x, r_y, r_z]` of the mat as a [`RigidBody`], then of each floor, from below,
+/// the **absolute** `[u_x, u_y, r_z]` of its point above the middle of the mat's base. Columns do not shorten: all
+/// floors rise and tilt with the mat. The deformation of a storey is the relative motion of its floors without the part
+/// by the tilt. Along one axis and without eccentricities the building is a
 /// [`ShearBuilding`](crate::structure::ShearBuilding).
 ///
-/// [`ModalDamping`](crate::structure::ModalDamping) adds modal damping. Single walls and dampers at any point of a storey are
-/// [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
+/// [`ModalDamping`](crate::structure::ModalDamping) adds modal damping. Single walls and dampers at any point of a
+/// storey are [`WithSprings`](crate::structure::WithSprings) on a [`drift_at`](StoreyBuilding::drift_at).
 ///
 /// ```
 /// use basemat::structure::{ModalDamping, PlanStorey, RigidBody, StoreyBuilding};
@@ -136,9 +136,9 @@ impl StoreyBuilding {
     /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
     ///
     /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
-    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
-    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: along the diagonal, two
-    /// sliders have √2 times the friction of one. For bearings that slide or yield in any direction use
+    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's [`drift`](StoreyBuilding::drift) in
+    /// that direction. Laws along x and y act independently: along the diagonal, two sliders have √2 times the friction
+    /// of one. For bearings that slide or yield in any direction use
     /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
@@ -182,9 +182,9 @@ impl StoreyBuilding {
 
     /// Adds the P–Δ effect of the floors' weight.
     ///
-    /// Columns do not shorten, so an inclination lowers the weight of each floor above by δ²/(2 h), where δ is the relative
-    /// displacement of a storey's ends at the floor's mass centre. Columns that buckle cause an error when a simulation is
-    /// built.
+    /// Columns do not shorten, so an inclination lowers the weight of each floor above by δ²/(2 h), where δ is the
+    /// relative displacement of a storey's ends at the floor's mass centre. Columns that buckle cause an error when a
+    /// simulation is built.
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.

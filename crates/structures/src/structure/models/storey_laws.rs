@@ -64,11 +64,11 @@ impl ShearBuilding {
     /// A damping ratio of the building from before this call still applies to its storeys only. The isolators have the
     /// damping of their law and of [`IsolationLevel::damping`], but no stiffness-proportional damping.
     ///
-    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators exerts the force W θ along the slope
-    /// of a rotated base, and the moment W d on the base by the drift d. The softening −W/h of columns does not apply: the
-    /// law of a slider contains its weight already (W/R of a
-    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be that under
-    /// their load.
+    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators exerts the force W θ along the
+    /// slope of a rotated base, and the moment W d on the base by the drift d. The softening −W/h of columns does not
+    /// apply: the law of a slider contains its weight already (W/R of a
+    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings must be that
+    /// under their load.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's initial tangent

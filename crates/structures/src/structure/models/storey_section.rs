@@ -8,9 +8,9 @@ use crate::structure::{DofCombination, SectionRows};
 impl StoreyBuilding {
     /// Forces along x and y (N) of the floor on `storey`, and their torque.
     ///
-    /// They act on the part below: for storey 0, on the mat. The torque (N m) is about the centre of stiffness. The resultants
-    /// are computed from the inertia of the floors above, which is exact for any law; with the midpoint rule they are the
-    /// mean over the step. [`section`](StoreyBuilding::section) has all six resultants.
+    /// They act on the part below: for storey 0, on the mat. The torque (N m) is about the centre of stiffness. The
+    /// resultants are computed from the inertia of the floors above, which is exact for any law; with the midpoint rule
+    /// they are the mean over the step. [`section`](StoreyBuilding::section) has all six resultants.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
@@ -23,9 +23,10 @@ impl StoreyBuilding {
 
     /// Six resultants of the floors above on the part below the foot of `storey` (0: the lowest, on the mat).
     ///
-    /// Moments are about the point `reference` (m from the middle of the mat's base) at the foot of the storey. The height of
-    /// the section is that above the mat's base. As in [`shear`](StoreyBuilding::shear), the resultants are computed from the
-    /// inertia of the floors above. To include the weight, add the acceleration of gravity to the vertical accelerations.
+    /// Moments are about the point `reference` (m from the middle of the mat's base) at the foot of the storey. The
+    /// height of the section is that above the mat's base. As in [`shear`](StoreyBuilding::shear), the resultants are
+    /// computed from the inertia of the floors above. To include the weight, add the acceleration of gravity to the
+    /// vertical accelerations.
     ///
     /// ```
     /// use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};

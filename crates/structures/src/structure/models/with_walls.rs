@@ -5,9 +5,9 @@ use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescr
 
 /// Embedded structure: its rigid base is at a depth and has walls up to the surface.
 ///
-/// The structure is the same as on the surface, with heights above its base. The ground is a `TrenchGround` of this width and
-/// depth. For a flexible base, the structure itself lists the nodes of base and walls: down the left wall, along the base, up
-/// the right wall. Needs the feature `embedded`.
+/// The structure is the same as on the surface, with heights above its base. The ground is a `TrenchGround` of this
+/// width and depth. For a flexible base, the structure itself lists the nodes of base and walls: down the left wall,
+/// along the base, up the right wall. Needs the feature `embedded`.
 ///
 /// ```
 /// use basemat::structure::{RigidBlock, Structure, WithWalls};

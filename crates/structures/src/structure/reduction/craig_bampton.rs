@@ -10,21 +10,21 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::Recovery;
+use super::dof_partition::DofPartition;
 use super::recovery::Basis;
-use crate::error::{
-    Error, Result, at_least, damping_ratio, in_bounds, memory, require_part, same_length,
-};
-use crate::linalg::{Eigenpairs, SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::{check_attached, numbers, submatrix};
+use crate::error::{Result, damping_ratio, require_part, same_length};
+use crate::linalg::{SparseMatrix, dot};
+use crate::structure::detached::{check_attached, dof_list_text};
 use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescription, Triplets};
+use crate::structure::{Base, Structure, StructureDescription, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
-/// The modes are those of the interior degrees of freedom with the kept degrees of freedom fixed. Rigid motions, weight and
-/// slow loads at the kept degrees of freedom are exact. Motion above the frequency of the highest mode
-/// ([`ReducedModel::frequencies`]) is filtered out. A usual choice is modes up to twice the highest frequency of interest.
+/// The modes belong to the interior degrees of freedom with the kept degrees of freedom fixed. Rigid motions, weight
+/// and slow loads at the kept degrees of freedom are exact. Motion above the frequency of the highest mode
+/// ([`ReducedModel::frequencies`]) is filtered out. A usual choice is modes up to twice the highest frequency of
+/// interest.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -47,7 +47,7 @@ use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescr
 pub struct CraigBampton {
     /// Number of modes.
     mode_count: usize,
-    /// Degrees of freedom to keep beside those of the contact nodes.
+    /// Degrees of freedom to keep beside the contact nodes.
     kept_dofs: Vec<usize>,
 }
 
@@ -97,16 +97,18 @@ impl CraigBampton {
 
     /// Reduces a linear structure.
     ///
-    /// The damping matrix is reduced as the others; [`ReducedModel::with_damping_ratio`] replaces it. The reduction takes
-    /// one sparse factorisation, and about two solves for each kept degree of freedom and mode. For each of these it
-    /// stores one number for every degree of freedom of the full model.
+    /// The damping matrix is reduced as the others; [`ReducedModel::with_damping_ratio`] replaces it. The reduction
+    /// takes one sparse factorisation, and about two solves for each kept degree of freedom and mode. For each of these
+    /// it stores one number for every degree of freedom of the full model.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a nonlinear structure, [`Error::Unsymmetric`] for matrices that are not symmetric,
-    /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness connects to a kept degree of freedom, [`Error::Index`] for a
-    /// kept degree of freedom that does not exist, [`Error::Size`] for more modes than interior degrees of freedom,
-    /// [`Error::Singular`] when the interior is a mechanism with the kept degrees of freedom fixed, or its stiffness is
-    /// not positive definite.
+    /// [`Error::Scene`](crate::Error::Scene) for a nonlinear structure,
+    /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) for matrices that are not symmetric,
+    /// [`StructureError::Detached`](crate::structure::StructureError::Detached) for a part that no stiffness connects
+    /// to a kept degree of freedom, [`Error::Index`](crate::Error::Index) for a kept degree of freedom that does not
+    /// exist, [`Error::Size`](crate::Error::Size) for more modes than interior degrees of freedom,
+    /// [`Error::Singular`](crate::Error::Singular) when the interior is a mechanism with the kept degrees of freedom
+    /// fixed, or its stiffness is not positive definite.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
         let needed = "must be linear: add springs to the reduced model";
@@ -171,106 +173,6 @@ fn symmetric_matrix(
     Ok(matrix)
 }
 
-/// Bytes for each entry of T: the basis, its copy while it grows, and scratch of the eigenvalue solver.
-const BASIS_BYTES_PER_ENTRY: f64 = 24.0;
-
-/// Kept and interior degrees of freedom.
-struct DofPartition {
-    kept: Vec<usize>,
-    interior: Vec<usize>,
-    /// Index of each degree of freedom in its list.
-    list_index: Vec<usize>,
-    is_kept: Vec<bool>,
-}
-
-impl DofPartition {
-    /// Partition of `n` degrees of freedom, which keeps those of the base and `further_dofs`.
-    fn new(n: usize, base: &Base, further_dofs: &[usize]) -> Result<Self> {
-        let base_terms = base.nodes().flat_map(BaseNode::rows).flatten();
-        let mut is_kept = vec![false; n];
-        for dof in base_terms.map(|&(dof, _)| dof).chain(further_dofs.iter().copied()) {
-            is_kept[in_bounds("degree of freedom to be kept", dof, n)?] = true;
-        }
-        let mut kept = Vec::new();
-        let mut interior = Vec::new();
-        let mut list_index = Vec::with_capacity(n);
-        for dof in 0..n {
-            let dof_list = if is_kept[dof] { &mut kept } else { &mut interior };
-            list_index.push(dof_list.len());
-            dof_list.push(dof);
-        }
-        at_least("list of kept degrees of freedom", kept.len(), 1)?;
-        Ok(Self { kept, interior, list_index, is_kept })
-    }
-
-    /// A sum of kept degrees of freedom in the numbering of the reduced model.
-    fn renumbered(&self, row: &DofCombination) -> DofCombination {
-        row.map_dofs(|dof| self.list_index[dof])
-    }
-
-    /// Block A_ii of a matrix.
-    fn interior_block(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
-        submatrix(name, matrix, self.interior.len(), |dof| {
-            (!self.is_kept[dof]).then_some(self.list_index[dof])
-        })
-    }
-
-    /// Rows of Tᵀ, and squared circular frequencies of the modes (rad²/s²).
-    fn basis(
-        &self,
-        stiffness: &SparseMatrix,
-        mass: &SparseMatrix,
-        mode_count: usize,
-    ) -> Result<(Vec<f64>, Vec<f64>)> {
-        const MATRIX_NAME: &str = "stiffness matrix with the kept degrees of freedom fixed";
-        let n = self.list_index.len();
-        let interior_count = self.interior.len();
-        let kept_count = self.kept.len();
-        let row_count = (kept_count + mode_count.min(interior_count)) as f64;
-        memory::check(
-            "degrees of freedom and modes of the reduction",
-            row_count,
-            BASIS_BYTES_PER_ENTRY * row_count * n as f64,
-        )?;
-        let mut rows = vec![0.0; kept_count * n];
-        for (kept_index, &dof) in self.kept.iter().enumerate() {
-            rows[kept_index * n + dof] = 1.0;
-        }
-        if interior_count == 0 {
-            return Ok((rows, Vec::new()));
-        }
-        let interior_stiffness = self.interior_block(MATRIX_NAME, stiffness)?;
-        let factor = SparseFactor::positive_definite(MATRIX_NAME, &interior_stiffness)?;
-        let mut static_responses = vec![0.0; kept_count * interior_count];
-        for (row, column, value) in stiffness.entries() {
-            if !self.is_kept[row] && self.is_kept[column] {
-                static_responses
-                    [self.list_index[column] * interior_count + self.list_index[row]] -= value;
-            }
-        }
-        factor.solve_many(&mut static_responses);
-        let interior_mass =
-            self.interior_block("mass matrix with the kept degrees of freedom fixed", mass)?;
-        let Eigenpairs { values: squared_frequencies, vectors: mode_shapes } =
-            lowest_modes(&factor, &interior_mass, mode_count, None)
-                .ok_or(Error::Singular { matrix: MATRIX_NAME, order: interior_count })?;
-        rows.resize((kept_count + squared_frequencies.len()) * n, 0.0);
-        let interior_rows = static_responses
-            .chunks_exact(interior_count)
-            .chain(mode_shapes.chunks_exact(interior_count));
-        for (row, values) in rows.chunks_exact_mut(n).zip(interior_rows) {
-            for (&dof, value) in self.interior.iter().zip(values) {
-                row[dof] = *value;
-            }
-        }
-        if rows.iter().all(|value| value.is_finite()) {
-            Ok((rows, squared_frequencies))
-        } else {
-            Err(Error::Singular { matrix: MATRIX_NAME, order: interior_count })
-        }
-    }
-}
-
 impl ReducedModel {
     /// Frequencies of the modes with the kept degrees of freedom fixed, Hz, ascending.
     ///
@@ -294,7 +196,7 @@ impl ReducedModel {
     /// The kept degrees of freedom are fixed in the modes. Their static responses are not damped.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is from 0 to below 1.
+    /// [`Error::Input`](crate::Error::Input) unless it is from 0 to below 1.
     pub fn with_damping_ratio(mut self, ratio: f64) -> Result<Self> {
         damping_ratio("damping ratio", ratio)?;
         self.damping.fill(0.0);
@@ -310,8 +212,8 @@ impl ReducedModel {
 
 /// The reduced damping matrix with exact zeros for undamped motions, which are usually rigid.
 ///
-/// For these motions, cancellation leaves entries of either sign. They may be larger than the damping of modes, which has
-/// another unit.
+/// For these motions, cancellation leaves entries of either sign. They may be larger than the damping of modes, which
+/// has another unit.
 fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full_damping: &SparseMatrix) -> Vec<f64> {
     let order = basis.order();
     for (i, motion) in basis.rows().enumerate() {
@@ -395,7 +297,7 @@ impl Structure for ReducedModel {
         let mut texts = Vec::new();
         if !full_dofs.is_empty() {
             let description = full.structure.describe(&full_dofs);
-            texts.push(description.unwrap_or_else(|| numbers(&full_dofs)));
+            texts.push(description.unwrap_or_else(|| dof_list_text(&full_dofs)));
         }
         if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept_dofs.len()) {
             texts.push(format!("mode {} of the reduction", dof - kept_dofs.len()));
