@@ -9,7 +9,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use basemat::interface::{InterfaceLaw, Yielding};
+use basemat::interface::{CyclicYielding, InterfaceLaw, Yielding};
 use basemat_problems::rocking_footing::{
     BEARING_PRESSURE, RockingPacket, SlowRockingRun, SlowRockingTest, measured_packets,
 };
@@ -50,12 +50,23 @@ pub(crate) struct RockingFootingOptions {
     docs: Option<PathBuf>,
 }
 
+/// Parameters of `CyclicYielding`, fitted to this test: w_r (m), η, and q_d (Pa/m).
+const REFERENCE_SETTLEMENT: f64 = 5.0e-3;
+const ELASTIC_RANGE: f64 = 0.1;
+const DEPTH_GRADIENT: f64 = 1.4e6;
+
 /// A law and its name.
 type NamedLaw = (&'static str, Box<dyn InterfaceLaw>);
 
 /// The laws that are compared with the test; the picture shows the last one.
 fn laws(friction: f64) -> basemat::Result<Vec<NamedLaw>> {
-    Ok(vec![("Yielding", Box::new(Yielding::new(BEARING_PRESSURE, friction)?))])
+    let cyclic = CyclicYielding::new(BEARING_PRESSURE, REFERENCE_SETTLEMENT, friction)?
+        .with_elastic_range(ELASTIC_RANGE)?
+        .with_depth_gradient(DEPTH_GRADIENT)?;
+    Ok(vec![
+        ("Yielding", Box::new(Yielding::new(BEARING_PRESSURE, friction)?)),
+        ("CyclicYielding", Box::new(cyclic)),
+    ])
 }
 
 /// Runs the study.
