@@ -208,7 +208,7 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
 
 /// Friction coefficients for the factor of safety against sliding.
 ///
-/// The builder's coefficients precede those of the laws. The list has one coefficient for all elements, or one for
+/// The builder's coefficients replace the coefficients of the laws. The list has one coefficient for all elements, or one for
 /// each. It is empty if the builder has none and a law has none.
 fn safety_friction(
     laws: &[Box<dyn InterfaceLaw>],

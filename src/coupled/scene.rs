@@ -176,7 +176,7 @@ impl Scene {
     ///
     /// The mean translation of each part's base is subtracted, so that the displacement stays small. From all parts that
     /// the force connects, the translation of the first of these parts is subtracted, so that their distances do not
-    /// change. The static displacement is added. `translations` are those of the free fields under the parts, m.
+    /// change. The static displacement is added. `translations` are the translations of the free fields under the parts, m.
     pub(crate) fn convert_to_force_displacement(
         &self,
         displacement: &mut [f64],
@@ -221,7 +221,7 @@ impl Scene {
         !(self.weight.is_empty() && self.loads.is_empty())
     }
 
-    /// Adds weight and external loads at `time`, minus those of the static state, to `force`.
+    /// Adds weight and external loads at `time`, minus the loads of the static state, to `force`.
     ///
     /// Returns the number and the value of the first load that is not finite.
     pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> Option<(usize, f64)> {

@@ -18,12 +18,9 @@ use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
-use crate::structure::Probe;
-use crate::structure::Structure;
+use crate::structure::{Probe, Structure};
 
-/// Relative difference of a number of steps that counts as rounding.
-///
-/// Rounding must not add a step to a duration of a whole number of steps.
+/// Rounding of a number of steps, relative to it, which must not add a step.
 const STEP_COUNT_TOLERANCE: f64 = 1e-12;
 
 /// A structure on a ground, ready for time steps.
@@ -123,8 +120,7 @@ impl Simulation {
 
     /// The structure in its present state, with internal variables.
     ///
-    /// The structure is [`Any`](std::any::Any). Downcast it to the type that the builder received (to `Box<…>` for a
-    /// box).
+    /// It is [`Any`](std::any::Any). Downcast it to the type that the builder received (to `Box<…>` for a box).
     ///
     /// ```
     /// use std::any::Any;

@@ -18,7 +18,7 @@ impl Subspace<'_> {
     /// Modes of the space extended by a block, and all products with F, without computing the new vectors.
     ///
     /// `block` has the responses K_eff⁻¹ f to the inertia f of the vectors from index `first` on, with the scheme's factor.
-    /// Directions shorter than `min_length` are omitted. `products` are those of the vectors with the `rows` of F.
+    /// Directions shorter than `min_length` are omitted. `products` are the products of the vectors with the `rows` of F.
     pub(crate) fn extended_ritz(
         &self,
         (block, first): (&[f64], usize),

@@ -13,8 +13,7 @@
 //! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 % at
 //!   3, and 0.3 to 0.5 % at 29, depending on the positions of the columns;
 //! * slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11;
-//! * walls 8 m high with a strut between their middles: 9 % near ρ = 6, and 3 % with 1.5 to 2 times as many elements (ρ
-//!   grows with the cube of their number).
+//! * walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times as many elements.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -45,7 +44,7 @@ const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
 /// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have 0.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
-/// Largest exponent p in ρ ~ nᵖ, that of beams and plates.
+/// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
 /// Smallest recommended increase of the number of elements.
 const MIN_REFINEMENT_FACTOR: f64 = 1.25;

@@ -3,7 +3,7 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | F | weights of the degrees of freedom in forces and in probes, a row each |
-//! | σ | shifts; the first is that of the time scheme, √(a/k), which is 2/Δt for the midpoint rule |
+//! | σ | shifts; the first is the shift √(a/k) of the time scheme, 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for the others |
 //!
 //! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
@@ -48,10 +48,8 @@ const MAX_KRYLOV_ROUNDS: usize = 16;
 const MIN_SHIFT_RATIO: f64 = 1e-6;
 /// Largest number of steps over which responses are compared; it bounds the time of a comparison.
 const MAX_COMPARED_STEPS: usize = 10_000;
-
 /// Name of K + σ²M in errors.
 const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
-
 /// Number of intervals between the samples of the structure's load.
 const LOAD_INTERVAL_COUNT: u32 = 16;
 
@@ -62,7 +60,6 @@ pub(crate) type FactorEffective<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a
 pub(crate) struct Reduction<'a> {
     pub(super) assembled: &'a Assembled,
     pub(super) coefficients: &'a SchemeCoefficients,
-    /// Function that factors K_eff.
     pub(super) factor_effective: &'a FactorEffective<'a>,
     pub(super) fixed_base: FixedBaseResponses,
     /// Factored K + εM, until it is used.
@@ -78,10 +75,9 @@ pub(crate) struct Reduction<'a> {
 }
 
 impl<'a> Reduction<'a> {
-    /// Collects the forces, initial motions and probes of a structure.
+    /// Collects the forces, initial motions and probes of a structure for a run of `step_count` steps.
     ///
     /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors K_eff.
-    /// `step_count` is the number of steps of the run.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
@@ -141,9 +137,7 @@ impl<'a> Reduction<'a> {
         self.rows.force_count >= MANY_FORCES_THRESHOLD
     }
 
-    /// Subspace of the rigid motions.
-    ///
-    /// `rounding` is that of the vectors' orthogonality after one pass.
+    /// Subspace of the rigid motions; `rounding` as for [`Subspace::new`].
     pub(super) fn rigid_motion_space<'m>(
         &self,
         matrices: [&'m SparseMatrix; 3],
@@ -174,7 +168,6 @@ impl<'a> Reduction<'a> {
             self.shifts().map(|shift| self.factor_at_shift(shift)).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(&*effective).chain(&shifted).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
-        // Products of the vectors with the rows.
         let mut products = Vec::new();
         let mut min_fraction =
             MIN_NEW_FRACTION.min(NEW_FRACTION_PER_ROOT_TOLERANCE * tolerance.sqrt());
@@ -188,7 +181,7 @@ impl<'a> Reduction<'a> {
                     let modes = space.ritz()?;
                     return self.basis_with_damping(space, &modes, &factors, tolerance);
                 }
-                // Repeats with a lower limit for the directions that were omitted.
+                // Repeats with a lower limit for omitted directions.
                 min_fraction = FINAL_MIN_NEW_FRACTION.max(MIN_NEW_FRACTION * min_fraction);
                 blocks.fill(rows.clone());
                 continue;
@@ -258,8 +251,7 @@ impl<'a> Reduction<'a> {
         let names = ["mass matrix", "damping matrix", "stiffness matrix"];
         for (matrix, name) in matrices.iter().zip(names) {
             if matrix.asymmetry() > ASYMMETRY_TOLERANCE {
-                let needed = "it must be symmetric";
-                let error = Error::Scene { quantity: name, needed };
+                let error = Error::Scene { quantity: name, needed: "it must be symmetric" };
                 return Err(error.within(REDUCED_COORDINATES_NAME));
             }
         }
@@ -359,7 +351,7 @@ fn collect_initial_motions(
     motions
 }
 
-/// Adds the rows of the probes: first those of displacements, then of velocities and of accelerations.
+/// Adds the rows of the probes: first displacements, then velocities, then accelerations.
 fn collect_probes(rows: &mut ResponseRows, parts: &Parts, dofs: usize) {
     let probes = &parts.builder.probes;
     rows.probes = vec![[None; 3]; probes.len()];

@@ -31,7 +31,7 @@ const MAX_MODE_ROUNDS: usize = 5;
 const MIN_STATIC_SHIFT_RATIO: f64 = 1e-2;
 /// Highest shift for vibration modes and static responses, relative to the scheme's shift.
 const MAX_STATIC_SHIFT_RATIO: f64 = 0.5;
-/// Smallest usable square of a shift, relative to that of the scheme's shift.
+/// Smallest usable square of a shift, relative to the square of the scheme's shift.
 ///
 /// With a smaller shift, rigid motions leave too few digits for the other modes.
 const MIN_SQUARED_SHIFT_RATIO: f64 = 1e-9;

@@ -36,7 +36,7 @@ pub(crate) struct ResponseRows {
 pub(crate) struct StepResponses {
     /// Displacements at each step: forces × outputs.
     displacements: Vec<f64>,
-    /// Velocities at each step: forces × outputs.
+    /// Velocities in the same order.
     velocities: Vec<f64>,
     output_count: usize,
     /// Index of the first output that is an acceleration.
@@ -128,10 +128,9 @@ impl StepResponses {
 
     /// Largest difference of any output from `other`, relative to the largest value of this output.
     ///
-    /// The result is not smaller than rounding.
+    /// It is not smaller than rounding.
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
-        let output_count = self.output_count;
-        let first_acceleration = self.first_acceleration;
+        let Self { output_count, first_acceleration, .. } = *self;
         let rounding = RESPONSE_ROUNDING_TOLERANCE / tolerance;
         let displacements = Comparison {
             values: &self.displacements,

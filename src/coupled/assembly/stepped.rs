@@ -133,7 +133,7 @@ enum ChosenCoordinates {
 
 /// All modes of a structure of at most `max_dofs`, in place of inaccurate Ritz modes.
 ///
-/// Returns `error` for a larger structure, and for any error except that of the accuracy.
+/// Returns `error` for a larger structure, and for any error except a missing accuracy.
 fn all_modes_instead(assembled: &Assembled, max_dofs: usize, error: Error) -> Result<ModalBasis> {
     let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= max_dofs;
     let modes = if is_small { vibration_modes(assembled) } else { None };

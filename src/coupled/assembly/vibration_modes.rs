@@ -111,7 +111,7 @@ struct MassNormalised {
 
 /// Orthonormal basis of the rigid modes.
 struct RigidBasis {
-    /// The vectors, those of the influence vectors first.
+    /// The vectors; the first ones span the influence vectors.
     vectors: Vec<MassNormalised>,
     /// Number of influence vectors.
     translation_count: usize,

@@ -26,7 +26,7 @@ const POWER_ITERATION_TOLERANCE: f64 = 0.01;
 
 /// Softest shape of a base with zero mean displacement on every element.
 pub(super) struct ZeroMeanShape {
-    /// Ratio ρ of the stiffness of the structure to that of the soil.
+    /// Ratio ρ of the stiffnesses of structure and soil.
     pub(super) stiffness_ratio: f64,
     /// Number of the face with the largest deformation.
     pub(super) face: usize,

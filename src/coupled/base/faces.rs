@@ -12,7 +12,7 @@ use crate::structure::BaseNode;
 
 /// Distance of a Gauss point from the middle of an interval, relative to the interval's length: 1/(2√3).
 pub(crate) const GAUSS_POINT_OFFSET: f64 = 0.288_675_134_594_812_9;
-/// Smallest number of integration points of an element: that of 2 × 2 Gauss points.
+/// Smallest number of integration points of an element, as with 2 × 2 Gauss points.
 const MIN_POINTS_PER_ELEMENT: usize = 4;
 /// Area below which a triangle counts as degenerate, relative to the square of its longest side.
 const DEGENERATE_AREA_FRACTION: f64 = 1e-12;

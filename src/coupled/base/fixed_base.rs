@@ -63,7 +63,7 @@ pub(crate) fn on_fixed_base(
     Ok((structure, Box::new(ground)))
 }
 
-/// Whether the ground is that of a fixed base.
+/// Whether the ground belongs to a fixed base.
 pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
     ground.is::<FixedGround>()

@@ -77,7 +77,7 @@ fn check_order(nodes: &[BaseNode]) -> Result<()> {
     level_pairs.try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
 }
 
-/// Rotation of a chord: vertical displacement of its last node minus that of the first, over the distance.
+/// Rotation of a chord: difference of the vertical displacements of its ends over their distance.
 fn chord_rotation(nodes: &[BaseNode]) -> Terms {
     let first = &nodes[0];
     let last = &nodes[nodes.len() - 1];

@@ -240,7 +240,7 @@ impl ModalBasis {
         coordinates
     }
 
-    /// Modal coordinates of a rigid translation; only those of rigid modes are not zero.
+    /// Modal coordinates of a rigid translation; only rigid modes have nonzero ones.
     pub(crate) fn rigid_translation(
         &self,
         vector: &[(usize, f64)],

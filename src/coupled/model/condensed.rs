@@ -105,7 +105,7 @@ impl Condensed {
         self.dofs.iter().map(|dof| whole[*dof]).collect()
     }
 
-    /// Displacement of the whole structure from that of its base, under `force`.
+    /// Displacement of the whole structure under `force`, from the displacement of its base.
     ///
     /// A residual force at the base, such as rounding, remains.
     pub(crate) fn expanded(

@@ -11,7 +11,7 @@ const REGULARISING_MASS_RATIO: f64 = 1e-12;
 const MAX_MECHANISM_WORK_RATIO: f64 = 1e-12;
 /// Largest relative work of a mechanism where no factorization has failed.
 ///
-/// The sum of elements has a rounding of 3e-17. A column of a thousand beams, which is no mechanism, has 1e-12.
+/// The sum of elements has a rounding of 3e-17. A column of a thousand beams, although not a mechanism, has 1e-12.
 const MAX_CERTAIN_MECHANISM_WORK_RATIO: f64 = f64::EPSILON;
 /// Smallest relative work of the softest displacement without a mechanism.
 const FIRM_WORK_RATIO: f64 = 1e-6;

@@ -94,7 +94,7 @@ impl Model {
     /// Adds the structure's load at `time` minus its `static_load` to `load`, in stepping coordinates.
     ///
     /// Returns whether this difference has any entry. `scratch` has an entry for each degree of freedom and is
-    /// overwritten. Errors are those of [`Structure::load`].
+    /// overwritten. Errors come from [`Structure::load`].
     pub(crate) fn add_load(
         &self,
         structure: &dyn Structure,

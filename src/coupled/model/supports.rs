@@ -52,7 +52,7 @@ const NONLINEAR_ROUNDING_FACTOR: f64 = 16.0;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
 const TRANSLATION_ERROR_TOLERANCE: f64 = 1e-14;
-/// Translations (m) that no nonlinear force may resist: from those of a slip to those of a site.
+/// Translations (m) that no nonlinear force may resist: from a small slip to the extent of a site.
 const TRIAL_TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 
 /// Names of the directions of translation in errors.
@@ -242,9 +242,9 @@ impl Resistance {
         }
     }
 
-    /// Whether the resistance is that of a support.
+    /// Whether the resistance comes from a support.
     ///
-    /// `lag` is that of the contact nodes under the pull of springs that are `spring_ratio` times as stiff as the largest
+    /// `lag` is the lag of the contact nodes under the pull of springs `spring_ratio` times as stiff as the largest
     /// stiffness.
     fn is_support(&self, lag: f64, spring_ratio: f64) -> bool {
         let is_rounding = self.reaction <= MAX_IGNORED_REACTION

@@ -135,8 +135,7 @@ impl SchemeCoefficients {
         let is_equal =
             |a: f64, b: f64, scale: f64| (a - b).abs() <= COEFFICIENT_ROUNDING_TOLERANCE * scale;
         let mean_acceleration = [v1[0] / h, (v1[1] - 1.0) / h, v1[2] / h];
-        let mean_velocity_increment =
-            [0.5 * h * v1[0], 0.5 * h * (v1[1] + 1.0), 0.5 * h * v1[2]];
+        let mean_velocity_increment = [0.5 * h * v1[0], 0.5 * h * (v1[1] + 1.0), 0.5 * h * v1[2]];
         // Scales of Δu, v₀ and a₀ in a displacement.
         let scales = [1.0, h, h * h];
         (0..3).all(|k| {

@@ -8,7 +8,7 @@ use crate::linalg::{SparseMatrix, largest};
 ///
 /// The condition number must explain the change: rounding limits the convergence of a very stiff structure.
 const LATE_ITERATION_COUNT: usize = 100;
-/// Largest change that is accepted after [`LATE_ITERATION_COUNT`] iterations: errors stay below those of the steps.
+/// Largest change that is accepted after [`LATE_ITERATION_COUNT`] iterations: its error is far below the errors of the steps.
 const LATE_CHANGE_TOLERANCE: f64 = 1e-8;
 /// Change at which the search has converged: near rounding of the sum of all forces.
 const CHANGE_TOLERANCE: f64 = 1e-13;
@@ -44,8 +44,8 @@ pub(super) fn has_converged(
     // The force of the springs has reached the accuracy of the solution.
     let has_stalled =
         change <= STALLED_CHANGE_TOLERANCE && change >= STALLED_CHANGE_RATIO * previous_change;
-    // A motion without resistance, such as that of a frictionless base along the ground, drifts by the same amount in
-    // each iteration, because of rounding in the row sums of K.
+    // A motion without resistance, for example of a frictionless base along the ground, drifts by the same amount in each
+    // iteration, because of rounding in the row sums of K.
     let has_steady_drift = change <= STEADY_DRIFT_TOLERANCE
         && (change - previous_change).abs() <= STEADY_DRIFT_RATIO * change;
     if change <= CHANGE_TOLERANCE || has_stalled || has_steady_drift {

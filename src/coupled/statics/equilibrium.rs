@@ -49,7 +49,7 @@ pub(crate) struct StaticProblem<'a> {
     pub(crate) ground_compliance: &'a CompressedMatrix,
     /// Whether the laws act without friction and cohesion; only in plan.
     pub(crate) is_frictionless: bool,
-    /// Jumps in addition to those of displacements and tractions, m; empty for none.
+    /// Jumps in addition to the jumps of displacements and tractions, m; empty for none.
     pub(crate) jump_offset: &'a [f64],
     /// Compliance of a linear structure on its initial springs, which the stages share.
     pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
@@ -233,8 +233,8 @@ impl StaticProblem<'_> {
 
     /// Compliance with springs stiff enough for a structure that is unstable without the ground.
     ///
-    /// Each iteration then minimises the energy. With softer springs it may end at an unstable equilibrium, such as that of
-    /// a block on its corner. The springs stay unchanged if a factor of [`MAX_STIFFENING_FACTOR`] is not sufficient
+    /// Each iteration then minimises the energy. With softer springs it may end at an unstable equilibrium, for
+    /// example of a block on its corner. The springs stay unchanged if a factor of [`MAX_STIFFENING_FACTOR`] is not sufficient
     /// (Lagrange multipliers), or if rounding is the cause.
     fn stiffened_compliance(
         &self,

@@ -107,7 +107,7 @@ impl LoadedPart {
         is_beyond.then(|| self.after_shear_failure(error))
     }
 
-    /// Twisting in plan, if the torque exceeds that of friction.
+    /// Twisting in plan, if the torque exceeds the torque of friction.
     fn twisting(&self) -> Option<StabilityError> {
         let across = self.y_ends()?;
         let ends = self.x_ends();

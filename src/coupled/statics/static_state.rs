@@ -62,7 +62,7 @@ impl StaticState {
         modes.collect()
     }
 
-    /// Sets the gaps: those that a law prescribes exactly, otherwise those of the contact solver.
+    /// Sets the gaps: exactly as a law prescribes them, otherwise as the contact solver computed them.
     pub(crate) fn set_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],

@@ -70,7 +70,7 @@ impl State {
 
     /// Advances to the end of the step that `increment` solved.
     ///
-    /// The buffers of displacement, velocity and acceleration are swapped with those of `increment`.
+    /// The buffers of displacement, velocity and acceleration are swapped with the buffers of `increment`.
     pub(crate) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
         self.step += 1;
         self.time = self.step as f64 * scene.time_step;

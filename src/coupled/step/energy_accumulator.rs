@@ -302,7 +302,7 @@ impl EnergyAccumulator {
 
     /// Adds energies of soil, contact, compliant interfaces and static contact.
     ///
-    /// The jump is that of the contact problem. If the structure moved differently, its energies would not balance the work
+    /// The jump comes from the contact problem. If the structure moved differently, its energies would not balance the work
     /// of the tractions.
     fn add_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
