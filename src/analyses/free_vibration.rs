@@ -136,9 +136,9 @@ pub(crate) fn free_vibration(
     builder.time_step = time_step;
     builder.loads = vec![Load::released(mode.forces.clone(), 1.0)];
     builder.probes = vec![Probe::displacement("mode", mode.amplitude.clone())];
-    builder.steps = 0;
-    builder.displacement.clear();
-    builder.velocity.clear();
+    builder.expected_steps = 0;
+    builder.initial_displacement.clear();
+    builder.initial_velocity.clear();
     if builder.gravity == 0.0 {
         builder.gravity = STANDARD_GRAVITY;
     }

@@ -71,7 +71,7 @@ pub struct Interaction {
 /// structure has its initial tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
 /// released. T̃ and β₀ are the period and the damping ratio of the free vibration that follows, computed with Midpoint
 /// steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the design motion (ASCE 7,
-/// table 19.3-2). Compare the period with that of springs in series: T̃/T = √(1 + k/k_x + k h²/k_θ).
+/// table 19.3-2). Springs in series give a period for comparison: T̃/T = √(1 + k/k_x + k h²/k_θ).
 ///
 /// ```
 /// use basemat::analyses::interaction;

@@ -12,6 +12,7 @@
 
 mod base_rotations;
 mod convergent_step;
+mod displacement_search;
 mod free_vibration;
 mod interaction;
 mod push_over;

@@ -2,20 +2,19 @@
 
 use crate::Simulation;
 use crate::analyses::base_rotations::base_rotations;
+use crate::analyses::displacement_search::{
+    DisplacementSearch, ForceDisplacement, LIMIT_TOLERANCE,
+};
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
 use crate::linalg::largest;
 use crate::structure::DofCombination;
 
-/// Relative width of the bracket of the largest force at which the search ends.
-const LIMIT_TOLERANCE: f64 = 1e-4;
 /// Largest accepted difference of a displacement from its target, relative to the target.
 const DISPLACEMENT_TOLERANCE: f64 = 1e-4;
 /// Shear traction that counts as rounding, relative to the largest traction.
 const SHEAR_ROUNDING_TOLERANCE: f64 = 1e-9;
 /// Largest number of static states for one target displacement; the secant search needs about ten.
 const MAX_STATES_PER_TARGET: usize = 60;
-/// Largest growth of the force in one extrapolation, so that a soft start does not overshoot the limit.
-const MAX_FORCE_GROWTH: f64 = 4.0;
 
 /// Loading path of a [`push_over`]: forces or displacements.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,7 +116,7 @@ pub struct PushOver {
 /// # Errors
 /// [`Error::Size`] without forces or displacements; [`Error::Input`] for numbers that are not finite, displacements
 /// out of order, or a first force of zero; [`Error::Index`] for a degree of freedom that the structure does not have;
-/// any error of `scene` without force, and any other error of `scene` except that of a missing equilibrium.
+/// any error of `scene` without force, and any other error of `scene` except a missing equilibrium.
 pub fn push_over(
     control: &DofCombination,
     path: &PushControl,
@@ -183,13 +182,6 @@ struct ReportedMotion {
     displacement: f64,
     /// Rotations of the base about the axes along y and x, rad.
     base_rotations: [f64; 2],
-}
-
-/// Force and displacement of a static state.
-#[derive(Clone, Copy)]
-struct ForceDisplacement {
-    force: f64,
-    displacement: f64,
 }
 
 /// State of a push-over: its curve so far, and what it needs to continue.
@@ -340,79 +332,6 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
         }
         let reason = format!("no force was found for it in {MAX_STATES_PER_TARGET} static states");
         Err(Error::part(format!("displacement {target} of the push-over"), reason))
-    }
-}
-
-/// Search for the force of a target displacement.
-///
-/// Between two states it is the regula falsi with halved weights (Illinois method). Beyond all states the force grows
-/// with the last secant stiffness.
-struct DisplacementSearch {
-    target: f64,
-    first_force: f64,
-    /// Last state below the target.
-    lower: ForceDisplacement,
-    /// Last state above the target.
-    upper: Option<ForceDisplacement>,
-    /// Last force without equilibrium.
-    failed_force: Option<f64>,
-    /// Weights of the residuals of the lower and the upper state.
-    lower_weight: f64,
-    upper_weight: f64,
-    /// Whether the previous state was above the target.
-    was_above: Option<bool>,
-}
-
-impl DisplacementSearch {
-    fn new(target: f64, first_force: f64, lower: ForceDisplacement) -> Self {
-        Self {
-            target,
-            first_force,
-            lower,
-            upper: None,
-            failed_force: None,
-            lower_weight: 1.0,
-            upper_weight: 1.0,
-            was_above: None,
-        }
-    }
-
-    /// Force of the next trial.
-    fn next_force(&self) -> f64 {
-        let lower = self.lower;
-        match (self.upper, self.failed_force) {
-            (Some(upper), _) => {
-                let lower_residual = self.lower_weight * (self.target - lower.displacement);
-                let upper_residual = self.upper_weight * (upper.displacement - self.target);
-                (lower.force * upper_residual + upper.force * lower_residual)
-                    / (upper_residual + lower_residual)
-            }
-            (None, Some(failed_force)) => 0.5 * (lower.force + failed_force),
-            (None, None) if lower.displacement == 0.0 => lower.force + self.first_force,
-            (None, None) => lower.force * (self.target / lower.displacement).min(MAX_FORCE_GROWTH),
-        }
-    }
-
-    /// Replaces the lower or the upper state; returns whether it is above the target.
-    fn update(&mut self, state: ForceDisplacement) -> bool {
-        let is_above = state.displacement / self.target > 1.0;
-        let is_repeated = self.was_above.replace(is_above) == Some(is_above);
-        let weight_factor = if is_repeated { 0.5 } else { 1.0 };
-        if is_above {
-            self.upper = Some(state);
-            self.lower_weight *= weight_factor;
-            self.upper_weight = 1.0;
-        } else {
-            self.lower = state;
-            self.lower_weight = 1.0;
-            self.upper_weight *= weight_factor;
-        }
-        is_above
-    }
-
-    /// Whether the forces with and without equilibrium agree to the tolerance, relative to `force`.
-    fn is_limit(&self, failed_force: f64, force: f64) -> bool {
-        (failed_force - self.lower.force).abs() <= LIMIT_TOLERANCE * force.abs()
     }
 }
 

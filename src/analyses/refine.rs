@@ -7,7 +7,7 @@ use crate::coupled::run::clock;
 use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
-/// Plausible orders of convergence: those of the methods in use, and of results with a kink.
+/// Plausible orders of convergence of the methods in use, also for results with a kink.
 const CONVERGENCE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
 /// Refinement of a setting relative to the coarsest one.

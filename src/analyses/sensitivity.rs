@@ -83,7 +83,7 @@ pub struct Sensitivity {
 /// If a peak converges, its twins differ from it by about its error. A body that rocks and twists on its corners
 /// may move chaotically: a negligible change decides on which corner it lands. Its peaks then belong to one motion out
 /// of many, and no finer setting makes them converge; state the range over many motions. The three twins take less
-/// time than two further runs, in plan about that of one and a half. The six settings of `refine_each` take the time
+/// time than two further runs, in plan about as much as one and a half. The six settings of `refine_each` take the time
 /// of tens of runs. A comparison with changes in the last bits of a scene detects less, since such changes need many
 /// impacts to grow.
 ///

@@ -1,4 +1,4 @@
-//! The builder of a simulation: its parts with their defaults, and the methods that set them.
+//! Builder of a simulation: parts with their defaults, and the methods that set them.
 
 use std::ops::ControlFlow;
 
@@ -15,19 +15,19 @@ use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::Probe;
 use crate::structure::Structure;
 
-/// From this number of steps on, a run counts as a run without a known end.
+/// Smallest number of steps that stands for a run without a known end.
 pub(crate) const MIN_ENDLESS_STEPS: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
 
-/// Default rotation of a base at which a run ends, rad.
+/// Default rotation of a base at which a run ends, rad: the base has then overturned.
 const DEFAULT_ROTATION_LIMIT: f64 = 1.0;
 
 /// Parts of a [`Simulation`](crate::Simulation).
 ///
-/// A structure, a ground and an interface law are needed; the rest has defaults (no motion, standard gravity,
-/// midpoint rule, no probes).
+/// A structure, a ground and an interface law are needed. All other settings have defaults: no motion, standard
+/// gravity, the midpoint rule, no probes.
 pub struct SimulationBuilder {
     pub(crate) structure: Option<Box<dyn Structure>>,
     pub(crate) ground: Option<Box<dyn Ground>>,
@@ -40,20 +40,20 @@ pub struct SimulationBuilder {
     pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
     /// Displacement and velocity of the degrees of freedom at t = 0; empty for zero.
-    pub(crate) displacement: Vec<f64>,
-    pub(crate) velocity: Vec<f64>,
+    pub(crate) initial_displacement: Vec<f64>,
+    pub(crate) initial_velocity: Vec<f64>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) moment_center: Option<f64>,
-    /// Expected number of steps, 0 if unknown.
-    pub(crate) steps: usize,
+    /// Expected number of steps; 0 if unknown.
+    pub(crate) expected_steps: usize,
     pub(crate) coordinates: Coordinates,
-    pub(crate) energy_balance: bool,
+    pub(crate) has_energy_balance: bool,
     pub(crate) safety_friction: Vec<f64>,
     pub(crate) serviceability: Serviceability,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
-    /// Whether the base is held instead of standing on the ground.
-    pub(crate) on_fixed_base: bool,
+    /// Whether the base is fixed instead of standing on the ground.
+    pub(crate) has_fixed_base: bool,
     pub(crate) label: String,
     pub(crate) observer: Box<dyn FnMut(Progress) -> ControlFlow<()> + Send>,
 }
@@ -85,17 +85,17 @@ impl SimulationBuilder {
             gravity: STANDARD_GRAVITY,
             gravity_stage: GravityStage::default(),
             loads: Vec::new(),
-            displacement: Vec::new(),
-            velocity: Vec::new(),
+            initial_displacement: Vec::new(),
+            initial_velocity: Vec::new(),
             probes: Vec::new(),
             moment_center: None,
-            steps: 0,
+            expected_steps: 0,
             coordinates: Coordinates::default(),
-            energy_balance: true,
+            has_energy_balance: true,
             safety_friction: Vec::new(),
             serviceability: Serviceability::default(),
             rotation_limit: DEFAULT_ROTATION_LIMIT,
-            on_fixed_base: false,
+            has_fixed_base: false,
             label: String::new(),
             observer: Box::new(unobserved),
         }
@@ -107,7 +107,7 @@ impl SimulationBuilder {
     }
 
     /// Whether weight acts as a load from t = 0 on.
-    pub(crate) fn falls(&self) -> bool {
+    pub(crate) fn starts_unloaded(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage == GravityStage::Unloaded
     }
 
@@ -120,8 +120,8 @@ impl SimulationBuilder {
 
     /// Sets the ground.
     ///
-    /// Its elements define the contact area: a part of the base beyond them is not in contact, and elements beyond
-    /// the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
+    /// Its elements define the contact area. A part of the base beyond the elements is not in contact, and elements
+    /// beyond the base are an error. [`ElasticGround::under`](crate::bem::ElasticGround::under) avoids both.
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
@@ -165,16 +165,16 @@ impl SimulationBuilder {
 
     /// Sets gravity g (m/s²), which gives the structure its weight.
     ///
-    /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state under weight
-    /// and the loads at t = 0 ([`GravityStage`] has the rule). With zero there is no static state: the base
-    /// starts without pressure, so nothing resists uplift and sliding.
+    /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state under the
+    /// weight and the loads at t = 0, as [`GravityStage`] defines. Without gravity there is no static state. The base
+    /// then starts without pressure and without resistance to uplift and sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
         self.gravity = gravity;
         self
     }
 
-    /// Adds an external load to the previous ones and the structure's own.
+    /// Adds an external load to the previous loads and to the load of the structure.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
@@ -183,28 +183,31 @@ impl SimulationBuilder {
 
     /// Sets the initial displacement of the degrees of freedom, relative to the static state.
     ///
-    /// It may move the base only with [`GravityStage::Unloaded`] (see the example there), and not into the ground.
+    /// A displacement of the base needs [`GravityStage::Unloaded`] (see the example there) and must not press it into
+    /// the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
-        self.displacement = displacement.into();
+        self.initial_displacement = displacement.into();
         self
     }
 
     /// Sets the velocity of the degrees of freedom at t = 0.
     #[must_use]
     pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
-        self.velocity = velocity.into();
+        self.initial_velocity = velocity.into();
         self
     }
 
-    /// Sets the friction while the weight comes on; the rule for weight and loads is in [`GravityStage`].
+    /// Sets the friction while the weight is applied; [`GravityStage`] has the rule.
     #[must_use]
     pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
         self.gravity_stage = gravity_stage;
         self
     }
 
-    /// Adds a quantity recorded at every step, see [`State::probes`](crate::coupled::State::probes). Names must differ.
+    /// Adds a quantity that is recorded at every step.
+    ///
+    /// [`State::probes`](crate::coupled::State::probes) has its value. Names of probes must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
         self.probes.push(probe);
@@ -229,19 +232,19 @@ impl SimulationBuilder {
 
     /// Sets the number of steps that will follow.
     ///
-    /// Weights and memory of the ground are then ready after [`build`](SimulationBuilder::build), and the structure's
-    /// coordinates are chosen for this number; by default, for 4 000. A run that ends before the last of these steps
-    /// does not warn of an early end.
+    /// [`build`](SimulationBuilder::build) then computes the ground's convolution weights and allocates its memory for
+    /// this number, and chooses the structure's coordinates for it. By default the coordinates are chosen for 4 000
+    /// steps. A run that ends before the last of the expected steps does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.steps = if steps < MIN_ENDLESS_STEPS { steps } else { 0 };
+        self.expected_steps = if steps < MIN_ENDLESS_STEPS { steps } else { 0 };
         self
     }
 
     /// Sets the observer of [`build`](SimulationBuilder::build); default [`unobserved`](crate::unobserved).
     ///
-    /// The observer follows the computation of the ground's convolution weights: of the expected steps, or those that
-    /// the build needs.
+    /// The build reports the progress of the ground's convolution weights to it: of the weights of the expected steps,
+    /// or of those that the build needs.
     #[must_use]
     pub fn observer(
         mut self,
@@ -258,31 +261,29 @@ impl SimulationBuilder {
         self
     }
 
-    /// Omits the energy balance, so that a step takes less time.
+    /// Omits the energy balance, which saves time in each step.
     ///
     /// Its terms and the energy error are then NaN.
     #[must_use]
     pub fn without_energy_balance(mut self) -> Self {
-        self.energy_balance = false;
+        self.has_energy_balance = false;
         self
     }
 
     /// Sets friction coefficients for the factor of safety against sliding.
     ///
-    /// One for all elements or one each from left to right. They replace the coefficients of the interface laws
-    /// ([`InterfaceLaw::friction_coefficient`]), for example for a bonded base, which has none. They change
-    /// nothing else.
+    /// Pass one coefficient for all elements, or one for each from left to right. They replace the coefficients of the
+    /// interface laws ([`InterfaceLaw::friction_coefficient`]), for example for a bonded base, which has none. They
+    /// change nothing else.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
         self.safety_friction = coefficients.into();
         self
     }
 
-    /// Sets limits of slip, gap, uplifted part and rotation.
+    /// Sets limits of slip, gap, uplifted fraction and rotation.
     ///
-    /// Each [`Run`](crate::results::Run) is checked against them.
-    ///
-    /// Default: none. They change nothing else.
+    /// Each [`Run`](crate::results::Run) is compared with the limits. Default: no limits. They change nothing else.
     #[must_use]
     pub fn serviceability(mut self, limits: Serviceability) -> Self {
         self.serviceability = limits;
@@ -291,8 +292,8 @@ impl SimulationBuilder {
 
     /// Sets the rotation of a base (rad, about a horizontal axis) at which a run ends; default 1.
     ///
-    /// The geometry is valid for small rotations only, and an overturned base would rotate for ever. If infinite,
-    /// runs end by their number of steps only.
+    /// The geometry is valid for small rotations only, and an overturned base would rotate without end. With an infinite
+    /// limit, runs end by their number of steps only.
     ///
     /// ```
     /// use basemat::Simulation;
@@ -312,7 +313,7 @@ impl SimulationBuilder {
     /// let run = simulation.run(2000, |_| {})?;
     /// assert!(run.is_overturned && run.steps < 2000);
     /// assert!(run.warnings.iter().any(|warning| matches!(warning, Warning::Overturned { .. })));
-    /// // A further call goes on.
+    /// // A further call continues the run.
     /// assert_eq!(simulation.run(10, |_| {})?.steps, 10);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -322,19 +323,20 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets a label that a [`Checkpoint`](crate::coupled::Checkpoint) keeps; default: empty.
+    /// Sets a label that a [`Checkpoint`](crate::coupled::Checkpoint) stores; default: empty.
     ///
-    /// [`Simulation::resume`](crate::Simulation::resume) compares it. Let it name interface laws, ground motion and loads, which are not compared.
+    /// [`Simulation::resume`](crate::Simulation::resume) compares the label. It does not compare interface laws, ground
+    /// motion and loads: name them in the label.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// Holds the base: each foundation moves rigidly with its free field.
+    /// Fixes the base: each foundation moves rigidly with its free field.
     ///
-    /// Codes and fixed-base models assume this. Ground and interface law are ignored, except for the places of the
-    /// contact elements; base shear, moment and tractions then act on the support.
+    /// Codes and fixed-base models assume this. Of ground and interface law only the positions of the contact elements
+    /// are used. Base shear, moment and tractions then act on the support.
     /// [`interaction`](crate::analyses::interaction()) compares the run with the run on the ground.
     ///
     /// ```
@@ -359,7 +361,7 @@ impl SimulationBuilder {
     /// ```
     #[must_use]
     pub fn on_fixed_base(mut self) -> Self {
-        self.on_fixed_base = true;
+        self.has_fixed_base = true;
         self
     }
 }

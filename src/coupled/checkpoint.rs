@@ -16,7 +16,7 @@ use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
 use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
-/// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
+/// Format of [`Checkpoint`]; increase it when the order of its numbers changes.
 const CHECKPOINT_FORMAT: u32 = 12;
 /// Largest number of steps of a checkpoint: no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
@@ -24,11 +24,11 @@ const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     None => usize::MAX >> 4,
 };
 
-/// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
+/// Saved run between two steps, made by [`Simulation::checkpoint`](crate::Simulation::checkpoint).
 ///
-/// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers are written as
-/// their bits (integers of 64 bits), so that none is rounded. A check sum over all contents is written too:
-/// [`Simulation::resume`](crate::Simulation::resume) returns an error for any later change.
+/// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers are written as their
+/// bits (integers of 64 bits), so that none is rounded. A check sum over all contents is written too.
+/// [`Simulation::resume`](crate::Simulation::resume) returns an error if the contents have changed.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -36,33 +36,36 @@ pub struct Checkpoint {
     format: u32,
     identity: Identity,
     steps: usize,
-    /// Number of each element's mode in `Mode::ALL`, and whether the element has been open.
+    /// Index of each element's mode in `Mode::ALL`, and whether the element has been open.
     modes: Vec<(usize, bool)>,
     /// State variables of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     laws: Vec<f64>,
+    /// Numbers of the state and of the energy balance.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     state: Vec<f64>,
+    /// Numbers that the ground saved.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     ground: Vec<f64>,
+    /// Internal variables of the structure.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
-    /// For each load one if its force was set, else zero, and this force.
+    /// For each load: one if its force was set, otherwise zero; then the force that was set.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     set_loads: Vec<f64>,
-    /// Check sum over all fields above; checkpoints of formats before the eighth have none.
+    /// Check sum over all fields above; formats before the eighth have none.
     #[cfg_attr(feature = "serde", serde(default))]
     sum: u64,
 }
 
 impl Checkpoint {
-    /// Steps made before the checkpoint.
+    /// Number of steps before the checkpoint.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
     /// Check sum over all contents, field by field.
-    fn sum(&self) -> u64 {
+    fn check_sum(&self) -> u64 {
         let Self { format, identity, steps, modes, laws, state, .. } = self;
         let Self { ground, structure, set_loads, sum: _, .. } = self;
         let mut sum = CheckSum::default();
@@ -84,8 +87,8 @@ impl Checkpoint {
 impl Simulation {
     /// Saves the state of the run for [`Simulation::resume`].
     ///
-    /// It contains the history: all tractions of exact histories, the tractions of two windows at most of
-    /// exponentials.
+    /// The checkpoint contains the ground's history: all tractions of an exact history, and the tractions of at most two
+    /// windows of a history of exponentials.
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`](crate::coupled::CheckpointError::Unsupported) if the ground, its history or the
@@ -122,19 +125,20 @@ impl Simulation {
     /// ```
     pub fn checkpoint(&self) -> Result<Checkpoint> {
         let Self { scene, state, .. } = self;
-        let number = |start: PreviousContact<'_>| {
-            let number = Mode::ALL.iter().position(|mode| *mode == start.mode);
-            let unknown = CheckpointError::Unsupported { part: "interface law" };
-            Ok((number.ok_or(unknown)?, start.has_opened))
+        let mode_index = |start: PreviousContact<'_>| {
+            let index = Mode::ALL.iter().position(|mode| *mode == start.mode);
+            let unsupported = CheckpointError::Unsupported { part: "interface law" };
+            Ok((index.ok_or(unsupported)?, start.has_opened))
         };
         let mut state_copy = state.clone();
         let mut energies = self.energies.clone();
-        let numbers = numbers(scene.layout().components(), &mut state_copy, energies.as_mut());
+        let numbers =
+            state_numbers(scene.layout().components(), &mut state_copy, energies.as_mut());
         let mut checkpoint = Checkpoint {
             format: CHECKPOINT_FORMAT,
             identity: self.identity(),
             steps: state.step,
-            modes: state.start.iter().map(number).collect::<Result<_>>()?,
+            modes: state.start.iter().map(mode_index).collect::<Result<_>>()?,
             laws: state.start.state_variables().to_vec(),
             state: numbers.into_iter().map(|value| *value).collect(),
             ground: self.ground.save()?,
@@ -142,18 +146,18 @@ impl Simulation {
             set_loads: set_loads(scene),
             sum: 0,
         };
-        checkpoint.sum = checkpoint.sum();
+        checkpoint.sum = checkpoint.check_sum();
         Ok(checkpoint)
     }
 
-    /// Sets the simulation to the state of `checkpoint`, whatever its present state.
+    /// Sets the simulation to the state of `checkpoint`; its present state does not matter.
     ///
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
-    /// Sizes, time step and scheme, elements, probes, sums over the matrices, static state, gravity stage, initial motion
-    /// and the [label](crate::coupled::SimulationBuilder::label) are compared. Interface laws, ground motion, loads and
-    /// nonlinear forces are not: let the label name them. Forces that were [set](Simulation::set_load) are restored. The
-    /// transitions, trials and method of the step before the checkpoint are not kept.
+    /// The function compares sizes, time step and scheme, elements, probes, sums over the matrices, static state, gravity
+    /// stage, initial motion and the [label](crate::coupled::SimulationBuilder::label). It does not compare interface
+    /// laws, ground motion, loads and nonlinear forces: name them in the label. It restores forces that were
+    /// [set](Simulation::set_load). A checkpoint does not contain the transitions, trials and method of its last step.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with numbers missing or
@@ -164,11 +168,11 @@ impl Simulation {
 
     /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
     ///
-    /// As [`Simulation::resume`] does. For example with other friction from there on, or another motion, which the label
-    /// names.
+    /// Apart from the changes it is [`Simulation::resume`]. Use it, for example, to continue with another friction or
+    /// another motion, which the label names.
     ///
     /// # Errors
-    /// As for [`Simulation::resume`], for any other difference.
+    /// As for [`Simulation::resume`], for a difference outside the `changes`.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -194,16 +198,16 @@ impl Simulation {
     pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
         checkpoint.check()?;
         checkpoint.identity.check(&self.identity(), changes)?;
-        // A changed load uses the function of the new scene.
-        let is_kept = !changes.contains(&Change::Load);
-        if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
+        // A changed load follows the function of the new scene.
+        let restores_loads = !changes.contains(&Change::Load);
+        if restores_loads && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
             return Err(CheckpointError::OtherScene { quantity: "load" }.into());
         }
         let scene = &self.scene;
         let structure = self.structure.as_mut();
         let mut state = self.state.clone();
         let mut energies = self.energies.clone();
-        let numbers = numbers(scene.layout().components(), &mut state, energies.as_mut());
+        let numbers = state_numbers(scene.layout().components(), &mut state, energies.as_mut());
         if numbers.len() != checkpoint.state.len() {
             return Err(CheckpointError::Corrupt { quantity: "state" }.into());
         }
@@ -211,15 +215,15 @@ impl Simulation {
             *number = *saved;
         }
         restore_modes(scene, &checkpoint.modes, &mut state)?;
-        let laws = state.start.state_variables_mut();
-        if laws.len() != checkpoint.laws.len() {
-            return Err(CheckpointError::Corrupt { quantity: LAW_VARIABLES }.into());
+        let law_variables = state.start.state_variables_mut();
+        if law_variables.len() != checkpoint.laws.len() {
+            return Err(CheckpointError::Corrupt { quantity: LAW_VARIABLES_NAME }.into());
         }
-        laws.copy_from_slice(&checkpoint.laws);
-        let before = save_variables(structure)?;
+        law_variables.copy_from_slice(&checkpoint.laws);
+        let previous_variables = save_variables(structure)?;
         restore_variables(structure, &checkpoint.structure)?;
         if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
-            restore_variables(structure, &before)?;
+            restore_variables(structure, &previous_variables)?;
             return Err(error);
         }
         // From here on no error can occur.
@@ -228,40 +232,40 @@ impl Simulation {
         state.trials = 0;
         state.method = SearchMethod::ActiveSet;
         state.transitions.clear();
-        state.kinematics.changed();
+        state.kinematics.clear_dof_cache();
         state.energy_balance =
-            energies.as_ref().map_or(EnergyBalance::LEFT_OUT, |energies| energies.energy_balance);
+            energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
         state.update_resultants(scene);
         self.state = state;
         self.energies = energies;
-        let mut saved = checkpoint.set_loads.chunks_exact(2).filter(|_| is_kept);
+        let mut saved_loads = checkpoint.set_loads.chunks_exact(2).filter(|_| restores_loads);
         for load in &mut self.scene.loads {
-            let set = saved.next().filter(|saved| saved[0] != 0.0);
-            load.set(set.map(|saved| saved[1]));
+            let saved = saved_loads.next().filter(|saved| saved[0] != 0.0);
+            load.set(saved.map(|saved| saved[1]));
         }
         Ok(())
     }
 }
 
 /// Name of [`Checkpoint::laws`] in errors.
-const LAW_VARIABLES: &str = "state variables of the interface laws";
+const LAW_VARIABLES_NAME: &str = "state variables of the interface laws";
 
 impl Checkpoint {
-    /// Error for another format, another check sum, or a number that no simulation has.
+    /// Error for another format, another check sum, or an impossible number.
     fn check(&self) -> Result<()> {
         if self.format != CHECKPOINT_FORMAT {
             return Err(
                 CheckpointError::Format { found: self.format, needed: CHECKPOINT_FORMAT }.into()
             );
         }
-        if self.sum != self.sum() {
+        if self.sum != self.check_sum() {
             return Err(CheckpointError::Corrupt { quantity: "contents" }.into());
         }
         if self.steps > MAX_CHECKPOINT_STEPS {
             return Err(CheckpointError::Corrupt { quantity: "number of steps" }.into());
         }
         for (values, quantity) in [
-            (&self.laws, LAW_VARIABLES),
+            (&self.laws, LAW_VARIABLES_NAME),
             (&self.state, "state"),
             (&self.ground, "state of the ground"),
             (&self.structure, "state of the structure"),
@@ -277,63 +281,69 @@ impl Checkpoint {
 
 /// Numbers of [`Checkpoint::set_loads`].
 fn set_loads(scene: &Scene) -> Vec<f64> {
-    let pair = |set: Option<f64>| [f64::from(u8::from(set.is_some())), set.unwrap_or(0.0)];
-    scene.loads.iter().flat_map(|load| pair(load.set_value())).collect()
+    let mut numbers = Vec::with_capacity(2 * scene.loads.len());
+    for load in &scene.loads {
+        let value = load.set_force();
+        numbers.extend([f64::from(u8::from(value.is_some())), value.unwrap_or(0.0)]);
+    }
+    numbers
 }
 
-/// Sets modes and whether elements have been open, from their numbers.
+/// Restores the modes, and whether elements have been open.
 fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> Result<()> {
     let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
-    if saved.len() != scene.count() {
+    if saved.len() != scene.element_count() {
         return Err(corrupt.into());
     }
-    let takes_limits = LawForm::of(scene.layout()) == LawForm::Limits;
-    for (e, &(number, has_opened)) in saved.iter().enumerate() {
-        let mode = Mode::ALL.get(number).copied();
-        let known = |mode: &Mode| takes_limits || scene.law(e).modes().contains(mode);
-        let mode = mode.filter(known).ok_or_else(|| corrupt.clone())?;
+    let has_limits = LawForm::of(scene.layout()) == LawForm::Limits;
+    for (e, &(index, has_opened)) in saved.iter().enumerate() {
+        let mode = Mode::ALL.get(index).copied();
+        let is_possible = |mode: &Mode| has_limits || scene.law(e).modes().contains(mode);
+        let mode = mode.filter(is_possible).ok_or_else(|| corrupt.clone())?;
         state.modes[e] = mode;
         state.start.restore(e, state.contact[e], mode, has_opened);
     }
     Ok(())
 }
 
-/// All numbers that a step passes to the next, for two or three directions, always in this order.
-fn numbers<'a>(
-    directions: usize,
+/// All numbers that a step passes to the next, in a fixed order.
+///
+/// `components`: number of displacement components, 2 in the plane, 3 in plan.
+fn state_numbers<'a>(
+    components: usize,
     state: &'a mut State,
     energies: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
-    let mut all = Vec::new();
+    let mut numbers = Vec::new();
     let State { kinematics, contact, start, free_field, free_field_across, foundations, .. } =
         state;
     for values in
         [&mut kinematics.displacement, &mut kinematics.velocity, &mut kinematics.acceleration]
     {
-        all.extend(values.iter_mut());
+        numbers.extend(values.iter_mut());
     }
-    all.extend(free_field);
+    numbers.extend(free_field);
     for translation in &mut kinematics.translations {
         let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
             translation;
         for values in [displacement, increment, velocity, new_velocity, new_acceleration] {
-            all.extend(values.iter_mut().take(directions));
+            numbers.extend(values.iter_mut().take(components));
         }
     }
-    let mut across = Vec::new();
+    let mut y_components = Vec::new();
     for ContactState { gap, slip, pressure, shear, slip_across, shear_across } in contact {
-        all.extend([gap, slip, pressure, shear]);
-        across.extend([slip_across, shear_across]);
+        numbers.extend([gap, slip, pressure, shear]);
+        y_components.extend([slip_across, shear_across]);
     }
-    all.extend(start.slip_rates_mut());
+    numbers.extend(start.slip_rates_mut());
     for foundation in foundations {
-        all.push(&mut foundation.rocking_work);
-        across.push(&mut foundation.rocking_work_across);
+        numbers.push(&mut foundation.rocking_work);
+        y_components.push(&mut foundation.rocking_work_across);
     }
-    if directions == COMPONENTS_IN_SPACE {
-        all.push(free_field_across);
-        all.extend(across);
+    if components == COMPONENTS_IN_SPACE {
+        numbers.push(free_field_across);
+        numbers.extend(y_components);
     }
-    all.extend(energies.into_iter().flat_map(|energies| energies.numbers(directions)));
-    all
+    numbers.extend(energies.into_iter().flat_map(|energies| energies.numbers(components)));
+    numbers
 }

@@ -1,4 +1,4 @@
-//! Condition numbers of a scene: how much of double precision it uses.
+//! Condition numbers of a scene: the loss of digits in double precision.
 
 use crate::coupled::model::operators;
 use crate::coupled::model::operators::Operators;
@@ -9,24 +9,25 @@ use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
 use std::fmt;
 
-/// Largest accepted conditions of the effective stiffness and the Delassus operator.
+/// Largest accepted condition of the effective stiffness, from the measurements of `tests/coupled/conditioning.rs`.
 ///
-/// From the measurements of `tests/coupled/conditioning.rs`. Displacements have errors of about thirty roundings
-/// times the first condition: a percent at this limit. Tractions have errors that do not matter (a light structure
-/// depends on three of their sums), until the sum contains nothing of the ground.
-const STIFFNESS_LIMIT: f64 = 1e12;
-const DELASSUS_LIMIT: f64 = 1e16;
-/// Fraction of a condition that a quantity must explain to be named as its cause.
+/// Displacements have errors of about thirty roundings times this condition: one per cent at the limit.
+const MAX_STIFFNESS_CONDITION: f64 = 1e12;
+/// Largest accepted condition of the Delassus operator, from the same measurements.
+///
+/// A light structure depends only on three sums of the tractions, in which their errors cancel. Beyond the limit the
+/// operator retains no digit of the ground's compliance.
+const MAX_DELASSUS_CONDITION: f64 = 1e16;
+/// Fraction of a condition that a ratio must reach to be named as its cause.
 const MIN_CAUSE_FRACTION: f64 = 1e-3;
 /// Condition beyond which a matrix counts as singular.
 const SINGULAR_CONDITION: f64 = 1e18;
 
 /// Condition numbers of the matrices of a step.
 ///
-/// A solution loses as many digits as they have.
-///
-/// In the 1-norm, of matrices scaled by the roots of their diagonal, so that they do not depend on units. Higham's
-/// algorithm estimates them from below, nearly always within a factor of three. Infinite for a singular matrix.
+/// A solution loses about as many digits as the decimal logarithm of the condition number. The numbers are in the
+/// 1-norm, for matrices scaled by the roots of their diagonals, so that they do not depend on units. Higham's algorithm
+/// estimates them from below, nearly always within a factor of three. A singular matrix has an infinite number.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
@@ -53,15 +54,17 @@ const SINGULAR_CONDITION: f64 = 1e18;
 pub struct Conditioning {
     /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
     ///
-    /// One for a structure in modal coordinates, in which it is diagonal.
+    /// It is one for a structure in modal coordinates, in which the matrix is diagonal.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub effective_stiffness: f64,
-    /// Condition of the ground's step compliance G¹. It has no limit, since no step solves with G¹ alone.
+    /// Condition of the ground's step compliance G¹.
+    ///
+    /// It has no limit, since no step solves with G¹ alone.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub ground: f64,
     /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A for the interface at rest.
     ///
-    /// Only its normal part if there is no friction; including the compliance of a thin layer.
+    /// Without friction it is the condition of the normal part. The compliance of a thin layer is included.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub delassus: f64,
 }
@@ -76,7 +79,7 @@ impl fmt::Display for Conditioning {
     }
 }
 
-/// Estimates the condition numbers, with laws at the `start` of the first step.
+/// Estimates the condition numbers at the `start` of the first step.
 ///
 /// Returns an error if double precision is insufficient.
 pub(crate) fn conditioning(
@@ -84,14 +87,13 @@ pub(crate) fn conditioning(
     solver: &mut Solver,
     start: &PreviousContacts,
 ) -> Result<Conditioning> {
-    let (operators, contact) = solver.parts_mut();
-    let size = scene.layout().len();
-    let c = &scene.coefficients;
-    let effective_stiffness = operators.condition(&scene.model, c)?;
-    let ground = match scene.soil.as_diagonal() {
-        // Scaled by its diagonal.
+    let (operators, contact) = solver.operators_and_contact_mut();
+    let order = scene.layout().len();
+    let effective_stiffness = operators.condition(&scene.model, &scene.coefficients)?;
+    let ground = match scene.step_compliance.as_diagonal() {
+        // A diagonal matrix scaled by its diagonal is the identity.
         Some(_) => 1.0,
-        None => dense_condition(&scene.soil, size),
+        None => dense_condition(&scene.step_compliance, order),
     };
     let delassus = contact.condition_at_rest(
         &operators.delassus,
@@ -99,22 +101,24 @@ pub(crate) fn conditioning(
         start,
         &scene.laws,
     )?;
-    if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
-        let (quantity, ratio) = cause_of_stiffness(scene, operators, effective_stiffness);
+    if effective_stiffness.is_nan() || effective_stiffness > MAX_STIFFNESS_CONDITION {
+        let Cause { quantity, ratio } =
+            cause_of_stiffness_condition(scene, operators, effective_stiffness);
         return Err(Error::IllConditioned {
             matrix: operators::EFFECTIVE_STIFFNESS_NAME,
             condition: effective_stiffness,
-            limit: STIFFNESS_LIMIT,
+            limit: MAX_STIFFNESS_CONDITION,
             quantity,
             ratio,
         });
     }
-    if delassus.is_nan() || delassus > DELASSUS_LIMIT {
-        let (quantity, ratio) = cause_of_delassus(scene, operators, delassus, ground);
+    if delassus.is_nan() || delassus > MAX_DELASSUS_CONDITION {
+        let Cause { quantity, ratio } =
+            cause_of_delassus_condition(scene, operators, delassus, ground);
         return Err(Error::IllConditioned {
             matrix: "Delassus operator",
             condition: delassus,
-            limit: DELASSUS_LIMIT,
+            limit: MAX_DELASSUS_CONDITION,
             quantity,
             ratio,
         });
@@ -122,55 +126,64 @@ pub(crate) fn conditioning(
     Ok(Conditioning { effective_stiffness, ground, delassus })
 }
 
-/// Cause of a large condition of K_eff: little inertia of a translation, or very different stiffnesses.
+/// Cause of a large condition number.
+struct Cause {
+    /// Name of the ratio.
+    quantity: &'static str,
+    ratio: f64,
+}
+
+/// Cause of a large condition of K_eff.
 ///
-/// Returns its name and ratio.
-fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
+/// Either a translation has little inertia, or the structure has very different stiffnesses.
+fn cause_of_stiffness_condition(scene: &Scene, operators: &Operators, condition: f64) -> Cause {
     let c = &scene.coefficients;
     let model = &scene.model;
-    let stiffness = operators.stiffness_diagonal(model, c);
-    let mut ratio: f64 = 0.0;
-    for vector in model.influence.of_all(model.coordinates) {
-        let resistance: f64 = stiffness.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
+    let stiffnesses = operators.stiffness_diagonal(model, c);
+    let mut inertia_ratio: f64 = 0.0;
+    for vector in model.influence.whole_vectors(model.coordinates) {
+        let resistance: f64 = stiffnesses.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
         let inertia = c.acceleration[0] * model.mass.form(&vector, &vector);
-        ratio = ratio.max(resistance / inertia);
+        inertia_ratio = inertia_ratio.max(resistance / inertia);
     }
-    if ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
-        return ("stiffness of the structure over its inertia in a time step", ratio);
+    if inertia_ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
+        let quantity = "stiffness of the structure over its inertia in a time step";
+        return Cause { quantity, ratio: inertia_ratio };
     }
     let mut largest: f64 = 0.0;
     let mut smallest = f64::INFINITY;
-    for &stiffness in stiffness.iter().filter(|stiffness| **stiffness > 0.0) {
+    for &stiffness in stiffnesses.iter().filter(|stiffness| **stiffness > 0.0) {
         largest = largest.max(stiffness);
         smallest = smallest.min(stiffness);
     }
-    let ratio = largest / smallest;
-    ("largest over least stiffness within the structure", ratio)
+    let quantity = "largest over smallest stiffness within the structure";
+    Cause { quantity, ratio: largest / smallest }
 }
 
 /// Cause of a large condition of W: a compliant structure, the ground, or very different elements.
-///
-/// Returns its name and ratio.
-fn cause_of_delassus(
+fn cause_of_delassus_condition(
     scene: &Scene,
     operators: &Operators,
     condition: f64,
-    ground: f64,
-) -> (&'static str, f64) {
-    let size = scene.layout().len();
-    let mut ratio: f64 = 0.0;
-    for i in 0..size {
-        let soil = scene.soil.diagonal(size, i);
-        ratio = ratio.max((operators.delassus.diagonal(size, i) - soil).abs() / soil.abs());
+    ground_condition: f64,
+) -> Cause {
+    let order = scene.layout().len();
+    let mut compliance_ratio: f64 = 0.0;
+    for i in 0..order {
+        let ground = scene.step_compliance.diagonal(order, i);
+        let structure = (operators.delassus.diagonal(order, i) - ground).abs();
+        compliance_ratio = compliance_ratio.max(structure / ground.abs());
     }
-    if ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
-        return ("compliance of the structure in a time step over that of the ground", ratio);
+    if compliance_ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
+        let quantity = "compliance of the structure in a time step over that of the ground";
+        return Cause { quantity, ratio: compliance_ratio };
     }
-    if ground >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
-        return ("condition of the ground's instantaneous operator", ground);
+    if ground_condition >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
+        let quantity = "condition of the ground's step compliance";
+        return Cause { quantity, ratio: ground_condition };
     }
     let areas = scene.base.areas();
     let largest = areas.iter().copied().fold(0.0, f64::max);
     let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
-    ("longest over shortest contact element", largest / smallest)
+    Cause { quantity: "longest over shortest contact element", ratio: largest / smallest }
 }

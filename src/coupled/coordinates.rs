@@ -2,13 +2,13 @@
 
 /// Coordinates in which a linear structure is stepped.
 ///
-/// Results are equal to rounding, except for [`Coordinates::Reduced`]. [`Coordinates::Auto`] therefore never reduces. A
-/// rule for structures of finite elements in space on 64 cells and runs of some thousand steps:
+/// All coordinates give the same results to rounding, except [`Coordinates::Reduced`]. [`Coordinates::Auto`] therefore
+/// never reduces. A rule for structures of finite elements in space on 64 cells, in runs of some thousand steps:
 ///
 /// | degrees of freedom | coordinates |
 /// |---|---|
 /// | up to 1 000 | `Auto`: all modes, or degrees of freedom if modes do not decouple the structure |
-/// | 5 000 and more | `Reduced` if errors of 1e-3 are small enough and runs are longer than 400 steps; otherwise `Auto` |
+/// | 5 000 and more | `Reduced` if errors of 1e-3 are acceptable and runs are longer than 400 steps; otherwise `Auto` |
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -18,67 +18,73 @@ pub enum Coordinates {
     ///
     /// The estimate includes the computation of the modes; see
     /// [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear
-    /// structures, and structures that modes do not decouple, keep their degrees of freedom.
+    /// structures, and structures that modes do not decouple, are stepped in their degrees of freedom.
     #[default]
     Auto,
     /// The structure's degrees of freedom: sparse matrices, one back-substitution per step.
     Physical,
     /// The modes of the structure without ground and damping.
     ///
-    /// They need a linear structure with symmetric matrices, a positive definite mass and damping that the modes
+    /// The modes exist for a linear structure with symmetric matrices, a positive definite mass, and a damping that they
     /// decouple.
     Modes,
     /// Ritz modes, some hundred for thousands of degrees of freedom.
     ///
-    /// They span a rational block Krylov basis of the responses to contact tractions, loads, probes and an initial
-    /// motion. The structure is projected on them (Galerkin), so it stays passive and the energy balance closes.
-    /// The settlement under weight is computed with all degrees of freedom.
+    /// The modes span a rational block Krylov basis of the responses to contact tractions, loads, probes and an initial
+    /// motion. The structure is projected on them (Galerkin). The reduced structure is therefore passive and satisfies
+    /// the energy balance. The settlement under weight is computed with all degrees of freedom.
     ///
-    /// The tolerance applies to responses of the time scheme, each relative to its largest value: after a unit
-    /// traction that begins to grow suddenly, displacements of the base, and displacements, velocities and
-    /// accelerations of probes; after a load that jumps, all probes, section forces included. The error is
-    /// estimated from the change as vectors are added. On towers with 2 and 5 % damping under loads that jump,
-    /// errors stayed below half of the tolerance. A load that acts for one or two steps is the difference of two
-    /// jumps, and its response is smaller than the response to a jump: relative to it, errors may be several times
-    /// the tolerance (4.5 times was measured, for a section moment). Accelerations need more vectors, so they are
-    /// checked only if a probe contains them. Other quantities follow from the base's motion without a check.
+    /// The tolerance applies to responses of the time scheme, each relative to its largest value. After the sudden start
+    /// of a growing unit traction, these are displacements of the base, and displacements, velocities and accelerations
+    /// of probes. After a sudden load, these are all probes, section forces included. The error is estimated from the
+    /// change as vectors are added. On towers with 2 and 5 % damping under sudden loads, errors were below half of the
+    /// tolerance. A load that acts for one or two steps is the difference of two
+    /// sudden loads, and its response is smaller than the response to a sudden load. Relative to the smaller response,
+    /// errors may be several times the tolerance (4.5 times was measured, for a section moment). Accelerations need more
+    /// vectors, so they are checked only if a probe contains them. Other quantities follow from the base's motion
+    /// without a check.
     ///
-    /// A bonded run is a sum of such responses. Contact amplifies their errors without a bound. On towers of 1092
-    /// to 13 122 degrees of freedom with 2 and 5 % damping that slide and uplift, errors of base, roof and base
-    /// shear stayed thirty times below the tolerance, and errors of the roof's acceleration below it. A structure of at
-    /// most 1 000 degrees of freedom is stepped in all of its modes, if fewer are not accurate.
+    /// The response of a bonded run is a sum of such responses. Contact amplifies their errors without a bound. On sliding
+    /// and uplifting towers of 1092 to 13 122 degrees of freedom with 2 and 5 % damping, errors of base, roof and base
+    /// shear were thirty times smaller than the tolerance, and errors of the roof's acceleration were below it. A
+    /// structure of at most 1 000 degrees of freedom is stepped in all of its modes if fewer modes are not accurate.
     ///
     /// **Many forces**: with more than 99 forces, such as the tractions of 34 elements in plan, the modes span the
     /// vibration modes up to a frequency near 2/Δt, the static responses to all forces and one or two powers of K_eff.
     /// The tolerance then applies to tractions and loads that grow over 32 steps by binomial weights: a vibration of
     /// 20 steps a period keeps 67 % of its amplitude, of 10 steps 20 %, of 4 steps 2e-5. Structures without damping, or
     /// with damping in proportion to mass alone, can therefore be reduced. Motion at fewer steps a period, such as
-    /// accelerations after a collision, has no bound. With fewer forces, structures that do not converge without damping
-    /// are an error.
+    /// accelerations after a collision, has no error bound. With fewer forces, a structure whose responses do not converge
+    /// without damping is an error.
     ///
-    /// On a block of 1 344 degrees of freedom on 36 cells that lifts off by 17 % and slides, base shear, displacements and
-    /// pressures erred by at most 2e-4 with damping in proportion to stiffness, 6e-4 without, at a tolerance of 1e-3; at
-    /// 1e-4 by 2e-5 and 3e-4, and the roof's acceleration by 4e-3 and 4e-2. On twelve harder blocks of 2 400 degrees of
-    /// freedom (parts 1e4 times as stiff as others, point masses, none or all of the damping in proportion to mass) base
-    /// shear and displacements erred by at most 9e-4 and pressures by 3.4e-3 at 1e-4: compare two tolerances.
-    /// Probes of section forces add vectors, because such forces respond to tractions less than their stiffness suggests: on a
-    /// block of concrete on 36 cells the section shear and moment at half its height erred by 8e-5 at 1e-4. Contact amplifies
-    /// their errors like others: at 1e-6 they were 1e-5 to 4e-5 on the soft block. Compare two tolerances. Below 1e-4
-    /// the responses of such probes on a stiff structure may not converge by the few powers of K_eff that are tried. Up to
-    /// 2 500 degrees of freedom it is then stepped in all of its modes; beyond, an error names what to change.
-    /// Bricks of 33 075 and 103 788 degrees of freedom on 64 cells took 13 and 65 s, and 0.9 and 2.5 GB, to build at
-    /// 1e-4; a step of the former took 0.2 ms in full contact and 0.6 ms with half of the base open.
+    /// Measured errors of a block of 1 344 degrees of freedom on 36 cells, which slides and uplifts on 17 % of its base: at
+    /// a tolerance of 1e-3, at most 2e-4 in base shear, displacements and pressures with damping in proportion to
+    /// stiffness, and 6e-4 without damping. At 1e-4 they were 2e-5 and 3e-4, and 4e-3 and 4e-2 in the roof's
+    /// acceleration. Twelve harder blocks of 2 400 degrees of freedom (parts 1e4 times as stiff as others, point masses,
+    /// none or all of the damping in proportion to mass) had errors of at most 9e-4 in base shear and displacements and of
+    /// 3.4e-3 in pressures at 1e-4. Compare two tolerances.
     ///
-    /// They need a linear structure with symmetric matrices, a positive definite mass and proportional damping. Damping in
-    /// proportion to mass and to the stiffness without P–Δ, such as Rayleigh damping of finite elements with P–Δ, couples
-    /// the modes: the tolerance is checked with the damping in proportion to the whole stiffness, responses to the coupling
-    /// are added down to a tenth of the root of the tolerance, and a step costs the square of the number of vectors. The
-    /// coupling has no check of its own: on a tower of 1 092 degrees of freedom at a tolerance of 1e-3 base shear and
-    /// displacements erred by 3e-5, and the roof's acceleration by 1.05e-3; on a block on 36 cells all by at most 1e-4.
-    /// An error names the missing property. A load of the structure's own is sampled
-    /// 17 times over the expected steps; a load that acts only in between is projected without a check. Loads of
-    /// the builder have no such gap. Building takes two to six times as long as with other coordinates. Each element
-    /// in plan adds three forces, so 64 cells need 300 to 600 vectors.
+    /// Probes of section forces add vectors, because such forces respond to tractions less than their stiffness suggests.
+    /// On a block of concrete on 36 cells the section shear and moment at half its height had errors of 8e-5 at 1e-4.
+    /// Contact amplifies these errors too: at 1e-6 they were 1e-5 to 4e-5 on the soft block. Below 1e-4 the responses of
+    /// such probes on a stiff structure may not converge with the few powers of K_eff that are tried. Up to 2 500 degrees
+    /// of freedom the structure is then stepped in all of its modes. For a larger structure the error names what to
+    /// change.
+    /// Solids of 33 075 and 103 788 degrees of freedom on 64 cells took 13 and 65 s, and 0.9 and 2.5 GB, to build at
+    /// 1e-4. A step of the first took 0.2 ms in full contact and 0.6 ms with half of the base open.
+    ///
+    /// The reduction needs a linear structure with symmetric matrices, a positive definite mass and proportional damping;
+    /// an error names the missing property. Damping in proportion to mass and to the stiffness without P–Δ, such as
+    /// Rayleigh damping of finite elements with P–Δ, couples the modes. The tolerance is then checked with a damping in
+    /// proportion to the whole stiffness. Responses to the coupling are added down to a tenth of the root of the
+    /// tolerance, and the time of a step grows with the square of the number of vectors. The coupling itself is not
+    /// checked. On a tower of 1 092 degrees of freedom at a tolerance of 1e-3, errors were 3e-5 in base shear and
+    /// displacements and 1.05e-3 in the roof's acceleration. On a block on 36 cells all errors were at most 1e-4.
+    ///
+    /// A load that the structure defines is sampled 17 times over the expected steps. A load that acts only between two
+    /// samples is projected without a check. This does not concern the builder's loads. Building takes two to six times
+    /// as long as with other coordinates. Each element in plan adds three forces, so that 64 cells need 300 to 600
+    /// vectors.
     Reduced {
         /// Relative error of responses to tractions, above 0 and below 1.
         ///
@@ -95,9 +101,9 @@ words_with_numbers! {
     /// let reduced = Coordinates::Reduced { tolerance: 1e-6 };
     /// assert_eq!("reduced(1e-6)".parse(), Ok(reduced));
     /// assert_eq!(reduced.to_string(), "reduced(1e-6)");
-    /// let refused = "ritz".parse::<Coordinates>().unwrap_err();
-    /// let known = "auto, physical, modes, reduced(tolerance)";
-    /// assert_eq!(refused.to_string(), format!("there is no kind of coordinates 'ritz', only {known}"));
+    /// let error = "ritz".parse::<Coordinates>().unwrap_err();
+    /// let words = "auto, physical, modes, reduced(tolerance)";
+    /// assert_eq!(error.to_string(), format!("there is no kind of coordinates 'ritz', only {words}"));
     /// ```
     Coordinates, "kind of coordinates", {
         Auto = "auto", Physical = "physical", Modes = "modes";

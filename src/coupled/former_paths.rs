@@ -1,4 +1,4 @@
-//! Deprecated paths of what stands in [`crate::analyses`].
+//! Deprecated paths of the items of [`crate::analyses`].
 
 use crate::Simulation;
 use crate::coupled::SimulationBuilder;
@@ -83,9 +83,9 @@ pub fn sensitivity<N: Into<String>>(
 pub fn largest_convergent_step(
     time_step: f64,
     duration: f64,
-    make: impl FnMut(f64) -> Result<Simulation>,
+    scene: impl FnMut(f64) -> Result<Simulation>,
 ) -> Result<Option<f64>> {
-    crate::analyses::largest_convergent_step(time_step, duration, make)
+    crate::analyses::largest_convergent_step(time_step, duration, scene)
 }
 
 /// [`crate::analyses::interaction()`].

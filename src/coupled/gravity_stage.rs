@@ -1,17 +1,17 @@
-//! Friction while weight and loads at t = 0 come on.
+//! Friction while the weight and the loads at t = 0 are applied.
 
 /// Friction while the structure is placed on the ground.
 ///
-/// One rule holds for all that acts at t = 0:
+/// One rule holds for all forces at t = 0:
 ///
-/// 1. The **weight** comes on first, as the stage defines: gravity on all masses, and each
+/// 1. The **weight** is applied first, as the stage defines: gravity on all masses, and each
 ///    [`Load::weight`](super::Load::weight).
-/// 2. All **other loads** at t = 0 come on after it, slowly, and the interface law acts: their static state is the end
-///    of a slow ramp of the same loads in time. Where elements slide or yield, the loads grow in ten increments.
+/// 2. All **other loads** at t = 0 are applied after it, slowly, and the interface law acts. Their static state is the
+///    end of a slow ramp of the same loads in time. Where elements slide or yield, the loads grow in ten increments.
 ///
 /// A base that never opens ([`Bonded`](crate::interface::Bonded)) is bonded under weight and loads. On elastic ground a
-/// weight that acts as an ordinary load meets friction, which placing without friction does not have: with ν = 0.33 and a
-/// friction of 0.5 a strip settles by up to 1.5 % less, and carries a shear traction of up to half its pressure.
+/// weight that acts as an ordinary load causes friction, unlike a placement without friction. With ν = 0.33 and a
+/// friction of 0.5 a strip settles by up to 1.5 % less, and its shear traction reaches half its pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -19,23 +19,23 @@
 pub enum GravityStage {
     /// The base is placed without friction and cohesion, and sticks from then on.
     ///
-    /// Bearing pressures, tensile strengths and bonds of the laws hold meanwhile. An element that opens under
-    /// weight alone is open at the start.
+    /// Bearing pressures, tensile strengths and bonds of the laws act during the placement. An element that opens under
+    /// the weight alone is open at the start.
     #[default]
     Frictionless,
-    /// The interface law acts while the weight comes on, in one step, as it does under the loads.
+    /// The interface law acts while the weight is applied in one step, as it does under the loads.
     Frictional,
     /// The structure replaces soil at rest, for comparisons.
     ///
-    /// It has walls in the ground, which begin without friction and without an open cut. Pressures of the soil at rest
-    /// act on base and walls, and the difference of the weights strains the soil. A structure as heavy as the soil that
-    /// it replaces changes nothing. Below a lighter structure part of the base opens; a heavier structure presses its
-    /// walls harder than the soil at rest does. Elements under laws that never open are bonded from the start. On the
-    /// surface it is [`Frictionless`](Self::Frictionless).
+    /// The structure has walls in the ground, which begin without friction and without an open cut. Pressures of the
+    /// soil at rest act on base and walls, and the difference of the weights strains the soil. A structure as heavy as
+    /// the soil that it replaces causes no strain. Below a lighter structure part of the base opens. The pressures on
+    /// the walls of a heavier structure exceed the pressures of the soil at rest. Elements under laws that never open are
+    /// bonded from the start. On the surface this stage is [`Frictionless`](Self::Frictionless).
     WishedInPlace,
     /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.
     ///
-    /// For a structure that is dropped, or tilted and released.
+    /// Use this stage for a structure that is dropped, or tilted and released.
     ///
     /// ```
     /// use basemat::Simulation;
@@ -55,7 +55,7 @@ pub enum GravityStage {
     ///     .build()?;
     /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
     /// let run = simulation.run(1000, |_| {})?;
-    /// // It rocks over to the other edge, and less far.
+    /// // The block rocks to its other edge, by a smaller angle.
     /// let other_side = -run.whole.base_rotation.lowest.value;
     /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
     /// # Ok::<(), basemat::Error>(())

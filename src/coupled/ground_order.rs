@@ -1,4 +1,4 @@
-//! Whether a ground is of first order in the time step.
+//! Check whether a user's ground is of first order in the time step.
 
 use std::any::Any;
 
@@ -8,20 +8,21 @@ use crate::geometry::ContactLayout;
 
 /// Time step over the trial step.
 ///
-/// Waves cross few elements in the trial step, and dashpots hardly move: only an elastic part has a compliance left.
+/// In the trial step waves cross few elements and dashpots hardly move. Only an elastic part then has a compliance.
 const TRIAL_STEP_DIVISOR: f64 = 64.0;
-/// Smallest step compliance for the trial step, over that for the time step, of a ground with an elastic part.
+/// Smallest ratio of the step compliances of trial step and time step of a ground with an elastic part.
 const ELASTIC_COMPLIANCE_RATIO: f64 = 0.8;
-/// Largest displacement by past tractions, over the displacement at the end of a first step, in the mid-step form.
+/// Ratio of the displacements due to past and present tractions, up to which tractions act in mid-step.
 ///
-/// An elastic part in the mid-step form has −1; without history it has 0. A bed of springs k and dashpots c in the mid-step
-/// form has (c/δ − k/2)/(c/δ + k/2) in a trial step δ. Above −¼ this means c/δ > 0.3 k, and the bed's ratio of step
-/// compliances is then below 0.63: it never counts as first order.
+/// An elastic part whose tractions act in mid-step has the ratio −1; without history it has 0. A bed of springs k and
+/// dashpots c with tractions in mid-step has (c/δ − k/2)/(c/δ + k/2) in a trial step δ. Above −¼ this means c/δ > 0.3 k.
+/// The bed's ratio of step compliances is then below 0.63, so that the bed never counts as first order.
 const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 
-/// Whether an elastic part of the ground takes the traction of a step as the traction at its end, s₁ = C τ.
+/// Whether an elastic part of the ground applies each traction at the end of its step.
 ///
-/// Grounds of the crate and grounds with waves are not asked. The ground must be prepared again.
+/// Its displacement at the end of the step is then s₁ = C τ. Grounds of the crate and grounds with waves return `false`
+/// without a trial. The ground must be prepared again after this function.
 ///
 /// # Errors
 /// If the ground cannot be prepared for the time step.
@@ -31,33 +32,34 @@ pub(crate) fn is_first_order(
     time_step: f64,
     layout: ContactLayout,
 ) -> Result<bool> {
-    if is_of_the_crate(ground) || description.shear_wave_speed.is_some() {
+    if is_crate_ground(ground) || description.shear_wave_speed.is_some() {
         return Ok(false);
     }
-    let in_step = uniform_response(ground, time_step, layout)?;
-    // A ground may refuse steps other than the run's.
-    let Ok(in_trial) = uniform_response(ground, time_step / TRIAL_STEP_DIVISOR, layout) else {
+    let step_response = uniform_response(ground, time_step, layout)?;
+    // A ground may return an error for steps other than the run's.
+    let Ok(trial_response) = uniform_response(ground, time_step / TRIAL_STEP_DIVISOR, layout)
+    else {
         return Ok(false);
     };
-    let is_elastic: Vec<bool> = in_step
+    let is_elastic: Vec<bool> = step_response
         .iter()
-        .zip(&in_trial)
+        .zip(&trial_response)
         .map(|(step, trial)| *step > 0.0 && *trial >= ELASTIC_COMPLIANCE_RATIO * step)
         .collect();
     if !is_elastic.contains(&true) {
         return Ok(false);
     }
     ground.commit(&vec![1.0; layout.len()]);
-    let mut past = vec![0.0; layout.len()];
-    if ground.history(&mut past).is_err() {
+    let mut history = vec![0.0; layout.len()];
+    if ground.history(&mut history).is_err() {
         return Ok(false);
     }
-    let past = sums(&past, layout);
+    let past_response = component_sums(&history, layout);
     Ok((0..layout.components())
-        .any(|k| is_elastic[k] && past[k] > PAST_DISPLACEMENT_RATIO * in_trial[k]))
+        .any(|k| is_elastic[k] && past_response[k] > PAST_DISPLACEMENT_RATIO * trial_response[k]))
 }
 
-/// Sum of the displacements of each component, m, at the end of a first step with tractions of 1 Pa.
+/// Sum over the elements of each displacement component (m) at the end of a first step with tractions of 1 Pa.
 fn uniform_response(
     ground: &mut dyn Ground,
     time_step: f64,
@@ -70,21 +72,23 @@ fn uniform_response(
             diagonal.in_step.len(),
             layout.len(),
         )?;
-        return Ok(sums(&diagonal.in_step, layout));
+        return Ok(component_sums(&diagonal.in_step, layout));
     }
     let mut matrix = vec![0.0; layout.square()];
     ground.step_compliance(&mut matrix)?;
-    let rows: Vec<f64> = matrix.chunks(layout.len()).map(|row| row.iter().sum()).collect();
-    Ok(sums(&rows, layout))
+    let row_sums: Vec<f64> = matrix.chunks(layout.len()).map(|row| row.iter().sum()).collect();
+    Ok(component_sums(&row_sums, layout))
 }
 
 /// Sums over the elements of each component of a contact vector.
-fn sums(vector: &[f64], layout: ContactLayout) -> Vec<f64> {
+fn component_sums(vector: &[f64], layout: ContactLayout) -> Vec<f64> {
     vector.chunks(layout.elements()).map(|component| component.iter().sum()).collect()
 }
 
-/// Whether the ground, in any boxes, is a spring bed, whose θ may damp by choice, or has convolution weights.
-fn is_of_the_crate(mut ground: &(dyn Ground + 'static)) -> bool {
+/// Whether the ground, possibly in boxes, is a spring bed or has convolution weights.
+///
+/// The user chooses the algorithmic damping θ of a spring bed.
+fn is_crate_ground(mut ground: &(dyn Ground + 'static)) -> bool {
     while let Some(inner) = (ground as &dyn Any).downcast_ref::<Box<dyn Ground>>() {
         ground = inner.as_ref();
     }

@@ -6,10 +6,10 @@ use crate::geometry::ContactElement;
 use crate::linalg::largest;
 use crate::text::check_sum::CheckSum;
 
-/// Allowed difference of numbers of the same scene, since other processors round differently.
+/// Relative difference of numbers of the same scene; other processors round differently.
 const IDENTITY_TOLERANCE: f64 = 1e-9;
 
-/// An intended difference from the scene of a checkpoint: see [`Simulation::resume_changed`].
+/// Intended difference from the scene of a checkpoint, for [`Simulation::resume_changed`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -35,7 +35,7 @@ words! { pub Change, "change of a scene", {
     InitialMotion = "initial_motion",
 } }
 
-/// Numbers that distinguish a scene from others.
+/// Numbers and a label that distinguish a scene from others.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -43,7 +43,7 @@ pub(crate) struct Identity {
     /// The builder's label.
     label: String,
     dofs: usize,
-    /// Whether an energy balance is kept.
+    /// Whether the scene has an energy balance.
     energy_balance: bool,
     probes: Vec<String>,
     /// Ends of the state variables of each element's law; empty if no law has any.
@@ -51,10 +51,10 @@ pub(crate) struct Identity {
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
-    /// Ends of the elements.
+    /// Coordinates of the ends of the elements, m.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     elements: Vec<f64>,
-    /// Sums over the structure's matrices, and one that depends on the signs of its modes.
+    /// Sums over the structure's matrices, and a sum that depends on the signs of its modes.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
     /// Sum over the ground's step compliance.
@@ -68,8 +68,10 @@ pub(crate) struct Identity {
     start: Vec<f64>,
 }
 
-/// Whether two lists agree within rounding, relative to `scale` or to each number of the second.
-fn close(saved: &[f64], present: &[f64], scale: f64) -> bool {
+/// Whether two lists agree to rounding.
+///
+/// The tolerance is relative to `scale` or to each number of the second list, whichever is larger.
+fn are_close(saved: &[f64], present: &[f64], scale: f64) -> bool {
     saved.len() == present.len()
         && saved
             .iter()
@@ -83,7 +85,7 @@ fn sum_of_magnitudes(values: &[f64]) -> f64 {
 }
 
 impl Identity {
-    /// Number of the gravity stage; lists of a file may be of any length.
+    /// Number of the gravity stage; empty if a damaged file has an empty list.
     fn gravity_stage(&self) -> &[f64] {
         self.start.get(..1).unwrap_or_default()
     }
@@ -93,6 +95,7 @@ impl Identity {
         self.start.get(1..).unwrap_or_default()
     }
 
+    /// Adds all contents to a check sum.
     pub(crate) fn add_to(&self, sum: &mut CheckSum) {
         let Self { label, dofs, energy_balance, probes, laws, .. } = self;
         let Self { steps, elements, structure, ground, static_contact, start, .. } = self;
@@ -109,37 +112,37 @@ impl Identity {
         }
     }
 
-    /// Error that names the first difference that is not among the `changes`.
+    /// Error that names the first difference outside the intended `changes`.
     pub(crate) fn check(
         &self,
         scene: &Self,
         changes: &[Change],
     ) -> std::result::Result<(), CheckpointError> {
-        // The label stands for laws, motion and loads.
-        let has_label = |change: &Change| {
+        // The label names laws, motion and loads.
+        let changes_label = |change: &Change| {
             matches!(change, Change::InterfaceLaw | Change::GroundMotion | Change::Load)
         };
-        let same_label = self.label == scene.label || changes.iter().any(has_label);
-        let same_stage = changes.contains(&Change::GravityStage)
-            || close(self.gravity_stage(), scene.gravity_stage(), 0.0);
-        let same_motion = changes.contains(&Change::InitialMotion)
-            || close(self.initial_motion(), scene.initial_motion(), 0.0);
-        let span = largest(&scene.elements);
-        for (same, quantity) in [
+        let is_same_label = self.label == scene.label || changes.iter().any(changes_label);
+        let is_same_stage = changes.contains(&Change::GravityStage)
+            || are_close(self.gravity_stage(), scene.gravity_stage(), 0.0);
+        let is_same_motion = changes.contains(&Change::InitialMotion)
+            || are_close(self.initial_motion(), scene.initial_motion(), 0.0);
+        let length_scale = largest(&scene.elements);
+        for (is_same, quantity) in [
             (self.dofs == scene.dofs, "number of degrees of freedom"),
-            (close(&self.steps, &scene.steps, 0.0), "time step or scheme"),
-            (close(&self.elements, &scene.elements, span), "list of contact elements"),
+            (are_close(&self.steps, &scene.steps, 0.0), "time step or scheme"),
+            (are_close(&self.elements, &scene.elements, length_scale), "list of contact elements"),
             (self.energy_balance == scene.energy_balance, "energy balance"),
             (self.probes == scene.probes, "list of probes"),
             (self.laws == scene.laws, "state variables of the interface laws"),
-            (close(&self.structure, &scene.structure, 0.0), "structure"),
-            (close(&self.ground, &scene.ground, 0.0), "ground"),
-            (same_stage, "gravity stage"),
-            (close(&self.static_contact, &scene.static_contact, 0.0), "static state"),
-            (same_motion, "initial motion"),
-            (same_label, "label"),
+            (are_close(&self.structure, &scene.structure, 0.0), "structure"),
+            (are_close(&self.ground, &scene.ground, 0.0), "ground"),
+            (is_same_stage, "gravity stage"),
+            (are_close(&self.static_contact, &scene.static_contact, 0.0), "static state"),
+            (is_same_motion, "initial motion"),
+            (is_same_label, "label"),
         ] {
-            if !same {
+            if !is_same {
                 return Err(CheckpointError::OtherScene { quantity });
             }
         }
@@ -152,13 +155,14 @@ impl Simulation {
     pub(crate) fn identity(&self) -> Identity {
         let Self { scene, state, .. } = self;
         let model = &scene.model;
-        // Modes may have either sign. A nonlinear structure has no modes, and its columns change.
-        let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
-        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
+        // The sign of each mode is arbitrary. The columns of a nonlinear structure have no modes and change.
+        let columns =
+            self.solver.operators().columns.iter().enumerate().filter(|_| model.is_linear);
+        let signed_sum = columns.map(|(k, value)| (k as f64).cos() * value).sum();
         let c = scene.coefficients;
-        let mut scheme = vec![scene.time_step];
+        let mut scheme_numbers = vec![scene.time_step];
         for row in [c.acceleration, c.velocity, c.displacement] {
-            scheme.extend(row);
+            scheme_numbers.extend(row);
         }
         let elements = scene.base.elements().iter();
         let elements = elements.flat_map(ContactElement::ends).flatten().collect();
@@ -166,7 +170,7 @@ impl Simulation {
             sum_of_magnitudes(model.mass.values()),
             sum_of_magnitudes(model.damping.values()),
             sum_of_magnitudes(model.stiffness.values()),
-            signed,
+            signed_sum,
         ];
         Identity {
             label: scene.label.clone(),
@@ -174,20 +178,20 @@ impl Simulation {
             energy_balance: self.energies.is_some(),
             probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
             laws: state.start.state_variable_ends().to_vec(),
-            steps: scheme,
+            steps: scheme_numbers,
             elements,
             structure,
-            ground: vec![sum_of_magnitudes(&scene.soil)],
+            ground: vec![sum_of_magnitudes(&scene.step_compliance)],
             // A weight that acts as a load is not part of the static state.
             static_contact: [&scene.static_state.traction, &scene.weight]
                 .map(|values| sum_of_magnitudes(values))
                 .to_vec(),
-            start: scene.start.to_vec(),
+            start: [&[scene.gravity_stage][..], &scene.initial_motion_sums].concat(),
         }
     }
 }
 
-/// Floating-point numbers as their bits.
+/// Serialization of floating-point numbers as their bits, without rounding.
 #[cfg(feature = "serde")]
 pub(crate) mod bits {
     use serde::{Deserialize, Deserializer, Serializer};

@@ -1,14 +1,14 @@
 //! The coupled nonlinear time integrator.
 //!
-//! [`Simulation::builder`] takes the parts and checks them against each other; [`Simulation::step`] makes one
-//! step, [`Simulation::run`] many.
+//! [`Simulation::builder`] collects the parts and compares them with each other. [`Simulation::step`] makes one step,
+//! [`Simulation::run`] many.
 //!
 //! # A step
 //!
-//! Let y be the mean translation of the free field under a connected part of the structure, R its influence
-//! vectors, and R y + u the displacement. Only u, relative to the ground, is stored, so that a large displacement
-//! of the ground costs no digits. Let τ be the contact tractions of the step as **changes** against the static
-//! state, and s the soil's displacement by them. A [`TimeScheme`] gives the coefficients of a* and v* (total) and
+//! Let y be the mean translation of the free field under a connected part of the structure, R the influence vectors of
+//! the part, and R y + u the displacement. Only u, relative to the ground, is stored, so that a large displacement of
+//! the ground causes no loss of digits. Let τ be the contact tractions of the step as **changes** against the static
+//! state, and s the soil's displacement due to them. A [`TimeScheme`] gives the coefficients of a* and v* (total) and
 //! u* as functions of the increment R Δy + Δu:
 //!
 //! ```text
@@ -17,8 +17,8 @@
 //! ```
 //!
 //! where B computes element means of the base displacement from degrees of freedom (normal components down), A
-//! holds the element lengths, h is the convolution history of all earlier tractions and `s_ff` the free field. K R
-//! = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus the tangential
+//! contains the element lengths, h is the convolution history of all earlier tractions, and `s_ff` the free field.
+//! K R = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus the tangential
 //! components. Eliminating Δu leaves one linear relation between jumps and tractions,
 //!
 //! ```text
@@ -41,20 +41,20 @@
 //!
 //! The search starts from the modes of the previous step. It solves the linear system for these modes, evaluates
 //! the next mode of each [`crate::interface::InterfaceLaw`], and repeats this until no mode changes. If a mode
-//! vector recurs, the search has a cycle. It then uses Gauss–Seidel over the elements, each solved exactly by
-//! trying its modes, and at last follows a path of solutions from a known state. [`State::method`] names the last
-//! method used, [`State::trials`] the number of linear solutions. If nothing converges, the step returns an
-//! [`crate::Error::Step`] and the simulation stays at the last accepted step.
+//! vector recurs, the search has a cycle. The search then uses Gauss–Seidel over the elements, each solved exactly by
+//! trying its modes. If this does not converge either, it follows a path of solutions from a solved state.
+//! [`State::method`] is the last method used, [`State::trials`] the number of linear solutions. If no method converges,
+//! the step returns an [`crate::Error::Step`] and the simulation stays at the last accepted step.
 //!
 //! # Preload
 //!
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state that is computed in stages:
 //! first the weight, as [`GravityStage`] defines, then all other loads at t = 0 with the interface laws, in increments
-//! if elements slide or yield. Contact conditions hold, with the static compliance of the ground. Without
-//! equilibrium, the error names the cause ([`crate::coupled::StabilityError`]). The structure has no support of its own and
-//! the half-plane no static datum. The search is therefore a proximal point iteration: weak springs to the last
-//! iterate, whose forces vanish at convergence. An equilibrium need not be stable: a block that P–Δ would topple
-//! stands, and falls when the ground shakes.
+//! if elements slide or yield. The state satisfies the contact conditions, with the static compliance of the ground.
+//! Without equilibrium, the error names the cause ([`crate::coupled::StabilityError`]). The structure has no support
+//! besides the ground, and the half-plane has no static datum. The search is therefore a proximal point iteration: weak
+//! springs connect the structure to its last iterate, and their forces vanish at convergence. An equilibrium may be
+//! unstable: a block that P–Δ would overturn stands until the ground shakes.
 //!
 //! # Energy balance
 //!
@@ -72,7 +72,6 @@
 
 pub(crate) mod assembly;
 pub(crate) mod base;
-mod bed_compliance;
 mod builder;
 mod checkpoint;
 mod conditioning;
@@ -92,6 +91,7 @@ pub(crate) mod simulation;
 pub(crate) mod state;
 mod statics;
 mod step;
+mod step_compliance;
 
 #[doc(inline)]
 pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepError};

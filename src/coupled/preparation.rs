@@ -1,4 +1,4 @@
-//! Preparation of the ground for the steps of a run.
+//! Preparation of the ground for the steps of a run: convolution weights and memory.
 
 use crate::Simulation;
 use crate::coupled::builder::MIN_ENDLESS_STEPS;
@@ -7,46 +7,47 @@ use crate::error::{Error, Observer, Result, unobserved};
 impl Simulation {
     /// Prepares the ground for `steps` further steps, with an observer.
     ///
-    /// The ground computes its convolution weights and allocates memory. A run of as many steps then begins at once,
-    /// with unchanged results. [`Observer`] has an example. 2⁴⁰ steps or more have no known end: nothing is done.
+    /// The ground computes its convolution weights and allocates memory. A run of `steps` steps then begins without
+    /// delay and has the same results. [`Observer`] has an example. For 2⁴⁰ steps or more, which stand for a run
+    /// without a known end, nothing is prepared.
     ///
     /// # Errors
     /// [`Error::Stopped`] by the observer, and the simulation stays unchanged; [`Error::Memory`] for more steps than fit
     /// into the memory of the ground's history; as for [`Ground::prepare`](crate::bem::Ground::prepare).
     pub fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let made = self.state.step;
-        let end = made.saturating_add(steps);
-        if end <= self.prepared || end >= MIN_ENDLESS_STEPS {
+        let completed_steps = self.state.step;
+        let last_step = completed_steps.saturating_add(steps);
+        if last_step <= self.prepared_steps || last_step >= MIN_ENDLESS_STEPS {
             return Ok(());
         }
         let time_step = self.scene.time_step;
-        if made == 0 {
-            self.ground.prepare(time_step, Some(end), observer)?;
-            self.prepared = end;
+        if completed_steps == 0 {
+            self.ground.prepare(time_step, Some(last_step), observer)?;
+            self.prepared_steps = last_step;
             return Ok(());
         }
-        // A ground that cannot be saved grows step by step.
-        let Ok(saved) = self.ground.save() else { return Ok(()) };
-        // Doubled, so that many short runs prepare seldom; histories grow by powers of two.
-        let mut prepared = end.next_power_of_two();
-        match self.ground.prepare(time_step, Some(prepared), observer) {
-            Err(error) if matches!(error, Error::Stopped(_)) || prepared == end => {
+        // A ground that cannot be saved extends its history in each step.
+        let Ok(saved_ground) = self.ground.save() else { return Ok(()) };
+        // The next power of two limits the number of preparations in many short runs. Histories grow by powers of two.
+        let mut prepared_steps = last_step.next_power_of_two();
+        match self.ground.prepare(time_step, Some(prepared_steps), observer) {
+            Err(error) if matches!(error, Error::Stopped(_)) || prepared_steps == last_step => {
                 return Err(error);
             }
             Err(_) => {
-                prepared = end;
-                self.ground.prepare(time_step, Some(end), observer)?;
+                prepared_steps = last_step;
+                self.ground.prepare(time_step, Some(last_step), observer)?;
             }
             Ok(()) => {}
         }
-        if let Err(error) = self.ground.restore(made, &saved) {
-            // Restores the ground's earlier state.
-            let before = Some(self.prepared).filter(|steps| *steps > 0);
-            self.ground.prepare(time_step, before, &mut unobserved)?;
-            self.ground.restore(made, &saved)?;
+        if let Err(error) = self.ground.restore(completed_steps, &saved_ground) {
+            // Returns the ground to its state before the call.
+            let previous_steps = Some(self.prepared_steps).filter(|steps| *steps > 0);
+            self.ground.prepare(time_step, previous_steps, &mut unobserved)?;
+            self.ground.restore(completed_steps, &saved_ground)?;
             return Err(error);
         }
-        self.prepared = prepared;
+        self.prepared_steps = prepared_steps;
         Ok(())
     }
 }

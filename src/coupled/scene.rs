@@ -1,4 +1,4 @@
-//! A scene: all data that stay constant during a run.
+//! Scene: all data that stay constant during a run.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::coupled::model::load::SteppedLoad;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::serviceability::Serviceability;
-use crate::coupled::state::Context;
+use crate::coupled::state::ResultContext;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
@@ -20,9 +20,9 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{CompressedMatrix, mixing_sum};
 use crate::structure::Probe;
 
-/// Structure, base, laws and static state for steps; read-only once built.
+/// Constant data of a run: matrices, base, laws, loads and static state.
 ///
-/// Structure, ground and motion change during a run and are separate.
+/// The structure, the ground and the motion change during a run and are stored separately.
 pub(crate) struct Scene {
     pub(crate) time_step: f64,
     pub(crate) coefficients: SchemeCoefficients,
@@ -31,44 +31,53 @@ pub(crate) struct Scene {
     pub(crate) model: Model,
     pub(crate) base: PlacedBase,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
-    /// Limits of serviceability, against which runs are checked.
+    /// Serviceability limits with which runs are compared.
     pub(crate) serviceability: Serviceability,
     pub(crate) static_state: StaticState,
     /// External loads in addition to the load of the structure.
     pub(crate) loads: Vec<SteppedLoad>,
-    /// Weight as a load, in stepping coordinates, if the run begins without a static state; otherwise empty.
+    /// Weight as a load, in stepping coordinates, if the run starts without a static state; otherwise empty.
     pub(crate) weight: Vec<f64>,
-    /// Parts that the nonlinear force joins with others.
-    pub(crate) joined: Vec<bool>,
+    /// Whether the nonlinear force connects each part with other parts.
+    pub(crate) is_connected_by_force: Vec<bool>,
     /// Step compliance of the ground, 2Q × 2Q.
-    pub(crate) soil: Arc<CompressedMatrix>,
-    /// Free field at t = 0, which is subtracted from it later, 2Q.
-    pub(crate) start_motion: Vec<f64>,
-    /// Displacement, velocity and acceleration of each probe.
-    pub(crate) probe_rows: Vec<ProbeRows>,
-    /// Number of the gravity stage, and sums over the initial displacement and velocity, for comparison with a
-    /// checkpoint.
-    pub(crate) start: [f64; 3],
+    pub(crate) step_compliance: Arc<CompressedMatrix>,
+    /// Displacement of the free field at t = 0, m, 2Q; it is subtracted from the free field of every step.
+    pub(crate) initial_free_field: Vec<f64>,
+    /// The probes in stepping coordinates.
+    pub(crate) stepped_probes: Vec<SteppedProbe>,
+    /// Number of the gravity stage, for comparison with a checkpoint.
+    pub(crate) gravity_stage: f64,
+    /// Sums over the initial displacement and velocity, for comparison with a checkpoint.
+    pub(crate) initial_motion_sums: [f64; 2],
     /// The builder's label, for comparison with a checkpoint.
     pub(crate) label: String,
-    /// Shared data for results of the scene's states.
-    pub(crate) context: Arc<Context>,
+    /// Data that results of all states of this scene share.
+    pub(crate) context: Arc<ResultContext>,
 }
 
 /// A probe in stepping coordinates.
-pub(crate) struct ProbeRows {
-    pub(crate) rows: [Weights; 3],
-    /// Displacement of an absolute probe by a translation of 1 m of each part `[right, up, away]`.
-    pub(crate) carried: Vec<[f64; 3]>,
+pub(crate) struct SteppedProbe {
+    /// Weights of displacement, velocity and acceleration.
+    pub(crate) weights: [Weights; 3],
+    /// Displacement of an absolute probe for a translation of each part by 1 m `[right, up, away]`; otherwise empty.
+    pub(crate) rigid_displacements: Vec<[f64; 3]>,
 }
 
-impl ProbeRows {
+impl SteppedProbe {
     pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
-        let rows = probe.rows().map(|row| model.transformation.row(row));
-        let parts = model.influence.parts().iter().filter(|_| probe.absolute);
-        let carried = parts
-            .map(|part| part.vectors.each_ref().map(|r| rows[0].of(&spread(r, model.coordinates))));
-        Self { carried: carried.collect(), rows }
+        let weights = probe.rows().map(|row| model.transformation.weights(row));
+        let mut rigid_displacements = Vec::new();
+        if probe.absolute {
+            for part in model.influence.parts() {
+                rigid_displacements.push(
+                    part.vectors
+                        .each_ref()
+                        .map(|vector| weights[0].value(&spread(vector, model.coordinates))),
+                );
+            }
+        }
+        Self { weights, rigid_displacements }
     }
 }
 
@@ -79,32 +88,35 @@ impl Scene {
         model: Model,
         base: PlacedBase,
         static_state: StaticState,
-        joined: Vec<bool>,
+        is_connected_by_force: Vec<bool>,
     ) -> Self {
         let Parts { builder, coefficients, .. } = parts;
         let time_step = builder.time_step;
         let coefficients = *coefficients;
         let is_static = builder.is_static();
-        let loads = std::mem::take(&mut builder.loads).into_iter();
-        let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
+        let mut loads = Vec::with_capacity(builder.loads.len());
+        for load in std::mem::take(&mut builder.loads) {
+            loads.push(SteppedLoad::new(load, &model.transformation, is_static));
+        }
         let mut weight = Vec::new();
-        if builder.falls() {
+        if builder.starts_unloaded() {
             weight.resize(model.coordinates, 0.0);
-            let up = model.influence.of(UPWARD_DIRECTION, model.coordinates);
+            let up = model.influence.whole_vector(UPWARD_DIRECTION, model.coordinates);
             model.mass.multiply_add(-builder.gravity, &up, &mut weight);
         }
         let elements = &parts.elements;
-        let origin = parts.moment_center;
-        let shapes = base.foundations().zip(base.outlines());
-        let footings =
-            shapes.map(|((_, range), outline)| Footing::new(elements, range, outline, origin));
-        let probe_rows = builder.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
-        let context = Context {
+        let mut footings = Vec::new();
+        for ((_, range), outline) in base.foundations().zip(base.outlines()) {
+            footings.push(Footing::new(elements, range, outline, parts.moment_center));
+        }
+        let stepped_probes =
+            builder.probes.iter().map(|probe| SteppedProbe::new(probe, &model)).collect();
+        let context = ResultContext {
             probes: std::mem::take(&mut builder.probes),
             elements: elements.clone(),
             pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
             friction: std::mem::take(&mut builder.safety_friction),
-            footings: footings.collect(),
+            footings,
         };
         Self {
             time_step,
@@ -113,16 +125,16 @@ impl Scene {
             laws: std::mem::take(&mut builder.laws),
             serviceability: builder.serviceability,
             static_state,
-            loads: loads.collect(),
+            loads,
             weight,
-            joined,
-            soil: parts.soil.clone(),
-            start_motion: std::mem::take(&mut parts.start_motion),
-            probe_rows,
-            start: [
-                builder.gravity_stage as usize as f64,
-                mixing_sum(&builder.displacement),
-                mixing_sum(&builder.velocity),
+            is_connected_by_force,
+            step_compliance: parts.step_compliance.clone(),
+            initial_free_field: std::mem::take(&mut parts.initial_free_field),
+            stepped_probes,
+            gravity_stage: builder.gravity_stage as usize as f64,
+            initial_motion_sums: [
+                mixing_sum(&builder.initial_displacement),
+                mixing_sum(&builder.initial_velocity),
             ],
             label: std::mem::take(&mut builder.label),
             context: Arc::new(context),
@@ -132,7 +144,7 @@ impl Scene {
     }
 
     /// Number of contact elements Q.
-    pub(crate) fn count(&self) -> usize {
+    pub(crate) fn element_count(&self) -> usize {
         self.base.elements().len()
     }
 
@@ -146,26 +158,26 @@ impl Scene {
         law_of(&self.laws, element)
     }
 
-    /// Subtracts the mean translation of each part's base from a displacement, before K acts on it.
+    /// Subtracts the mean translation of each part's base from a displacement, before K multiplies it.
     ///
-    /// A translation strains nothing. In degrees of freedom, K would give zero only by cancellation, with an error
-    /// that grows with stiffness times displacement. In modes it has no stiffness.
-    pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
+    /// A translation causes no strain. In degrees of freedom, K times a translation is zero only by cancellation, with
+    /// an error that grows with stiffness times displacement. In modal coordinates a translation has no stiffness.
+    pub(crate) fn subtract_base_translation(&self, displacement: &mut [f64], means: &mut [f64]) {
         if let Transformation::Identity = self.model.transformation {
             self.base.means(displacement, means);
             let influence = &self.model.influence;
-            let parts = influence.parts().iter().map(|part| part.mean(&self.base, means));
-            influence.translate(-1.0, parts, displacement);
+            let translations =
+                influence.parts().iter().map(|part| part.mean_translation(&self.base, means));
+            influence.translate(-1.0, translations, displacement);
         }
     }
 
-    /// Subtracts from each part's displacement the mean translation of its base; nonlinear forces receive the
-    /// result.
+    /// Converts a displacement to the one that the nonlinear force receives.
     ///
-    /// The result stays small. From all parts that the force joins, the mean translation of the first of them is
-    /// subtracted, so that the distances between them stay. The static displacement is added. `translations`: of
-    /// the parts' free fields.
-    pub(crate) fn to_force_displacement(
+    /// The mean translation of each part's base is subtracted, so that the displacement stays small. From all parts that
+    /// the force connects, the translation of the first of these parts is subtracted, so that their distances do not
+    /// change. The static displacement is added. `translations` are the translations of the free fields under the parts, m.
+    pub(crate) fn convert_to_force_displacement(
         &self,
         displacement: &mut [f64],
         means: &mut [f64],
@@ -173,27 +185,30 @@ impl Scene {
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
-        let mean = |part: &ConnectedPart| part.mean(&self.base, means);
-        let parts = || influence.parts().iter().zip(&self.joined);
-        let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
-        let first = first.map(|((part, _), y)| (mean(part), y));
-        let shifts = parts().zip(translations).map(|((part, joined), y)| match first {
-            Some((mean, reference)) if *joined => {
-                [0, 1, 2].map(|k| (y[k] - reference[k]) - mean[k])
-            }
-            _ => mean(part).map(|component| -component),
-        });
+        let base_translation = |part: &ConnectedPart| part.mean_translation(&self.base, means);
+        let parts = || influence.parts().iter().zip(&self.is_connected_by_force);
+        let first_connected = parts()
+            .zip(translations.clone())
+            .find(|((_, is_connected), _)| **is_connected)
+            .map(|((part, _), y)| (base_translation(part), y));
+        let shifts =
+            parts().zip(translations).map(|((part, is_connected), y)| match first_connected {
+                Some((first_translation, first_y)) if *is_connected => {
+                    [0, 1, 2].map(|k| (y[k] - first_y[k]) - first_translation[k])
+                }
+                _ => base_translation(part).map(|component| -component),
+            });
         influence.translate(1.0, shifts, displacement);
-        for (entry, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {
-            *entry += at_rest;
+        for (entry, static_entry) in displacement.iter_mut().zip(&self.static_state.displacement) {
+            *entry += static_entry;
         }
     }
 
-    /// Displacement of a motion as the nonlinear force receives it.
+    /// Displacement of a motion that the nonlinear force receives.
     pub(crate) fn force_displacement_of(&self, motion: &Kinematics) -> Vec<f64> {
         let mut displacement = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);
-        self.to_force_displacement(
+        self.convert_to_force_displacement(
             &mut displacement,
             &mut vec![0.0; self.layout().len()],
             translations,
@@ -206,27 +221,32 @@ impl Scene {
         !(self.weight.is_empty() && self.loads.is_empty())
     }
 
-    /// Adds the weight and the external loads at `time`, minus the loads of the static state, to `force`.
+    /// Adds weight and external loads at `time`, minus the loads of the static state, to `force`.
     ///
-    /// Stops at a load that is not finite, and returns its number and value.
+    /// Returns the number and the value of the first load that is not finite.
     pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> Option<(usize, f64)> {
         force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
-        let mut added = self.loads.iter().map(|load| load.add(time, force)).enumerate();
-        added.find(|(_, value)| !value.is_finite())
-    }
-
-    /// Whether any law stores energy in its elements, or may do so with other state variables.
-    pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
-        let mut compliant = false;
-        for element in 0..self.count() {
-            for &mode in self.law(element).modes() {
-                compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+        for (index, load) in self.loads.iter().enumerate() {
+            let value = load.add(time, force);
+            if !value.is_finite() {
+                return Some((index, value));
             }
         }
-        Ok(compliant || !start.state_variables().is_empty())
+        None
     }
 
-    /// Compliance of an element whose step ends in `mode`.
+    /// Whether any law stores elastic energy, now or with other state variables.
+    pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
+        let mut is_compliant = false;
+        for element in 0..self.element_count() {
+            for &mode in self.law(element).modes() {
+                is_compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+            }
+        }
+        Ok(is_compliant || !start.state_variables().is_empty())
+    }
+
+    /// Normal and shear compliance of an element whose step ends in `mode`, m/Pa.
     pub(crate) fn compliance(
         &self,
         element: usize,
@@ -234,8 +254,9 @@ impl Scene {
         start: &PreviousContacts,
     ) -> Result<[f64; 2], LawError> {
         let compliance = self.law(element).compliance(mode, &start.element(element));
-        let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
-        match named.into_iter().find(|(_, value)| !value.is_finite()) {
+        let named_values =
+            [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
+        match named_values.into_iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(compliance),
             Some((quantity, value)) => {
                 Err(LawError::not_finite(element, mode.word(), quantity, value))

@@ -1,4 +1,4 @@
-//! Serviceability: allowable slip, gap, uplifted part, rotation and settlement of a base.
+//! Serviceability limits: allowable slip, gap, uplifted fraction, rotation and settlement of a base.
 
 use crate::coupled::State;
 use crate::error::{Result, positive, require};
@@ -10,13 +10,17 @@ use crate::geometry::resultant;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Criterion {
-    /// Slip averaged over a foundation, m, in any direction; tangential motion of open elements counts.
+    /// Slip averaged over a foundation, in any direction, m.
+    ///
+    /// It includes the tangential motion of open elements.
     Slip,
     /// Gap of an element, m.
     Gap,
     /// Uplifted fraction of a foundation.
     UpliftedFraction,
-    /// Rotation of a foundation's chord since the static state, rad, either way; in plan the tilt in any direction.
+    /// Magnitude of the rotation of a foundation's chord since the static state, rad.
+    ///
+    /// In plan it is the tilt in any direction.
     Rotation,
     /// Settlement of a foundation's centre since the static state, m, downwards.
     Settlement,
@@ -51,7 +55,7 @@ impl Criterion {
         }
     }
 
-    /// The value furthest from zero among all foundations or elements of a state.
+    /// Value of largest magnitude among all foundations or elements of a state.
     pub(crate) fn largest_value(self, state: &State) -> f64 {
         let foundations = state.foundations.iter();
         match self {
@@ -74,12 +78,12 @@ impl Criterion {
     }
 }
 
-/// The value of larger magnitude, with its sign.
-fn larger_magnitude(largest: f64, value: f64) -> f64 {
-    if value.abs() > largest.abs() { value } else { largest }
+/// The one of two values with the larger magnitude.
+fn larger_magnitude(first: f64, second: f64) -> f64 {
+    if second.abs() > first.abs() { second } else { first }
 }
 
-/// Serviceability limits of a base's motion.
+/// Allowable motion of a base: serviceability limits.
 ///
 /// Set them by [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability); each
 /// [`Run`](crate::results::Run) states whether they were met.
@@ -103,7 +107,7 @@ fn larger_magnitude(largest: f64, value: f64) -> f64 {
 ///     .build()?;
 /// let run = simulation.run(1000, |_| {})?;
 ///
-/// // It slides too far, and turns little.
+/// // The block exceeds the allowable slip, but not the allowable rotation.
 /// let [slip, rotation] = &run.serviceability[..] else { panic!("two criteria") };
 /// assert_eq!(slip.criterion, Criterion::Slip);
 /// assert!(!slip.is_met() && slip.margin() < 0.0);

@@ -1,4 +1,4 @@
-//! The simulation: the loop over steps, and the values that its observer returns.
+//! The simulation: the loop over steps, and the return values of its observers.
 
 use std::ops::ControlFlow;
 
@@ -18,8 +18,10 @@ use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
-use crate::structure::Probe;
-use crate::structure::Structure;
+use crate::structure::{Probe, Structure};
+
+/// Rounding of a number of steps, relative to it, which must not add a step.
+const STEP_COUNT_TOLERANCE: f64 = 1e-12;
 
 /// A structure on a ground, ready for time steps.
 ///
@@ -37,25 +39,25 @@ pub struct Simulation {
     pub(crate) energies: Option<EnergyAccumulator>,
     pub(crate) state: State,
     pub(crate) conditioning: Conditioning,
-    /// Warnings of the scene before its first step, and of the steps since.
+    /// Warnings of the scene and of the steps so far.
     pub(crate) warnings: Vec<Warning>,
-    /// Pressure of the soil above each element of walls without a largest pressure, Pa; empty without walls.
+    /// Overburden pressure at each element of walls without a bearing pressure, Pa; empty without walls.
     pub(crate) pressures_above: Vec<f64>,
-    /// Damping of a rigid translation along the ground, divided by the mass that it moves, 1/s.
-    pub(crate) drag: f64,
+    /// Damping of a rigid translation along the ground over the moving mass, 1/s.
+    pub(crate) translation_damping_rate: f64,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
-    /// Expected steps of the builder, or zero.
+    /// Expected number of steps; zero if unknown.
     pub(crate) expected_steps: usize,
     /// Number of steps for which the ground is prepared; zero if no end is known.
-    pub(crate) prepared: usize,
+    pub(crate) prepared_steps: usize,
 }
 
 short_debug! {
     Simulation;
     self;
     dofs: self.scene.model.dofs,
-    elements: self.scene.count(),
+    elements: self.scene.element_count(),
     time_step: self.scene.time_step,
     step: self.state.step,
     time: self.state.time,
@@ -81,27 +83,27 @@ impl Simulation {
             state.energy_balance = energies.energy_balance;
         }
         state.advance(scene, forcing, increment);
-        increment.spread.copy_from_slice(&increment.traction);
-        let free = increment.spread.iter_mut().zip(&forcing.free_traction);
-        free.for_each(|(traction, free)| *traction -= free);
-        scene.base.elements().spread_inside(&mut increment.spread);
-        ground.commit(&increment.spread);
+        increment.spread_traction.copy_from_slice(&increment.traction);
+        let pairs = increment.spread_traction.iter_mut().zip(&forcing.free_traction);
+        pairs.for_each(|(traction, free_traction)| *traction -= free_traction);
+        scene.base.elements().spread_inside(&mut increment.spread_traction);
+        ground.commit(&increment.spread_traction);
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&increment.force_displacement);
         }
         Ok(&self.state)
     }
 
-    /// Computes free field, convolution history and the increment; commits nothing.
+    /// Computes free field, convolution history and increment, without committing them.
     fn solve(&mut self, time: f64) -> std::result::Result<(), StepError> {
         let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
         let structure = structure.as_ref();
-        forcing.observe(scene, state, structure, ground.as_mut(), motion.as_ref(), time)?;
+        forcing.update(scene, state, structure, ground.as_mut(), motion.as_ref(), time)?;
         solver.solve(StepData { scene, structure, state, forcing }, increment)?;
-        Ok(increment.ask_laws(scene, state)?)
+        Ok(increment.evaluate_laws(scene, state)?)
     }
 
-    /// The state at the end of the last accepted step (at first: the static state).
+    /// The state at the end of the last accepted step; before the first step, the static state.
     pub fn state(&self) -> &State {
         &self.state
     }
@@ -118,8 +120,7 @@ impl Simulation {
 
     /// The structure in its present state, with internal variables.
     ///
-    /// It is [`Any`](std::any::Any). Downcast it to the type you passed to the builder (to `Box<…>` if you passed
-    /// a box).
+    /// It is [`Any`](std::any::Any). Downcast it to the type that the builder received (to `Box<…>` for a box).
     ///
     /// ```
     /// use std::any::Any;
@@ -144,15 +145,14 @@ impl Simulation {
         self.structure.as_ref()
     }
 
-    /// The structure after a run, as [`Simulation::structure`], by value.
+    /// Returns the structure by value and drops the simulation.
     pub fn into_structure(self) -> Box<dyn Structure> {
         self.structure
     }
 
     /// The ground in its present state.
     ///
-    /// It is [`Any`](std::any::Any). Downcast it to the type you passed to the builder (to `Box<…>` if you passed
-    /// a box).
+    /// The ground is [`Any`](std::any::Any). Downcast it to the type that the builder received (to `Box<…>` for a box).
     ///
     /// ```
     /// use std::any::Any;
@@ -180,8 +180,8 @@ impl Simulation {
     ///
     /// Loads are numbered from 0, in the order of the builder.
     ///
-    /// `value` is the whole force, including the static one; it replaces the load's function of time. `None`
-    /// restores that function. A controller computes the force from the last state and sets it before each step:
+    /// `value` is the whole force, including the static force. It replaces the load's function of time; `None` restores
+    /// that function. A controller computes the force from the last state and sets it before each step:
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -191,7 +191,7 @@ impl Simulation {
     /// use basemat::structure::{ShearBuilding, Storey};
     /// use basemat::{Result, Simulation};
     ///
-    /// // A roof that moves at 1 m/s relative to the base is held back by 800 kN/m.
+    /// // At a velocity of 1 m/s of the roof relative to the base the controller applies 800 kN/m against it.
     /// let largest_drift = |gain: f64| -> Result<f64> {
     ///     let building =
     ///         ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 20.0e6); 4])?;
@@ -239,8 +239,8 @@ impl Simulation {
 
     /// Static displacement of the degrees of freedom, m and rad.
     ///
-    /// Under weight and loads at t = 0. Its rigid settlement has no meaning on a half-plane, which has no datum in
-    /// two dimensions.
+    /// Weight and loads at t = 0 cause it. On a half-plane its rigid settlement has no meaning, since the half-plane has
+    /// no datum in two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
         &self.scene.static_state.displacement
     }
@@ -248,24 +248,23 @@ impl Simulation {
     /// Number of steps for `duration` (s), rounded up; zero for a negative duration or NaN.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn steps_for(&self, duration: f64) -> usize {
-        // Rounding must not add a step to a duration of a whole number of steps.
-        (duration / self.scene.time_step * (1.0 - 1e-12)).ceil() as usize
+        (duration / self.scene.time_step * (1.0 - STEP_COUNT_TOLERANCE)).ceil() as usize
     }
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
     /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see [`Observed`].
-    /// It may pass the state to [`TimeSeries`](crate::results::TimeSeries), and to a [`Run`] that spans several
-    /// calls or outlives a failure ([`Simulation::begin_run`]).
+    /// It may pass the state to a [`TimeSeries`](crate::results::TimeSeries), and to a [`Run`] that spans several calls
+    /// or is needed after a failed step ([`Simulation::begin_run`]).
     ///
     /// The run ends after the step in which a base exceeds the
     /// [`rotation_limit`](crate::coupled::SimulationBuilder::rotation_limit), with [`Warning::Overturned`]; a
     /// further call continues from there. Missing convolution weights are computed before the first step, without
-    /// an observer: [`Simulation::prepare`] computes them before, with one.
+    /// an observer. [`Simulation::prepare`] computes them with an observer.
     ///
-    /// The division of steps into runs changes no bit, up to 2²⁰ steps or the
+    /// The division of steps into runs does not change the results, to the last bit, up to 2²⁰ steps or the
     /// [expected](crate::coupled::SimulationBuilder::expected_steps) number. Use [`usize::MAX`] steps for a run that
-    /// only `observe` ends: nothing is then prepared.
+    /// only `observe` ends. Nothing is then prepared.
     ///
     /// # Errors
     /// [`Error::Memory`] before the first step, for more steps than fit into the memory of the ground's history;
@@ -279,10 +278,10 @@ impl Simulation {
         self.prepare(steps, &mut unobserved)?;
         let mut run = self.begin_run();
         for _ in 0..steps {
-            let stood = self.state.tilt() <= self.rotation_limit;
+            let was_within_limit = self.state.tilt() <= self.rotation_limit;
             self.step()?;
             run.record(&self.state);
-            run.is_overturned = stood && self.state.tilt() > self.rotation_limit;
+            run.is_overturned = was_within_limit && self.state.tilt() > self.rotation_limit;
             if observe(&self.state).flow()? == ControlFlow::Break(()) || run.is_overturned {
                 return Ok(self.end_run(run));
             }
@@ -293,8 +292,8 @@ impl Simulation {
 
     /// Starts an empty run at the present state, for a loop of your own.
     ///
-    /// Call [`Run::record`] after every step and [`Simulation::end_run`] at the end to get the result of
-    /// [`Simulation::run`]. As an observer the run may span several calls of `run`.
+    /// Call [`Run::record`] after every step and [`Simulation::end_run`] at the end for the result of
+    /// [`Simulation::run`]. An observer may record a run over several calls of [`Simulation::run`].
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -324,9 +323,9 @@ impl Simulation {
         Run::start(&self.state, &self.scene.serviceability, resolution)
     }
 
-    /// Closes a run of this simulation: adds its warnings and wall time.
+    /// Completes a run of this simulation with its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        // A fixed base may be in tension.
+        // On a fixed base, tension is allowed.
         let is_fixed = is_fixed_base(self.ground.as_ref());
         run.finish(
             self.ground.as_ref(),
@@ -334,7 +333,7 @@ impl Simulation {
             |element| is_fixed || self.scene.law(element).modes().contains(&Mode::Open),
             &self.warnings,
             &self.pressures_above,
-            self.drag,
+            self.translation_damping_rate,
             self.rotation_limit,
         );
         run
@@ -369,8 +368,8 @@ impl Simulation {
 ///     if state.uplifted_fraction > 0.2 { Break(()) } else { Continue(()) }
 /// })?;
 /// assert!(run.steps < 500);
-/// let refused = simulation.run(500, |_| Err::<(), _>(Error::part("observer", "has seen enough")));
-/// assert!(refused.is_err());
+/// let result = simulation.run(500, |_| Err::<(), _>(Error::part("observer", "stops the run")));
+/// assert!(result.is_err());
 /// # Ok::<(), Error>(())
 /// ```
 pub trait Observed {

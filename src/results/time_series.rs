@@ -7,7 +7,7 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames, rese
 use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
-use crate::coupled::state::sequence::Sequence;
+use crate::coupled::state::sequence::StateSequence;
 use crate::coupled::{EnergyBalance, Probe, State};
 #[cfg(feature = "embedded")]
 use crate::coupled::{Face, FaceForces};
@@ -31,8 +31,11 @@ pub struct TimeSeries {
     pressure_depths: Vec<f64>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
-    #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
-    pub(super) sequence: Sequence,
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "end", serialize_with = "StateSequence::write_end")
+    )]
+    pub(super) sequence: StateSequence,
     steps: usize,
     dofs: usize,
     times: Vec<f64>,
@@ -81,7 +84,7 @@ validated! {
             && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
         crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
         crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
-        let sequence = Sequence::ended(end);
+        let sequence = StateSequence::ended(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
             scalars, foundations, probe_values, energy_balances, contact, motion,
@@ -114,7 +117,7 @@ impl Recorder {
             pressure_depths: state.context.pressure_depths.clone(),
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
-            sequence: Sequence::new(state),
+            sequence: StateSequence::new(state),
             steps: 0,
             dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
@@ -162,7 +165,7 @@ impl TimeSeries {
         }
         self.check_memory(1)?;
         self.reserve_steps(1)?;
-        self.sequence.takes(state);
+        self.sequence.accept(state);
         self.steps += 1;
         self.store(state);
         Ok(())

@@ -247,7 +247,7 @@ fn stiffness_within_a_structure_is_named() {
     let Error::IllConditioned { quantity, ratio, .. } = error else {
         panic!("{error}")
     };
-    assert_eq!(quantity, "largest over least stiffness within the structure");
+    assert_eq!(quantity, "largest over smallest stiffness within the structure");
     assert!(ratio > 1e12, "{ratio:e}");
 }
 

@@ -219,7 +219,7 @@ fn an_energy_balance_that_is_left_out_changes_nothing_else() {
     let reduced_run = reduced.run(200, |_| {}).unwrap();
     assert!(complete_run.energy_error < 1e-9);
     assert!(reduced_run.energy_error.is_nan() && reduced_run.energy_balance.soil.is_nan());
-    assert!(reduced_run.to_string().contains("energy balance left out"));
+    assert!(reduced_run.to_string().contains("energy balance omitted"));
     assert_eq!(reduced_run.warnings, complete_run.warnings);
     assert_eq!(complete.state().contact, reduced.state().contact);
     assert_eq!(complete.state().probes, reduced.state().probes);

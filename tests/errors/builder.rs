@@ -93,7 +93,7 @@ fn builders_refuse_parts_that_do_not_fit() {
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
     let error = build_error(
-        "reaches beyond the structure's base, -2 to 2 m",
+        "extends beyond the structure's base, -2 to 2 m",
         complete_scene().ground(wide),
     );
     assert!(matches!(error, Error::Part { .. }));

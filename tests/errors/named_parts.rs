@@ -167,7 +167,7 @@ fn a_ground_that_is_not_passive_is_named() {
     }
     for (diagonal, coupling) in [(-1e-8, 0.0), (1e-8, 1.01e-8), (0.0, 1e-8)] {
         let built = build_with_compliance(diagonal, coupling, 1.0);
-        let error = error_with("instantaneous operator of the ground", built);
+        let error = error_with("step compliance of the ground", built);
         assert!(matches!(error, Error::Indefinite { row: 0..=1, .. }), "{error:?}");
     }
 }

@@ -137,8 +137,8 @@ fn a_tolerance_beyond_the_vectors_is_refused_with_its_cause() {
     match build(model, Coordinates::Reduced { tolerance: 1e-6 }).map(|_| ()) {
         Err(Error::Accuracy { remedy, tolerance, .. }) => {
             assert!((tolerance / 1e-6 - 1.0).abs() < 1e-9);
-            assert!(remedy.contains("108 forces, and with more than 99"), "{remedy}");
-            assert!(remedy.contains("ask for 1e-4, leave out such probes"), "{remedy}");
+            assert!(remedy.contains("108 forces; with more than 99"), "{remedy}");
+            assert!(remedy.contains("use a tolerance of 1e-4, omit such probes"), "{remedy}");
         }
         other => panic!("{other:?}"),
     }

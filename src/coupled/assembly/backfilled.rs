@@ -1,6 +1,7 @@
 //! Static state of a structure in the ground: cast on the bottom of an open cut, then backfilled.
 //!
-//! The base alone carries the weight. The soil at rest presses on the walls, without shear, and the walls stay closed.
+//! The weight acts on the floor alone. The pressures of the soil at rest act on the walls, without shear, and the walls stay
+//! closed.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -9,84 +10,99 @@
 
 use std::cell::RefCell;
 
-use super::static_stages::{GRAVITY_STAGE_TIME_STEP, loaded, placed};
+use super::static_stages::{GRAVITY_STAGE_TIME_STEP, state_under_load, state_under_weight};
 use crate::bem::GroundDescription;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
-use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, not_negative, same_length};
 use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContact, PreviousContacts, law_of};
 use crate::linalg::{CompressedMatrix, dense_multiply_add};
 
-/// The state under weight and backfill, and then under the loads at t = 0.
+/// Static state under weight, backfill and the loads at t = 0.
 pub(super) fn state(
     parts: &Parts,
-    stage: &Standing<'_>,
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let base = &stage.assembled.base;
+    let base = &problem.assembled.base;
     let elements = base.elements();
     let layout = elements.layout();
     let floor = elements.floor();
-    let below = Patch::new(elements[floor.clone()].to_vec())?;
-    let assembled = Assembled::new(stage.structure, &below)?.0;
-    let places: Vec<usize> = places(layout, floor.clone()).collect();
-    let mut soil = Vec::with_capacity(places.len() * places.len());
-    for row in &places {
-        soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
+    let floor_patch = Patch::new(elements[floor.clone()].to_vec())?;
+    let assembled = Assembled::new(problem.structure, &floor_patch)?.0;
+    let floor_indices: Vec<usize> = contact_indices(layout, floor.clone()).collect();
+    let mut floor_compliance = Vec::with_capacity(floor_indices.len() * floor_indices.len());
+    for row in &floor_indices {
+        let row = &problem.ground_compliance[row * layout.len()..][..layout.len()];
+        floor_compliance.extend(floor_indices.iter().map(|column| row[*column]));
     }
-    let soil = CompressedMatrix::dense(soil);
-    let shared = RefCell::default();
-    let on_floor = Standing { assembled: &assembled, soil: &soil, shared: &shared, ..*stage };
+    let floor_compliance = CompressedMatrix::dense(floor_compliance);
+    let shared_compliance = RefCell::default();
+    let floor_problem = StaticProblem {
+        assembled: &assembled,
+        ground_compliance: &floor_compliance,
+        shared_compliance: &shared_compliance,
+        ..*problem
+    };
 
-    let mut traction = at_rest(parts, elements, false)?;
-    let mut total = weight.to_vec();
-    base.add_forces(-1.0, &traction, &mut total);
+    let mut traction = traction_at_rest(parts, elements, false)?;
+    let mut weight_and_backfill = weight.to_vec();
+    base.add_forces(-1.0, &traction, &mut weight_and_backfill);
     let floor_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
-    let (found, contact) = placed(&on_floor, floor_laws, parts.builder.gravity_stage, &total)?;
+    let gravity_stage = parts.builder.gravity_stage;
+    let (floor_state, floor_contact) =
+        state_under_weight(&floor_problem, floor_laws, gravity_stage, &weight_and_backfill)?;
 
-    places
-        .iter()
-        .zip(&found.traction)
-        .for_each(|(place, value)| traction[*place] = *value);
+    for (index, value) in floor_indices.iter().zip(&floor_state.traction) {
+        traction[*index] = *value;
+    }
     let mut state = StaticState::weightless(layout, weight.len());
     state.traction = traction;
-    let mut states: Vec<ContactState> = (0..layout.elements())
+    let mut contact: Vec<ContactState> = (0..layout.elements())
         .map(|e| ContactState { pressure: state.traction[e], ..ContactState::default() })
         .collect();
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(laws, e).modes()[0];
     }
-    let mut start = Vec::with_capacity(states.len());
-    for (contact, mode) in states.iter().zip(&state.modes) {
-        start.push(PreviousContact::new(*contact, *mode, GRAVITY_STAGE_TIME_STEP));
+    let mut previous_contacts = Vec::with_capacity(contact.len());
+    for (element_contact, mode) in contact.iter().zip(&state.modes) {
+        let previous = PreviousContact::new(*element_contact, *mode, GRAVITY_STAGE_TIME_STEP);
+        previous_contacts.push(previous);
     }
-    state.close_gaps(laws, &PreviousContacts::new(laws, &start)?, &states)?;
-    state.gap[floor.clone()].copy_from_slice(&found.gap);
-    state.modes[floor.clone()].copy_from_slice(&found.modes);
+    state.set_gaps(laws, &PreviousContacts::new(laws, &previous_contacts)?, &contact)?;
+    state.gap[floor.clone()].copy_from_slice(&floor_state.gap);
+    state.modes[floor.clone()].copy_from_slice(&floor_state.modes);
     state.state_variables = vec![Vec::new(); layout.elements()];
-    state.state_variables[floor.clone()].clone_from_slice(&found.state_variables);
-    state.displacement = found.displacement;
-    state.substituted_friction = found.substituted_friction;
-    states[floor].copy_from_slice(&contact);
+    state.state_variables[floor.clone()].clone_from_slice(&floor_state.state_variables);
+    state.displacement = floor_state.displacement;
+    state.substituted_friction = floor_state.substituted_friction;
+    contact[floor].copy_from_slice(&floor_contact);
 
-    // Jumps count from the placed state.
-    for element in &mut states {
-        element.slip = 0.0;
-        element.slip_across = 0.0;
+    // Slip counts from the backfilled state, whose jumps define the offset.
+    for element_contact in &mut contact {
+        element_contact.slip = 0.0;
+        element_contact.slip_across = 0.0;
     }
-    let mut offset = vec![0.0; layout.len()];
-    base.means(&state.displacement, &mut offset);
-    dense_multiply_add(stage.soil, -1.0, &state.traction, &mut offset);
-    offset.iter_mut().zip(&state.gap).for_each(|(offset, gap)| *offset += gap);
-    loaded(&Standing { offset: &offset, ..*stage }, laws, (state, states), [weight, load])
+    let mut jump_offset = vec![0.0; layout.len()];
+    base.means(&state.displacement, &mut jump_offset);
+    dense_multiply_add(problem.ground_compliance, -1.0, &state.traction, &mut jump_offset);
+    jump_offset.iter_mut().zip(&state.gap).for_each(|(offset, gap)| *offset += gap);
+    let problem = StaticProblem { jump_offset: &jump_offset, ..*problem };
+    state_under_load(&problem, laws, (state, contact), [weight, load])
 }
 
-/// Tractions of the soil at rest on the ground's elements or on parts of them: on the walls, and on the `base`.
-pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec<f64>> {
+/// Tractions of the soil at rest on the walls, and on the floor if `includes_floor`, Pa.
+///
+/// `elements` are the ground's elements, or equal divisions of them.
+pub(super) fn traction_at_rest(
+    parts: &Parts,
+    elements: &Patch,
+    includes_floor: bool,
+) -> Result<Vec<f64>> {
     let layout = elements.layout();
     let mut traction = vec![0.0; layout.len()];
     let GroundDescription {
@@ -104,15 +120,19 @@ pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec
         all_finite(quantity, depths)?;
     }
     let floor = elements.floor();
-    let parts_of_element = elements.len() / parts.elements.len();
-    for e in (0..pressures.len() * parts_of_element).filter(|e| base || !floor.contains(e)) {
-        traction[layout.place(0, e)] = parts.builder.gravity * pressures[e / parts_of_element];
+    let division_count = elements.len() / parts.elements.len();
+    for e in (0..pressures.len() * division_count).filter(|e| includes_floor || !floor.contains(e))
+    {
+        traction[layout.place(0, e)] = parts.builder.gravity * pressures[e / division_count];
     }
     Ok(traction)
 }
 
-/// Places of the numbers of some elements in a contact vector.
-fn places(layout: ContactLayout, elements: std::ops::Range<usize>) -> impl Iterator<Item = usize> {
+/// Indices of all components of some elements in a contact vector.
+fn contact_indices(
+    layout: ContactLayout,
+    elements: std::ops::Range<usize>,
+) -> impl Iterator<Item = usize> {
     (0..layout.components())
         .flat_map(move |component| elements.clone().map(move |e| layout.place(component, e)))
 }

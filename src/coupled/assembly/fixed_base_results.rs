@@ -1,4 +1,4 @@
-//! Results of a structure with its base held.
+//! Results of a structure with a fixed base, which several stages of the build need.
 
 use std::rc::Rc;
 
@@ -8,35 +8,36 @@ use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
-use crate::coupled::statics::compliance::Floating;
+use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{HeldBase, stiffest};
 
-/// Results of a structure with its base held.
+/// Results of a structure with a fixed base.
 pub(super) struct FixedBaseResults {
     /// Period on a fixed base, s.
     pub(super) period: f64,
-    /// Whether there is no mechanism.
-    pub(super) is_firm: Result<()>,
-    /// For reduced coordinates.
+    /// Error for a mechanism.
+    pub(super) mechanism_check: Result<()>,
+    /// Input of reduced coordinates; `None` for other coordinates.
     pub(super) responses: Option<FixedBaseResponses>,
-    /// The structure condensed on its base, with the factor; `None` unless the factor eliminates a flexible base last.
+    /// The structure condensed on its base; `None` unless the base is flexible and its factor eliminates it last.
     pub(super) condensed: Option<Condensed>,
 }
 
 impl FixedBaseResults {
-    /// Results of the factored stiffness with the base held.
+    /// Computes the results from the factored stiffness with a fixed base.
     ///
-    /// The factor is released if the structure is not condensed: factors of large structures take most of the memory.
+    /// The factor is dropped if the structure is not condensed, since factors of large structures need most of the memory.
     pub(super) fn new(
         parts: &Parts,
         assembled: &Assembled,
         mut fixed_factor: SparseFactor,
     ) -> Result<Self> {
         let period = assembled.period_on_fixed_base(&mut fixed_factor);
-        let at_rest = assembled.at_rest(parts.structure.as_ref());
-        let is_firm = if assembled.linear { at_rest.check(&mut fixed_factor) } else { Ok(()) };
+        let at_rest = assembled.structure_at_rest(parts.structure.as_ref());
+        let mechanism_check =
+            if assembled.is_linear { at_rest.check(&mut fixed_factor) } else { Ok(()) };
         let is_reduced = matches!(parts.builder.coordinates, Coordinates::Reduced { .. });
         let responses = is_reduced.then(|| FixedBaseResponses::new(assembled, &fixed_factor));
         let is_condensed = assembled.base.is_flexible() && !is_fixed_base(parts.ground.as_ref());
@@ -45,57 +46,59 @@ impl FixedBaseResults {
         } else {
             None
         };
-        Ok(Self { period, is_firm, responses, condensed })
+        Ok(Self { period, mechanism_check, responses, condensed })
     }
 
-    /// The stiffness, if it is positive definite on the springs of the static state's factor.
+    /// The stiffness, with or without a shift, if the static state's factor is positive definite.
     pub(super) fn positive_definite<'a>(
         &self,
         assembled: &'a Assembled,
-        floating: Option<&'a Floating>,
+        shifted_stiffness: Option<&'a ShiftedStiffnessFactor>,
     ) -> Option<&'a SparseMatrix> {
-        let stiffness = floating?.positive_definite()?;
-        // The inner part of K, factored with the base held, is positive definite too.
+        let stiffness = shifted_stiffness?.positive_definite()?;
+        // The part of K outside the base, which is factored with a fixed base, is positive definite too.
         Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 
-    /// Hands on the input of reduced coordinates, with the static state's factor; nothing for other coordinates.
-    pub(super) fn take_for_reduction(
+    /// Takes the input of reduced coordinates, with the static state's factor; `None` for other coordinates.
+    pub(super) fn take_reduction_input(
         &mut self,
         assembled: &Assembled,
-        floating: Option<Rc<Floating>>,
-    ) -> Option<(FixedBaseResponses, Option<Rc<Floating>>)> {
+        shifted_stiffness: Option<Rc<ShiftedStiffnessFactor>>,
+    ) -> Option<(FixedBaseResponses, Option<Rc<ShiftedStiffnessFactor>>)> {
         let condensed = self.condensed.take();
         let responses = self.responses.take()?;
-        let Some(condensed) = condensed else { return Some((responses, floating)) };
-        let whole = floating.and_then(|floating| floating.of_whole(assembled, condensed));
-        Some((responses, whole.map(Rc::new)))
+        let Some(condensed) = condensed else {
+            return Some((responses, shifted_stiffness));
+        };
+        let expanded = shifted_stiffness.and_then(|factor| factor.expanded(assembled, condensed));
+        Some((responses, expanded.map(Rc::new)))
     }
 }
 
-/// Responses of a structure with its base held.
+/// Responses of a structure with a fixed base, as input of reduced coordinates.
 #[derive(Default)]
 pub(crate) struct FixedBaseResponses {
-    /// Responses to a rotation of each part's base: rigid rotations of parts that stand on one level.
+    /// Responses to a rotation of each part's base, which are rigid rotations if the base has one level.
     pub(super) rotations: Vec<f64>,
-    /// Estimate of the lowest frequency, by Rayleigh's quotient.
-    pub(super) lowest: f64,
+    /// Lowest circular frequency, estimated by Rayleigh's quotient, 1/s.
+    pub(super) lowest_frequency: f64,
 }
 
 impl FixedBaseResponses {
-    /// Responses by the factored stiffness with the base held.
+    /// Computes the responses with the factored stiffness on a fixed base.
     pub(crate) fn new(assembled: &Assembled, factor: &SparseFactor) -> Self {
         let mass: &SparseMatrix = &assembled.mass;
         let stiffness: &SparseMatrix = &assembled.stiffness;
-        let n = assembled.dofs();
-        let translations = assembled.influence.translations(n);
+        let dofs = assembled.dofs();
+        let translations = assembled.influence.part_vectors(dofs);
         let springs = HeldBase::new(assembled.base.nodes(), stiffness, stiffest(stiffness));
         let mut rotations = Vec::new();
         for part in assembled.influence.parts() {
             let nodes = part.nodes(&assembled.base);
-            let count = nodes.len().max(1) as f64;
-            let middle_x = nodes.iter().map(|node| node.x).sum::<f64>() / count;
-            let middle_y = nodes.iter().map(|node| node.y).sum::<f64>() / count;
+            let node_count = nodes.len().max(1) as f64;
+            let middle_x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
+            let middle_y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
             let middle = [middle_x, middle_y];
             rotations.extend(springs.turns(nodes.iter().copied(), middle).concat());
         }
@@ -103,8 +106,10 @@ impl FixedBaseResponses {
         let inertia = mass.times(&translations);
         let mut deflections = inertia.clone();
         factor.solve_many(&mut deflections);
-        let pairs = inertia.chunks_exact(n).zip(deflections.chunks_exact(n));
-        let squares = pairs.map(|(force, shape)| dot(force, shape) / mass.form(shape, shape));
-        Self { rotations, lowest: squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt() }
+        let pairs = inertia.chunks_exact(dofs).zip(deflections.chunks_exact(dofs));
+        let squared_frequencies =
+            pairs.map(|(force, shape)| dot(force, shape) / mass.form(shape, shape));
+        let lowest_square = squared_frequencies.fold(f64::INFINITY, f64::min).max(0.0);
+        Self { rotations, lowest_frequency: lowest_square.sqrt() }
     }
 }

@@ -1,137 +1,151 @@
 //! Check of flexible bases: whether contact elements are short enough for the base's static shape.
 //!
-//! The ground receives the mean base displacement of each element. Only the structure resists a shape with zero
-//! means; in reality the soil resists it too.
+//! The ground receives only the mean displacement of the base over each element. In the model the structure alone resists a
+//! shape with zero means. In reality the soil resists such a shape too.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | S | stiffness of the soil for displacements against the means of the elements |
-//! | ρ | smallest φᵀKφ / φᵀSφ of all shapes φ with zero means |
+//! | S | stiffness of the soil for deviations from the means of the elements |
+//! | ρ | smallest φᵀKφ / φᵀSφ over all shapes φ with zero means |
 //!
-//! Measured error of the settlement of columns relative to the middle of the base. Mat 20 m wide with two columns
-//! on the half-plane: a factor of 12 to 21, 136 to 500 %, 2 to 51 % and 0.3 to 0.5 % at ρ = 0.06, 0.5, 3 and 29,
-//! depending on the columns' places. Slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2,
-//! 0.9, 2.4 and 11. Walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times the
-//! elements, by which ρ grows with their cube.
+//! Measured errors of the settlement of columns relative to the middle of the base:
+//!
+//! * mat 20 m wide with two columns on the half-plane: a factor of 12 to 21 at ρ = 0.06, 136 to 500 % at 0.5, 2 to 51 % at
+//!   3, and 0.3 to 0.5 % at 29, depending on the positions of the columns;
+//! * slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2, 0.9, 2.4 and 11;
+//! * walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times as many elements.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::at_rest;
-use super::unseen_shape::{OnSoil, UnseenShape, faces};
+use super::at_rest::StaticGround;
+use super::zero_mean_shape::{RefinedBase, ZeroMeanShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::fixed_base::is_fixed_base;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
-use crate::coupled::statics::compliance::{Compliance, Floating, springs};
+use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, initial_shift};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{ContactElement, axis_name, far_ends, min_interval_count};
-use crate::linalg::{CompressedMatrix, dot, magnitude};
+use crate::linalg::{dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
 const MIN_SHAPE_STIFFNESS_RATIO: f64 = 6.0;
-/// ρ at which the number named for a wall aims.
+/// ρ of the recommended number of elements of a wall.
 const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
-/// Relative difference of static shapes with as many and with twice as many elements: limits of a warning for
-/// solids, and of an error.
+/// Relative difference of static shapes on n and on 2n elements above which a solid has a warning.
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
+/// Relative difference of static shapes on n and on 2n elements above which the base is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
-const REFINEMENT_POWER_RANGE: [f64; 2] = [1.0, 3.0];
+/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have 0.
+const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
+/// Largest exponent p in ρ ~ nᵖ, for beams and plates.
+const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
+/// Smallest recommended increase of the number of elements.
+const MIN_REFINEMENT_FACTOR: f64 = 1.25;
+/// Norm of a remainder that counts as rounding, relative to the norm before the projection.
+const PROJECTION_ROUNDING_TOLERANCE: f64 = 1e-12;
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
 const ON_FACE_TOLERANCE: f64 = 1e-9;
-/// Largest order of a matrix with twice the elements.
-const MAX_REFINED_ORDER: usize = 3600;
 /// Asymmetry of K that counts as rounding.
 const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
-/// `condensed`: the structure condensed on its base, if it was. `at_rest`: the static state. `shared`: the compliance of
-/// the condensed structure, or else of the whole one, in it, if it is known. A rigid base costs nothing.
+/// `condensed` is the structure condensed on its base, if it exists. `shared_compliance` has the compliance of the condensed
+/// structure, or otherwise of the whole structure, if it has been computed. A rigid base needs no computation.
 pub(super) fn check(
     parts: &Parts,
     (assembled, condensed): (&Assembled, Option<&Condensed>),
-    at_rest: &StaticState,
-    shared: &RefCell<Option<Compliance>>,
+    static_state: &StaticState,
+    shared_compliance: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
     if !assembled.base.is_flexible() || is_fixed_base(parts.ground.as_ref()) {
         return Ok(None);
     }
     let Some(condensed) = condensed else {
-        let finer = |base: &_| finer(parts, base);
-        let loads = at_rest::weight_and_load(parts, assembled)?;
-        return check_on(parts, (assembled, &loads), at_rest, shared, finer);
+        let refine = |base: &_| RefinedBase::new(parts, base);
+        let [weight, load] = at_rest::weight_and_load(parts, assembled)?;
+        let loaded = LoadedStructure { assembled, weight: &weight, load: &load };
+        return check_structure(parts, loaded, static_state, shared_compliance, refine);
     };
-    let mut on_base = at_rest.clone();
-    on_base.displacement = condensed.on_base(&at_rest.displacement);
-    let finer = |base: &_| finer(parts, base).map(|(base, soil)| (condensed.base(&base), soil));
-    check_on(parts, (&condensed.assembled, &condensed.loads), &on_base, shared, finer)
+    let mut condensed_state = static_state.clone();
+    condensed_state.displacement = condensed.base_displacement(&static_state.displacement);
+    let refine = |base: &_| {
+        RefinedBase::new(parts, base)
+            .map(|refined| RefinedBase { base: condensed.condensed_base(&refined.base), ..refined })
+    };
+    let Condensed { assembled, weight, load, .. } = condensed;
+    let loaded = LoadedStructure { assembled, weight, load };
+    check_structure(parts, loaded, &condensed_state, shared_compliance, refine)
 }
 
-/// The check of a structure or a condensed one under its weight and loads at t = 0.
-///
-/// `finer`: the base on twice the elements, four times in plan, and their static compliance.
-fn check_on(
+/// A structure with its weight and its other loads at t = 0, N.
+#[derive(Clone, Copy)]
+struct LoadedStructure<'a> {
+    assembled: &'a Assembled,
+    weight: &'a [f64],
+    load: &'a [f64],
+}
+
+/// Checks a structure, whole or condensed on its base, under its weight and loads at t = 0.
+fn check_structure(
     parts: &Parts,
-    (assembled, [weight, load]): (&Assembled, &[Vec<f64>; 2]),
-    at_rest: &StaticState,
-    shared: &RefCell<Option<Compliance>>,
-    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, CompressedMatrix)>,
+    loaded: LoadedStructure<'_>,
+    static_state: &StaticState,
+    shared_compliance: &RefCell<Option<Compliance>>,
+    refine: impl Fn(&PlacedBase) -> Option<RefinedBase>,
 ) -> Result<Option<Warning>> {
+    let assembled = loaded.assembled;
     let base = &assembled.base;
-    let soil = at_rest::compliance(parts)?;
-    let on_soil = (&soil, shared);
-    let Some(floating) = floating(parts, assembled, on_soil)? else {
+    let ground_compliance = at_rest::static_compliance(parts)?;
+    let ground = StaticGround { compliance: &ground_compliance, shared_compliance };
+    let Some(factor) = shared_factor(parts, assembled, ground)? else {
         return Ok(None);
     };
     // The stiffness of the soil follows from neighbouring elements, or from the halves of the only element of a face.
     let has_single_element = faces(base).any(|(.., elements)| elements.len() == 1);
-    let halves = if has_single_element { finer(base) } else { None };
-    let shape = UnseenShape::softest(assembled, base, on_soil, halves.as_ref())
-        .filter(|shape| shape.ratio < MIN_SHAPE_STIFFNESS_RATIO);
-    let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
-    let mut power = REFINEMENT_POWER_RANGE[1];
+    let halves = if has_single_element { refine(base) } else { None };
+    let shape = ZeroMeanShape::softest(assembled, base, ground, halves.as_ref())
+        .filter(|shape| shape.stiffness_ratio < MIN_SHAPE_STIFFNESS_RATIO);
+    let Some(shape) = shape else { return Ok(None) };
+    let mut face = shape.face;
+    let mut exponent = MAX_REFINEMENT_EXPONENT;
     let mut difference = None;
-    if let Some((finer, soil)) = if has_single_element { halves } else { finer(base) } {
+    if let Some(refined) = if has_single_element { halves } else { refine(base) } {
+        let RefinedBase { base: refined_base, ground_compliance } = refined;
+        let compliance = Compliance::new(factor, &refined_base, &ground_compliance)?;
+        let shared_compliance = RefCell::new(Some(compliance));
+        let refined_ground =
+            StaticGround { compliance: &ground_compliance, shared_compliance: &shared_compliance };
         // If no soft shape remains after halving the elements, the refined base is sufficient.
-        let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)?));
-        let halved = (&soil, &compliance);
-        let refined = UnseenShape::softest(assembled, &finer, halved, None);
-        power = refined.map_or(REFINEMENT_POWER_RANGE[1], |next| (next.ratio / ratio).log2());
+        let refined_shape = ZeroMeanShape::softest(assembled, &refined_base, refined_ground, None);
+        exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined| {
+            (refined.stiffness_ratio / shape.stiffness_ratio).log2()
+        });
         if parts.builder.is_static() {
-            // With a law for each element, the first law is used in both states.
-            let law = &parts.builder.laws[..1];
-            let under = |assembled: &Assembled, soil| {
-                at_rest::under_loads(parts, assembled, soil, law, [weight, load]).ok()
-            };
-            let with_first = (parts.builder.laws.len() > 1).then(|| under(assembled, on_soil));
-            let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
-            let fine = under(&assembled.on(finer), halved);
-            let both = coarse.zip(fine.as_ref());
-            difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
+            let refined_assembled = assembled.with_base(refined_base);
+            let refined = LoadedStructure { assembled: &refined_assembled, ..loaded };
+            difference =
+                shape_difference(parts, [loaded, refined], [ground, refined_ground], static_state);
         }
     }
     let is_inaccurate = difference.is_some_and(|(_, value)| value > WARNING_SHAPE_DIFFERENCE);
-    if let (true, Some((worst, _))) = (is_inaccurate, difference) {
-        face = worst;
+    if let (true, Some((worst_face, _))) = (is_inaccurate, difference) {
+        face = worst_face;
     }
     // More elements hardly change ρ of a solid, which is stiff enough between elements.
-    if power <= REFINEMENT_POWER_RANGE[0] && !is_inaccurate {
+    if exponent <= MIN_REFINEMENT_EXPONENT && !is_inaccurate {
         return Ok(None);
     }
     let difference = difference.map(|(_, value)| value);
-    let (foundation, axis, elements) = count(base, face);
-    let goal =
-        if axis == Some('z') { WALL_STIFFNESS_RATIO_GOAL } else { MIN_SHAPE_STIFFNESS_RATIO };
-    let power = power.clamp(REFINEMENT_POWER_RANGE[0], REFINEMENT_POWER_RANGE[1]);
-    let factor = (goal / ratio).powf(1.0 / power).max(1.25);
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-    let needed = (elements as f64 * factor).ceil() as usize;
+    let FaceElements { foundation, axis, count: elements } = FaceElements::new(base, face);
+    let needed = needed_elements(elements, axis, shape.stiffness_ratio, exponent);
     // A soft base with an even pressure has the right shape on few elements. An error therefore needs a comparison with
     // the shape on twice the elements.
     if difference.is_some_and(|value| value > ERROR_SHAPE_DIFFERENCE) {
@@ -140,81 +154,111 @@ fn check_on(
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
-/// The factored structure of the compliance on the base's elements; `shared` receives the compliance.
+/// Face with the largest difference of its static shape between a base and the refined base, and the difference.
 ///
-/// `None` if its stiffness is not symmetric or cannot be factored.
-fn floating(
+/// With a law for each element, both states have the first law. `None` if one of them has no equilibrium.
+fn shape_difference(
+    parts: &Parts,
+    [loaded, refined]: [LoadedStructure<'_>; 2],
+    [ground, refined_ground]: [StaticGround<'_>; 2],
+    static_state: &StaticState,
+) -> Option<(usize, f64)> {
+    let first_law = &parts.builder.laws[..1];
+    let state_on = |structure: LoadedStructure<'_>, ground| {
+        let forces = [structure.weight, structure.load];
+        at_rest::state_under_loads(parts, structure.assembled, ground, first_law, forces).ok()
+    };
+    let has_many_laws = parts.builder.laws.len() > 1;
+    let first_law_state = if has_many_laws { Some(state_on(loaded, ground)) } else { None };
+    let coarse_state = first_law_state.as_ref().map_or(Some(static_state), Option::as_ref);
+    let refined_state = state_on(refined, refined_ground);
+    let states = coarse_state.zip(refined_state.as_ref());
+    states.map(|(coarse, fine)| largest_difference(&loaded.assembled.base, coarse, fine))
+}
+
+/// Recommended number of elements for a face with this number and this ρ.
+fn needed_elements(
+    elements: usize,
+    axis: Option<char>,
+    stiffness_ratio: f64,
+    exponent: f64,
+) -> usize {
+    let goal =
+        if axis == Some('z') { WALL_STIFFNESS_RATIO_GOAL } else { MIN_SHAPE_STIFFNESS_RATIO };
+    let exponent = exponent.clamp(MIN_REFINEMENT_EXPONENT, MAX_REFINEMENT_EXPONENT);
+    let factor = (goal / stiffness_ratio).powf(1.0 / exponent).max(MIN_REFINEMENT_FACTOR);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let needed = (elements as f64 * factor).ceil() as usize;
+    needed
+}
+
+/// Factored stiffness of the compliance on the base's elements; computes the shared compliance if it is missing.
+///
+/// `None` if the stiffness is not symmetric or cannot be factored.
+fn shared_factor(
     parts: &Parts,
     assembled: &Assembled,
-    (soil, shared): OnSoil<'_>,
-) -> Result<Option<Rc<Floating>>> {
+    ground: StaticGround<'_>,
+) -> Result<Option<Rc<ShiftedStiffnessFactor>>> {
     if assembled.stiffness_at_rest().asymmetry() > STIFFNESS_ASYMMETRY_TOLERANCE {
         return Ok(None);
     }
-    if let Some(compliance) = &*shared.borrow() {
-        return Ok(Some(Rc::clone(&compliance.floating)));
+    if let Some(compliance) = &*ground.shared_compliance.borrow() {
+        return Ok(Some(Rc::clone(&compliance.factor)));
     }
     let tangent = Tangent::at(parts.structure.as_ref(), &vec![0.0; assembled.dofs()])?.matrix;
-    let springs = springs(assembled, soil)?;
-    let Ok(floating) = Floating::new(assembled, &tangent, springs) else {
+    let shift = initial_shift(assembled, ground.compliance)?;
+    let Ok(factor) = ShiftedStiffnessFactor::new(assembled, &tangent, shift) else {
         return Ok(None);
     };
-    let floating = Rc::new(floating);
-    shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)?));
-    Ok(Some(floating))
+    let factor = Rc::new(factor);
+    let compliance = Compliance::new(Rc::clone(&factor), &assembled.base, ground.compliance)?;
+    ground.shared_compliance.replace(Some(compliance));
+    Ok(Some(factor))
 }
 
-/// Base on twice the elements, four times in plan, and their static compliance.
+/// Face with the largest difference of its shape between two static states, and the difference.
 ///
-/// `None` if the compliance is unknown, or too large for a check.
-fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, CompressedMatrix)> {
-    let patch = base.elements();
-    if patch[0].parts().count() * patch.layout().len() > MAX_REFINED_ORDER {
-        return None;
-    }
-    let finer = patch.refined().ok()?;
-    let mut soil = parts.ground.finer_compliance().ok()??;
-    if soil.len() != finer.layout().square() {
-        return None;
-    }
-    finer.refer_inside(&mut soil);
-    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, CompressedMatrix::dense(soil)))
-}
-
-/// The face with the largest difference of its shape between two static states, and the difference.
-///
-/// Root mean squares over the nodes of displacements into the soil, without the best rigid motions, relative to the
-/// largest shape of any face of the foundation in the second state.
-fn largest_difference(base: &PlacedBase, one: &StaticState, other: &StaticState) -> (usize, f64) {
+/// Shapes are displacements into the soil minus their best linear fit, with the root of the mean square over the nodes as
+/// norm. The difference is relative to the largest norm of all faces of the foundation in the second state.
+fn largest_difference(
+    base: &PlacedBase,
+    first_state: &StaticState,
+    second_state: &StaticState,
+) -> (usize, f64) {
     let mut shapes = Vec::new();
     for (foundation, nodes, elements) in faces(base) {
         let element = &base.elements()[elements.start];
         let depth = element.components(element.center())[0];
-        let mut on_face: Vec<&BaseNode> = Vec::new();
+        let mut face_nodes: Vec<&BaseNode> = Vec::new();
         for node in nodes {
             let distance = element.components([node.x, node.y, node.z])[0] - depth;
             if distance.abs() <= ON_FACE_TOLERANCE * element.length() {
-                on_face.push(node);
+                face_nodes.push(node);
             }
         }
-        let first = normal_displacements(&on_face, element, one);
-        let second = normal_displacements(&on_face, element, other);
+        let first = normal_displacements(&face_nodes, element, first_state);
+        let second = normal_displacements(&face_nodes, element, second_state);
         let change = first.iter().zip(&second).map(|(a, b)| a - b).collect();
-        shapes.push((foundation, bending_norm(&on_face, change), bending_norm(&on_face, second)));
+        shapes.push((
+            foundation,
+            bending_norm(&face_nodes, change),
+            bending_norm(&face_nodes, second),
+        ));
     }
-    let mut worst = (0, 0.0);
+    let mut worst_face = (0, 0.0);
     for (face, (foundation, change, _)) in shapes.iter().enumerate() {
-        let on_foundation = shapes.iter().filter(|(other, ..)| other == foundation);
-        let reference = on_foundation.fold(0.0_f64, |largest, (.., norm)| largest.max(*norm));
+        let foundation_shapes = shapes.iter().filter(|(other, ..)| other == foundation);
+        let reference = foundation_shapes.fold(0.0_f64, |largest, (.., norm)| largest.max(*norm));
         let difference = if reference > 0.0 { change / reference } else { 0.0 };
-        if difference > worst.1 {
-            worst = (face, difference);
+        if difference > worst_face.1 {
+            worst_face = (face, difference);
         }
     }
-    worst
+    worst_face
 }
 
-/// Displacements of nodes into the soil under a face, m.
+/// Displacements of nodes into the soil along the normal of a face, m.
 fn normal_displacements(
     nodes: &[&BaseNode],
     element: &ContactElement,
@@ -228,9 +272,9 @@ fn normal_displacements(
     displacements
 }
 
-/// Norm of values at the nodes minus their best linear fit; NaN becomes infinite.
+/// Norm of values at the nodes minus their best linear fit; infinite instead of NaN.
 fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
-    let count = nodes.len() as f64;
+    let node_count = nodes.len() as f64;
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let columns = [
         vec![1.0; nodes.len()],
@@ -247,31 +291,43 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
             column.iter_mut().zip(direction).for_each(|(x, unit)| *x -= component * unit);
         }
         norm = magnitude(&column);
-        if norm > 1e-12 * initial_norm {
+        if norm > PROJECTION_ROUNDING_TOLERANCE * initial_norm {
             basis.push(column.iter().map(|x| x / norm).collect());
         } else {
             norm = 0.0;
         }
     }
-    if norm.is_nan() { f64::INFINITY } else { norm / count.sqrt() }
+    if norm.is_nan() { f64::INFINITY } else { norm / node_count.sqrt() }
 }
 
-/// Foundation and number of elements of a face; in plan along its shorter side, with the name of that axis.
-fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
-    let patch = base.elements();
-    let (foundation, _, range) = faces(base).nth(face).unwrap_or((0, &[], 0..0));
-    let elements = &patch[range];
-    if elements.iter().any(|element| !element.faces_down()) {
-        return (foundation, Some('z'), elements.len());
+/// Elements of a face, for messages.
+struct FaceElements {
+    /// Number of the foundation.
+    foundation: usize,
+    /// Axis along which the elements are counted: z for a wall, in plan the one of the shorter side.
+    axis: Option<char>,
+    /// Number of elements along the axis.
+    count: usize,
+}
+
+impl FaceElements {
+    /// Counts the elements of a face.
+    fn new(base: &PlacedBase, face: usize) -> Self {
+        let patch = base.elements();
+        let (foundation, _, range) = faces(base).nth(face).unwrap_or((0, &[], 0..0));
+        let elements = &patch[range];
+        if elements.iter().any(|element| !element.faces_down()) {
+            return Self { foundation, axis: Some('z'), count: elements.len() };
+        }
+        let sides = patch.layout().axes().map(|axis| {
+            let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
+            let edges = far_ends(ends.iter().copied());
+            (edges[1] - edges[0], min_interval_count(ends), axis)
+        });
+        let shorter_side = sides.min_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        let (_, count, axis) = shorter_side.unwrap_or_default();
+        Self { foundation, axis: axis_name(patch.is_plan(), axis), count }
     }
-    let sides = patch.layout().axes().map(|axis| {
-        let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
-        let edges = far_ends(ends.iter().copied());
-        (edges[1] - edges[0], min_interval_count(ends), axis)
-    });
-    let shorter = sides.min_by(|(one, ..), (other, ..)| one.total_cmp(other));
-    let (_, count, axis) = shorter.unwrap_or_default();
-    (foundation, axis_name(patch.is_plan(), axis), count)
 }
 
 #[cfg(test)]
@@ -287,11 +343,12 @@ mod tests {
     use crate::structure::FemModel;
     use crate::{Simulation, Soil};
 
-    /// Bricks, 16 × 16 × 12, on 3 × 3 elements.
+    /// A solid of 16 × 16 × 12 hexahedra on 3 × 3 contact elements.
     fn parts() -> Result<Parts> {
         let mut mesh = Mesh::in_space();
-        let places: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();
-        let foot = mesh.add_grid(17, 17, |row, column| [places[column], places[row], 0.0])?;
+        let coordinates: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();
+        let foot =
+            mesh.add_grid(17, 17, |row, column| [coordinates[column], coordinates[row], 0.0])?;
         let heights: Vec<f64> = (1..=12).map(|k| 0.4 * f64::from(k)).collect();
         for (k, brick) in foot.extrude(&mut mesh, &heights)?.into_iter().enumerate() {
             // A stiff column on one side.
@@ -309,9 +366,9 @@ mod tests {
     fn a_condensed_structure_has_the_same_static_state_and_check() -> Result<()> {
         let mut parts = parts()?;
         let (assembled, fixed_factor) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let on_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensed;
-        assert!(on_base.is_some());
-        let results = [on_base, None].map(|mut condensed| {
+        let condensed = FixedBaseResults::new(&parts, &assembled, fixed_factor)?.condensed;
+        assert!(condensed.is_some());
+        let results = [condensed, None].map(|mut condensed| {
             let shared = RefCell::default();
             let is_condensed = condensed.is_some();
             let at_rest = at_rest::solve(&mut parts, &assembled, &mut condensed, &shared).unwrap();
@@ -321,18 +378,22 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         });
-        let [found, whole] = &results;
-        assert!(found.0 == whole.0 && found.1 > ERROR_SHAPE_DIFFERENCE);
-        assert!((found.1 - whole.1).abs() < 1e-7 * whole.1, "{found:?} for {whole:?}");
+        let [computed, expected] = &results;
+        assert!(computed.0 == expected.0 && computed.1 > ERROR_SHAPE_DIFFERENCE);
+        assert!(
+            (computed.1 - expected.1).abs() < 1e-7 * expected.1,
+            "{computed:?} for {expected:?}"
+        );
         // Without friction, any motion along the ground is a static state.
-        let of = |state: &StaticState| {
+        let results_of = |state: &StaticState| {
             let nodes = assembled.base.nodes().iter();
             let heights = nodes.map(|node| node.vertical.value(&state.displacement)).collect();
             [heights, assembled.stiffness.times(&state.displacement), state.traction.clone()]
         };
-        for (found, whole) in of(&found.2).iter().zip(of(&whole.2)) {
-            let differences: Vec<f64> = found.iter().zip(&whole).map(|(a, b)| a - b).collect();
-            assert!(largest(&differences) < 1e-8 * largest(&whole));
+        for (computed, expected) in results_of(&computed.2).iter().zip(results_of(&expected.2)) {
+            let differences: Vec<f64> =
+                computed.iter().zip(&expected).map(|(a, b)| a - b).collect();
+            assert!(largest(&differences) < 1e-8 * largest(&expected));
         }
         Ok(())
     }

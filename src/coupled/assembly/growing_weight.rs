@@ -1,60 +1,69 @@
-//! Static state under a weight that grows from nothing together with its P–Δ.
+//! Static state under a weight that grows from zero together with its P–Δ.
 
 use std::cell::RefCell;
 
 use super::settled::settle;
 use crate::coupled::model::assembled::LoadedStiffness;
-use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StabilityError};
 use crate::interface::{InterfaceLaw, PreviousContacts};
 
-/// First increment of the weight, and the increment at whose failure there is no equilibrium.
-const FIRST_INCREMENT: f64 = 0.25;
-const SMALLEST_INCREMENT: f64 = 1.0 / 64.0;
+/// First increment of the weight, as a fraction of the whole.
+const FIRST_WEIGHT_INCREMENT: f64 = 0.25;
+/// Increment without equilibrium at which the structure counts as unstable, as a fraction of the whole weight.
+const MIN_WEIGHT_INCREMENT: f64 = 1.0 / 64.0;
 
-/// Follows the static state to the whole `weight` from the `unloaded` one, after a search under the whole weight ended in
-/// `error`.
+/// Follows the static state while the weight grows, after a search under the whole weight has failed.
 ///
-/// Under the whole weight a structure leans by its whole P–Δ before the soil resists, and a search may pass an equilibrium.
-/// Returns `error` without P–Δ, and [`StabilityError::Toppling`] where no equilibrium follows.
+/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium. The
+/// path starts from the state and contact without weight. The function returns the failed search's `error` for a structure
+/// without P–Δ, and [`StabilityError::Toppling`] if the path ends before the whole weight.
 pub(super) fn state_under_growing_weight(
-    stage: &Standing<'_>,
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
-    (start, unloaded): (&PreviousContacts, StaticState),
+    (start, unloaded_state): (&PreviousContacts, StaticState),
     weight: &[f64],
     error: Error,
 ) -> Result<(StaticState, PreviousContacts)> {
-    let assembled = stage.assembled;
+    let assembled = problem.assembled;
     // A structure condensed on its base has other degrees of freedom.
-    let is_whole = stage.structure.dofs() == assembled.dofs();
+    let is_whole = problem.structure.dofs() == assembled.dofs();
     if !is_whole || !is_unexplained(&error) {
         return Err(error);
     }
-    let Some(loaded) = LoadedStiffness::new(stage.structure, &assembled.stiffness) else {
+    let Some(loaded) = LoadedStiffness::new(problem.structure, &assembled.stiffness) else {
         return Err(error);
     };
-    let mut reached = 0.0;
-    let mut increment = FIRST_INCREMENT;
-    let mut state = unloaded;
+    let mut equilibrium_factor = 0.0;
+    let mut increment = FIRST_WEIGHT_INCREMENT;
+    let mut state = unloaded_state;
     loop {
-        let factor = f64::min(reached + increment, 1.0);
-        let settled = if factor == 1.0 {
-            settle(stage, laws, start.clone(), state.clone(), weight)
+        let factor = f64::min(equilibrium_factor + increment, 1.0);
+        let equilibrium = if factor == 1.0 {
+            settle(problem, laws, start.clone(), state.clone(), weight)
         } else {
-            let assembled = assembled.with_stiffness(loaded.at(factor)?);
-            let shared = RefCell::default();
-            let stage = Standing { assembled: &assembled, shared: &shared, ..*stage };
+            let assembled = assembled.with_stiffness(loaded.at_factor(factor)?);
+            let shared_compliance = RefCell::default();
+            let problem = StaticProblem {
+                assembled: &assembled,
+                shared_compliance: &shared_compliance,
+                ..*problem
+            };
             let reduced_weight: Vec<f64> = weight.iter().map(|force| factor * force).collect();
-            settle(&stage, laws, start.clone(), state.clone(), &reduced_weight)
+            settle(&problem, laws, start.clone(), state.clone(), &reduced_weight)
         };
-        match settled {
-            Ok(found) if factor == 1.0 => return Ok(found),
-            Ok((found, _)) => (reached, state) = (factor, found),
-            Err(Error::Preload { .. }) if increment > SMALLEST_INCREMENT => increment *= 0.5,
-            Err(Error::Preload { .. }) if reached == 0.0 => return Err(error),
+        match equilibrium {
+            Ok(equilibrium) if factor == 1.0 => return Ok(equilibrium),
+            Ok((next_state, _)) => {
+                equilibrium_factor = factor;
+                state = next_state;
+            }
+            Err(Error::Preload { .. }) if increment > MIN_WEIGHT_INCREMENT => increment *= 0.5,
+            Err(Error::Preload { .. }) if equilibrium_factor == 0.0 => return Err(error),
             Err(Error::Preload { .. }) => {
-                let cause = StabilityError::Toppling { factor: reached, by_loads: false };
+                let cause =
+                    StabilityError::Toppling { factor: equilibrium_factor, by_loads: false };
                 return Err(Error::Stability(Box::new(cause)));
             }
             Err(other) => return Err(other),
@@ -62,9 +71,9 @@ pub(super) fn state_under_growing_weight(
     }
 }
 
-/// Whether the reason why there is no equilibrium is unknown, or may be rounding.
+/// Whether the cause of the missing equilibrium is unknown or rounding.
 ///
-/// A weight has no torque: without friction its rounding already exceeds the resistance.
+/// A weight has no torque. Without friction the rounding of its torque exceeds the resistance.
 fn is_unexplained(error: &Error) -> bool {
     match error {
         Error::Preload { .. } => true,

@@ -2,14 +2,14 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | F | rows of degrees of freedom where forces act or probes read |
-//! | σ | shifts, starting with the scheme's shift √(a/k): 2/Δt for the midpoint rule |
-//! | Z | K_eff for the scheme's shift, K + σ² M for others |
+//! | F | weights of the degrees of freedom in forces and in probes, a row each |
+//! | σ | shifts; the first is the shift √(a/k) of the time scheme, 2/Δt for the midpoint rule |
+//! | Z | K_eff for the scheme's shift, K + σ² M for the others |
 //!
-//! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on: each round adds one power of every shift (Ruhe
-//! 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction exact. Lower shifts
-//! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
-//! step cannot follow.
+//! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
+//! Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction. Lower shifts
+//! represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift represents motion
+//! that the time step does not resolve.
 //!
 //! With many forces: `many_forces.rs`.
 
@@ -18,91 +18,86 @@ use std::rc::Rc;
 
 use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
-use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, Ritz, Subspace};
+use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, RitzModes, Subspace};
+use crate::coupled::assembly::vibration_modes::ASYMMETRY_TOLERANCE;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::coupled::statics::compliance::Floating;
+use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::proportional_factors;
 
-/// Ratio of a shift to the previous one.
+/// Ratio of two successive shifts: powers of both then converge at all frequencies between them.
 const SHIFT_RATIO: f64 = 4.0;
 /// Number of forces from which vibration modes and static responses replace shifts.
 const MANY_FORCES_THRESHOLD: usize = 100;
-/// A direction is left out if its part outside the space is below this fraction, and below this multiple of the root
-/// of the tolerance.
-///
-/// The responses depend on the square of that fraction.
+/// Smallest fraction of a direction outside the space for which it is added.
 pub(super) const MIN_NEW_FRACTION: f64 = 1e-2;
+/// Smallest fraction outside the space, relative to the root of the tolerance: responses depend on its square.
 const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
-/// Smallest new fraction of a direction, in the last rounds.
+/// Smallest fraction of a direction outside the space in the last rounds.
 pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
-/// Smallest ratio of a round's change to the previous round's in the prediction.
+/// Smallest predicted ratio of the changes of two successive rounds.
 pub(super) const MIN_CHANGE_RATIO: f64 = 0.1;
-/// Largest number of rounds; half of them if the tolerance cannot be expected.
+/// Largest number of rounds; the reduction ends after half of them if it will not reach the tolerance.
 const MAX_KRYLOV_ROUNDS: usize = 16;
-/// Smallest ratio of the lowest shift to the scheme's.
+/// Smallest ratio of the lowest shift to the scheme's shift.
 const MIN_SHIFT_RATIO: f64 = 1e-6;
-/// Largest number of steps over which responses are compared.
+/// Largest number of steps over which responses are compared; it bounds the time of a comparison.
 const MAX_COMPARED_STEPS: usize = 10_000;
-
+/// Name of K + σ²M in errors.
 const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
-
-/// Number of times at which the structure's own load is sampled.
-const LOAD_SAMPLE_COUNT: u32 = 16;
+/// Number of intervals between the samples of the structure's load.
+const LOAD_INTERVAL_COUNT: u32 = 16;
 
 /// Factors an effective stiffness.
-pub(crate) type Factored<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
+pub(crate) type FactorEffective<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
 
-/// Input of a reduction.
-///
-/// Rows have an entry for every degree of freedom.
+/// Input of a reduction to Ritz modes.
 pub(crate) struct Reduction<'a> {
     pub(super) assembled: &'a Assembled,
     pub(super) coefficients: &'a SchemeCoefficients,
-    /// Factors K_eff.
-    pub(super) factored: &'a Factored<'a>,
+    pub(super) factor_effective: &'a FactorEffective<'a>,
     pub(super) fixed_base: FixedBaseResponses,
     /// Factored K + εM, until it is used.
-    pub(super) floating: Cell<Option<Rc<Floating>>>,
+    pub(super) shifted_stiffness: Cell<Option<Rc<ShiftedStiffnessFactor>>>,
     /// β and α of a damping in proportion to mass and to the stiffness without P–Δ.
-    pub(super) without_p_delta: Option<[f64; 2]>,
-    /// Steps of the run.
-    steps: usize,
-    /// Rows of the probes that are not zero.
+    pub(super) damping_without_p_delta: Option<[f64; 2]>,
+    /// Number of steps of the run.
+    step_count: usize,
+    /// Rows of forces and probes.
     pub(super) rows: ResponseRows,
-    /// Displacements that the modes must contain.
-    pub(super) motions: Vec<f64>,
+    /// Initial displacement and velocity, which the modes must contain.
+    pub(super) initial_motions: Vec<f64>,
 }
 
 impl<'a> Reduction<'a> {
-    /// Collects forces and probes of a structure.
+    /// Collects the forces, initial motions and probes of a structure for a run of `step_count` steps.
     ///
-    /// `factored`: factors its effective stiffness. `floating`: its stiffness without supports, if it is known.
+    /// The tuple has the responses on a fixed base, the factored K + εM if it exists, and a function that factors K_eff.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        (fixed_base, floating, factored): (
+        (fixed_base, shifted_stiffness, factor_effective): (
             FixedBaseResponses,
-            Option<Rc<Floating>>,
-            &'a Factored<'a>,
+            Option<Rc<ShiftedStiffnessFactor>>,
+            &'a FactorEffective<'a>,
         ),
-        steps: usize,
+        step_count: usize,
     ) -> Result<Self> {
         let mut rows = ResponseRows::default();
-        collect_loads(&mut rows, parts, assembled.dofs(), steps)?;
+        collect_loads(&mut rows, parts, assembled.dofs(), step_count)?;
         collect_tractions(&mut rows, assembled);
-        let motions = collect_motions(&mut rows, parts, assembled);
+        let initial_motions = collect_initial_motions(&mut rows, parts, assembled);
         collect_probes(&mut rows, parts, assembled.dofs());
-        let floating = Cell::new(floating);
+        let shifted_stiffness = Cell::new(shifted_stiffness);
         let damping = &assembled.damping;
         let is_proportional = damping.is_empty()
             || proportional_factors(damping, [&assembled.stiffness, &assembled.mass]).is_some();
-        let without_p_delta = if is_proportional {
+        let damping_without_p_delta = if is_proportional {
             None
         } else {
             assembled.damping_without_p_delta(parts.structure.as_ref())
@@ -110,17 +105,17 @@ impl<'a> Reduction<'a> {
         Ok(Self {
             assembled,
             coefficients: &parts.coefficients,
-            factored,
+            factor_effective,
             fixed_base,
-            floating,
-            without_p_delta,
-            steps,
+            shifted_stiffness,
+            damping_without_p_delta,
+            step_count,
             rows,
-            motions,
+            initial_motions,
         })
     }
 
-    /// The Ritz modes whose responses to forces are within `tolerance`.
+    /// Computes Ritz modes whose responses to forces have errors below `tolerance`.
     pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
         const TOLERANCE_NAME: &str = "tolerance of reduced coordinates";
         finite(TOLERANCE_NAME, tolerance)?;
@@ -130,11 +125,11 @@ impl<'a> Reduction<'a> {
             tolerance > 0.0 && tolerance < 1.0,
             "above 0 and below 1",
         )?;
-        let matrices = self.matrices()?;
+        let matrices = self.checked_matrices()?;
         if self.has_many_forces() {
-            return self.modes_of_many(tolerance, matrices);
+            return self.modes_for_many_forces(tolerance, matrices);
         }
-        self.modes_of_few(tolerance, matrices)
+        self.modes_for_few_forces(tolerance, matrices)
     }
 
     /// Whether vibration modes and static responses replace shifts.
@@ -142,11 +137,15 @@ impl<'a> Reduction<'a> {
         self.rows.force_count >= MANY_FORCES_THRESHOLD
     }
 
-    /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
-    pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3], rounding: f64) -> Subspace<'m> {
-        let translations = self.assembled.influence.translations(self.assembled.dofs());
+    /// Subspace of the rigid motions; `rounding` as for [`Subspace::new`].
+    pub(super) fn rigid_motion_space<'m>(
+        &self,
+        matrices: [&'m SparseMatrix; 3],
+        rounding: f64,
+    ) -> Subspace<'m> {
+        let translations = self.assembled.influence.part_vectors(self.assembled.dofs());
         let mut space = Subspace::new(matrices, translations, rounding);
-        if let Some(proportional) = self.without_p_delta {
+        if let Some(proportional) = self.damping_without_p_delta {
             space = space.with_proportional_damping(proportional);
         }
         space.extend(self.fixed_base.rotations.clone(), FINAL_MIN_NEW_FRACTION);
@@ -154,66 +153,72 @@ impl<'a> Reduction<'a> {
     }
 
     /// Ritz modes for few forces: powers of several shifts.
-    fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let mut space = self.rigid(matrices, 0.0);
-        space.extend(self.motions.clone(), FINAL_MIN_NEW_FRACTION);
+    fn modes_for_few_forces(
+        &self,
+        tolerance: f64,
+        matrices: [&SparseMatrix; 3],
+    ) -> Result<ModalBasis> {
+        let mut space = self.rigid_motion_space(matrices, 0.0);
+        space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
         let rows = &self.rows.all;
-        let count = (rows.len() / self.assembled.dofs()).max(1);
-        self.floating.take();
-        let effective = self.effective()?;
-        let factors = self.shifts().map(|shift| self.shifted(shift)).collect::<Result<Vec<_>>>()?;
-        let factors: Vec<_> = std::iter::once(&*effective).chain(&factors).collect();
+        let row_count = (rows.len() / self.assembled.dofs()).max(1);
+        self.shifted_stiffness.take();
+        let effective = self.effective_factor()?;
+        let shifted =
+            self.shifts().map(|shift| self.factor_at_shift(shift)).collect::<Result<Vec<_>>>()?;
+        let factors: Vec<_> = std::iter::once(&*effective).chain(&shifted).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
-        // Rows in terms of the vectors.
         let mut products = Vec::new();
         let mut min_fraction =
             MIN_NEW_FRACTION.min(NEW_FRACTION_PER_ROOT_TOLERANCE * tolerance.sqrt());
-        let mut last: Option<StepResponses> = None;
+        let mut previous_responses: Option<StepResponses> = None;
         let mut change = f64::INFINITY;
-        let mut reached = f64::INFINITY;
+        // Change that the next round will cause, at the rate of the last round.
+        let mut expected_change = f64::INFINITY;
         for round in 1..=MAX_KRYLOV_ROUNDS {
-            if !grow(&mut space, &factors, &mut blocks, min_fraction) {
+            if !add_powers(&mut space, &factors, &mut blocks, min_fraction) {
                 if min_fraction <= FINAL_MIN_NEW_FRACTION {
                     let modes = space.ritz()?;
-                    return self.basis(space, &modes, &factors, tolerance);
+                    return self.basis_with_damping(space, &modes, &factors, tolerance);
                 }
-                // Repeats with a lower limit for the directions that were left out.
+                // Repeats with a lower limit for omitted directions.
                 min_fraction = FINAL_MIN_NEW_FRACTION.max(MIN_NEW_FRACTION * min_fraction);
                 blocks.fill(rows.clone());
                 continue;
             }
             let modes = space.ritz()?;
-            products.extend(space.products(products.len() / count, rows));
+            products.extend(space.products(products.len() / row_count, rows));
             let modal_rows = Subspace::modal_rows(&modes, &products);
             let responses = self.responses(&modes, modal_rows, 0);
             let mut rate = 1.0;
-            if let Some(last) = &last {
-                let new_change = responses.difference(last, tolerance);
+            if let Some(previous) = &previous_responses {
+                let new_change = responses.difference(previous, tolerance);
                 if change.is_finite() {
                     rate = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
                 }
                 change = new_change;
-                // Estimated change by the next round, at the rate of this round.
-                reached = new_change * rate;
+                expected_change = new_change * rate;
             }
-            if reached <= tolerance || space.count() == self.assembled.dofs() {
-                return self.basis(space, &modes, &factors, tolerance);
+            if expected_change <= tolerance || space.count() == self.assembled.dofs() {
+                return self.basis_with_damping(space, &modes, &factors, tolerance);
             }
             let remaining_rounds = i32::try_from(MAX_KRYLOV_ROUNDS - round).unwrap_or(0);
-            if 2 * round >= MAX_KRYLOV_ROUNDS && reached * rate.powi(remaining_rounds) > tolerance {
+            let final_change = expected_change * rate.powi(remaining_rounds);
+            if 2 * round >= MAX_KRYLOV_ROUNDS && final_change > tolerance {
                 break;
             }
-            last = Some(responses);
+            previous_responses = Some(responses);
         }
-        let vectors = space.count();
-        let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
-        Err(inaccurate(reached, tolerance, remedy))
+        let vector_count = space.count();
+        let remedy =
+            format!("with {vector_count} vectors; damping in proportion to stiffness helps");
+        Err(inaccurate(expected_change, tolerance, remedy))
     }
 
-    /// Factored K_eff, with the proportional damping if the damping differs from it by P–Δ alone.
-    pub(super) fn effective(&self) -> Result<Box<SparseFactor>> {
-        let Some([beta, alpha]) = self.without_p_delta else {
-            return (self.factored)();
+    /// Factors K_eff, with proportional damping in place of a damping that differs from it by P–Δ alone.
+    pub(super) fn effective_factor(&self) -> Result<Box<SparseFactor>> {
+        let Some([beta, alpha]) = self.damping_without_p_delta else {
+            return (self.factor_effective)();
         };
         let mass: &SparseMatrix = &self.assembled.mass;
         let c = self.coefficients;
@@ -228,27 +233,26 @@ impl<'a> Reduction<'a> {
     /// Responses over the steps of the run to forces that grow over `growth_steps` steps.
     pub(super) fn responses(
         &self,
-        modes: &Ritz,
+        modes: &RitzModes,
         modal_rows: Vec<f64>,
         growth_steps: usize,
     ) -> StepResponses {
-        let steps = self.steps.clamp(1, MAX_COMPARED_STEPS);
+        let steps = self.step_count.clamp(1, MAX_COMPARED_STEPS);
         StepResponses::new(modes, modal_rows, &self.rows, self.coefficients, steps, growth_steps)
     }
 
-    /// Mass, damping and stiffness; an error if they cannot be reduced.
-    fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
+    /// Mass, damping and stiffness; an error if the structure cannot be reduced.
+    fn checked_matrices(&self) -> Result<[&SparseMatrix; 3]> {
         require_part(
             REDUCED_COORDINATES_NAME,
-            self.assembled.linear,
+            self.assembled.is_linear,
             "they need a linear structure",
         )?;
         let matrices = self.assembled.matrices();
         let names = ["mass matrix", "damping matrix", "stiffness matrix"];
         for (matrix, name) in matrices.iter().zip(names) {
-            if matrix.asymmetry() > 1e-13 {
-                let needed = "it must be symmetric";
-                let error = Error::Scene { quantity: name, needed };
+            if matrix.asymmetry() > ASYMMETRY_TOLERANCE {
+                let error = Error::Scene { quantity: name, needed: "it must be symmetric" };
                 return Err(error.within(REDUCED_COORDINATES_NAME));
             }
         }
@@ -260,24 +264,25 @@ impl<'a> Reduction<'a> {
         Ok(matrices)
     }
 
-    /// The shifts below the scheme's, and one above it, 1/s.
+    /// One shift above the scheme's shift, and the shifts below it, 1/s.
     fn shifts(&self) -> impl Iterator<Item = f64> + use<> {
         let Assembled { mass, stiffness, .. } = self.assembled;
         let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
-        let max_shift = pairs.fold(0.0, |largest: f64, (k, m)| largest.max(k / m)).sqrt();
+        let max_shift = pairs.fold(0.0, |max: f64, (k, m)| max.max(k / m)).sqrt();
         let c = self.coefficients;
         let scheme_shift =
             (c.acceleration[0] / c.displacement[0]).sqrt().min(SHIFT_RATIO * max_shift);
-        let lowest = self.fixed_base.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
-        let first_below = scheme_shift / SHIFT_RATIO;
-        let below = std::iter::successors(Some(first_below), |shift| Some(shift / SHIFT_RATIO))
-            .take_while(move |shift| *shift > lowest);
-        let above = std::iter::once(SHIFT_RATIO * scheme_shift);
-        above.chain(below).filter(move |shift| *shift < max_shift)
+        let min_shift = self.fixed_base.lowest_frequency.max(MIN_SHIFT_RATIO * scheme_shift);
+        let next_shift = scheme_shift / SHIFT_RATIO;
+        let lower_shifts =
+            std::iter::successors(Some(next_shift), |shift| Some(shift / SHIFT_RATIO))
+                .take_while(move |shift| *shift > min_shift);
+        let higher_shift = std::iter::once(SHIFT_RATIO * scheme_shift);
+        higher_shift.chain(lower_shifts).filter(move |shift| *shift < max_shift)
     }
 
-    /// Factored K + σ²M at a shift σ.
-    fn shifted(&self, shift: f64) -> Result<SparseFactor> {
+    /// Factors K + σ²M at a shift σ.
+    fn factor_at_shift(&self, shift: f64) -> Result<SparseFactor> {
         let Assembled { mass, stiffness, .. } = self.assembled;
         let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
@@ -285,19 +290,24 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// Adds the loads of a scene, and samples of the structure's own load.
-fn collect_loads(rows: &mut ResponseRows, parts: &Parts, dofs: usize, steps: usize) -> Result<()> {
+/// Adds the builder's loads, and samples of the structure's load, to the rows.
+fn collect_loads(
+    rows: &mut ResponseRows,
+    parts: &Parts,
+    dofs: usize,
+    step_count: usize,
+) -> Result<()> {
     for load in &parts.builder.loads {
         push_nonzero(&mut rows.all, spread(load.row(), dofs));
     }
-    let duration = steps as f64 * parts.builder.time_step;
-    for sample in 0..=LOAD_SAMPLE_COUNT {
-        let time = duration * f64::from(sample) / f64::from(LOAD_SAMPLE_COUNT);
+    let duration = step_count as f64 * parts.builder.time_step;
+    for sample in 0..=LOAD_INTERVAL_COUNT {
+        let time = duration * f64::from(sample) / f64::from(LOAD_INTERVAL_COUNT);
         let mut load = vec![0.0; dofs];
-        let loaded = parts.structure.load(time, &mut load);
+        let result = parts.structure.load(time, &mut load);
         if sample == 0 {
-            loaded?;
-        } else if loaded.is_err() {
+            result?;
+        } else if result.is_err() {
             // The run may end before that time.
             continue;
         }
@@ -309,66 +319,70 @@ fn collect_loads(rows: &mut ResponseRows, parts: &Parts, dofs: usize, steps: usi
     Ok(())
 }
 
-/// Adds the forces by a unit traction on each component of each element.
+/// Adds the forces of a unit traction in each component of each element to the rows.
 fn collect_tractions(rows: &mut ResponseRows, assembled: &Assembled) {
-    let size = assembled.base.layout().len();
-    let mut unit = vec![0.0; size];
-    for place in 0..size {
+    let component_count = assembled.base.layout().len();
+    let mut unit_traction = vec![0.0; component_count];
+    for i in 0..component_count {
         let mut force = vec![0.0; assembled.dofs()];
-        unit[place] = 1.0;
-        assembled.base.add_forces(1.0, &unit, &mut force);
-        unit[place] = 0.0;
+        unit_traction[i] = 1.0;
+        assembled.base.add_forces(1.0, &unit_traction, &mut force);
+        unit_traction[i] = 0.0;
         push_nonzero(&mut rows.all, force);
     }
 }
 
-/// Adds the momenta of the initial displacement and velocity, and returns both.
-fn collect_motions(rows: &mut ResponseRows, parts: &Parts, assembled: &Assembled) -> Vec<f64> {
+/// Adds the momenta of the initial displacement and velocity to the rows, and returns the motions.
+fn collect_initial_motions(
+    rows: &mut ResponseRows,
+    parts: &Parts,
+    assembled: &Assembled,
+) -> Vec<f64> {
     let dofs = assembled.dofs();
     let mut motions = Vec::new();
-    for motion in [&parts.builder.displacement, &parts.builder.velocity] {
-        for motion in motion.chunks_exact(dofs) {
+    for initial_values in [&parts.builder.initial_displacement, &parts.builder.initial_velocity] {
+        for motion in initial_values.chunks_exact(dofs) {
             let mut force = vec![0.0; dofs];
             assembled.mass.multiply_add(1.0, motion, &mut force);
             push_nonzero(&mut rows.all, force);
         }
-        motions.extend_from_slice(motion);
+        motions.extend_from_slice(initial_values);
     }
     rows.force_count = rows.all.len() / dofs;
     motions
 }
 
-/// Adds the rows of the probes: of displacements, velocities and accelerations.
+/// Adds the rows of the probes: first displacements, then velocities, then accelerations.
 fn collect_probes(rows: &mut ResponseRows, parts: &Parts, dofs: usize) {
     let probes = &parts.builder.probes;
     rows.probes = vec![[None; 3]; probes.len()];
-    for kind in 0..3 {
-        if kind == 2 {
+    for derivative in 0..3 {
+        if derivative == 2 {
             rows.first_acceleration = rows.all.len() / dofs;
         }
-        for (probe, places) in probes.iter().zip(&mut rows.probes) {
-            let place = rows.all.len() / dofs;
-            let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[kind], dofs));
-            places[kind] = is_nonzero.then_some(place);
+        for (probe, probe_rows) in probes.iter().zip(&mut rows.probes) {
+            let row = rows.all.len() / dofs;
+            let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[derivative], dofs));
+            probe_rows[derivative] = is_nonzero.then_some(row);
         }
     }
 }
 
 /// Adds the next power of each shift to the space; returns whether there is a new direction.
-fn grow(
+fn add_powers(
     space: &mut Subspace<'_>,
     factors: &[&SparseFactor],
     blocks: &mut [Vec<f64>],
     min_fraction: f64,
 ) -> bool {
-    let start = space.count();
+    let initial_count = space.count();
     for (factor, block) in factors.iter().zip(blocks) {
-        let before = space.count();
+        let first_new = space.count();
         factor.solve_many(block);
         space.extend(std::mem::take(block), min_fraction);
-        block.extend_from_slice(space.momenta(before));
+        block.extend_from_slice(space.momenta(first_new));
     }
-    space.count() > start
+    space.count() > initial_count
 }
 
 /// Adds a row unless it is zero; returns whether it was added.

@@ -1,8 +1,8 @@
 //! Reduced coordinates for many forces.
 //!
-//! The space holds vibration modes up to a frequency, the static responses to all forces, and powers of K_eff of what
-//! they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance. Symbols: see
-//! `krylov.rs`.
+//! The space contains vibration modes up to a frequency, the static responses to all forces, and powers of K_eff of the
+//! remaining responses (MacNeal 1971; Rubin 1975). It omits directions far shorter than the root of the tolerance.
+//! `krylov.rs` has a table of the symbols.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -11,50 +11,58 @@ use crate::coupled::assembly::krylov::{
     FINAL_MIN_NEW_FRACTION, MIN_CHANGE_RATIO, MIN_NEW_FRACTION, Reduction, inaccurate,
 };
 use crate::coupled::assembly::step_response::StepResponses;
-use crate::coupled::assembly::subspace::{Ritz, Subspace};
+use crate::coupled::assembly::subspace::{RitzModes, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
-use crate::coupled::statics::compliance::Floating;
+use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
 
-/// Growth of the limit of frequency of vibration modes, from a round to the next.
+/// Growth of the frequency limit of vibration modes from one round to the next.
 const FREQUENCY_LIMIT_GROWTH: f64 = std::f64::consts::SQRT_2;
-/// Largest number of vibration modes.
+/// Largest number of vibration modes; more would take longer than the full structure.
 const MAX_VIBRATION_MODES: usize = 600;
 /// Residual of vibration modes, relative to the root of the tolerance: responses depend on its square.
 const MODE_RESIDUAL_FACTOR: f64 = 0.1;
 /// Rounding of the vectors' orthogonality after one pass, relative to the square of the tolerance.
 const ORTHOGONALITY_ROUNDING_FACTOR: f64 = 1e-4;
-/// Largest number of rounds with vibration modes.
+/// Largest number of rounds, each with more vibration modes or a further power of K_eff.
 const MAX_MODE_ROUNDS: usize = 5;
-/// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
-const STATIC_SHIFT_RANGE: [f64; 2] = [1e-2, 0.5];
-/// Smallest square of a shift for vibration modes, relative to the scheme's: θ of a rigid motion leaves digits for others.
+/// Lowest shift for vibration modes and static responses, relative to the scheme's shift.
+const MIN_STATIC_SHIFT_RATIO: f64 = 1e-2;
+/// Highest shift for vibration modes and static responses, relative to the scheme's shift.
+const MAX_STATIC_SHIFT_RATIO: f64 = 0.5;
+/// Smallest usable square of a shift, relative to the square of the scheme's shift.
+///
+/// With a smaller shift, rigid motions leave too few digits for the other modes.
 const MIN_SQUARED_SHIFT_RATIO: f64 = 1e-9;
-/// Reciprocal of the response of a probe, relative to the energy norms of its row and of the force, below which directions
-/// as short as the root of the tolerance are too long to be left out.
+/// Factor of the weakest response of a probe in the length of omitted directions.
+///
+/// The response is relative to the energy norms of the probe's row and of the force. For a response below the reciprocal
+/// of this factor, omitted directions must be shorter than the root of the tolerance.
 const WEAK_PROBE_FACTOR: f64 = 10.0;
-/// Smallest factor by which the square of the length of directions is lowered for probes: below it are rounding errors.
+/// Smallest factor for the square of the length of omitted directions; smaller directions are rounding.
 const MIN_PROBE_FACTOR: f64 = 1e-2;
-/// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
+/// Number of steps over which forces grow in the comparison of responses, with binomial weights.
 const FORCE_GROWTH_STEPS: usize = 32;
 
-/// Adds the static responses to the forces of `block`, and returns the number of the first; drops the factor.
+/// Adds the static responses to the forces of `block`, and returns the index of the first one.
+///
+/// The factor is dropped before the space grows, which limits the memory.
 fn add_static_responses(
-    floating: Rc<Floating>,
+    factor: Rc<ShiftedStiffnessFactor>,
     space: &mut Subspace<'_>,
     mut block: Vec<f64>,
 ) -> usize {
-    floating.factor.solve_many(&mut block);
-    drop(floating);
-    let first = space.count();
+    factor.factor.solve_many(&mut block);
+    drop(factor);
+    let first_response = space.count();
     space.extend(block, FINAL_MIN_NEW_FRACTION);
-    first
+    first_response
 }
 
-/// First limit of frequency of vibration modes.
+/// Initial frequency limit of vibration modes, 1/s.
 ///
-/// Modes at the limit take part by the tolerance in responses to forces that grow over many steps.
+/// The participation of modes at the limit in responses to slowly growing forces is the tolerance.
 fn first_frequency_limit(scheme_shift: f64, tolerance: f64) -> f64 {
     scheme_shift * (tolerance.powf(-2.0 / FORCE_GROWTH_STEPS as f64) - 1.0).sqrt()
 }
@@ -62,155 +70,164 @@ fn first_frequency_limit(scheme_shift: f64, tolerance: f64) -> f64 {
 impl Reduction<'_> {
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
     ///
-    /// Few reductions need a third round, which factors again: keeping the factor would raise the memory peak of all.
-    pub(super) fn modes_of_many(
+    /// A third round, which few reductions need, factors the matrix again. To store the factor would increase the peak
+    /// memory of all reductions.
+    pub(super) fn modes_for_many_forces(
         &self,
         tolerance: f64,
         matrices: [&SparseMatrix; 3],
     ) -> Result<ModalBasis> {
-        let mut space = self.rigid(matrices, ORTHOGONALITY_ROUNDING_FACTOR * tolerance * tolerance);
+        let rounding = ORTHOGONALITY_ROUNDING_FACTOR * tolerance * tolerance;
+        let mut space = self.rigid_motion_space(matrices, rounding);
         let rows = &self.rows.all;
         let c = self.coefficients;
-        let count = (rows.len() / self.assembled.dofs()).max(1);
+        let row_count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());
-        space.extend(self.motions.clone(), FINAL_MIN_NEW_FRACTION);
+        space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
         let scheme_shift = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        let mut limit = first_frequency_limit(scheme_shift, tolerance);
-        let mut last: Option<(StepResponses, Ritz)> = None;
-        let mut converged: Option<Ritz> = None;
+        let mut frequency_limit = first_frequency_limit(scheme_shift, tolerance);
+        let mut previous: Option<(StepResponses, RitzModes)> = None;
+        let mut converged: Option<RitzModes> = None;
         let mut products = Vec::new();
         let mut effective = None;
         let mut change = f64::INFINITY;
-        let mut newest = 0;
+        // Index of the first vector of the last extension.
+        let mut first_new = 0;
         let mut min_length = 0.5 * tolerance.sqrt();
         for round in 0..MAX_MODE_ROUNDS {
-            // One more power alone is the comparison.
+            // The second round adds only a power of K_eff, for the comparison with the first.
             if round != 1 {
-                let Some(floating) = self.add_modes(&mut space, limit, scheme_shift, tolerance)?
-                else {
-                    break;
-                };
-                limit *= FREQUENCY_LIMIT_GROWTH;
+                let shifted =
+                    self.add_modes(&mut space, frequency_limit, scheme_shift, tolerance)?;
+                let Some(shifted) = shifted else { break };
+                frequency_limit *= FREQUENCY_LIMIT_GROWTH;
                 if round == 0 {
-                    newest = add_static_responses(floating, &mut space, block);
-                    block = space.inertia(newest, c.acceleration[0]);
-                    effective = Some(self.effective()?);
+                    first_new = add_static_responses(shifted, &mut space, block);
+                    block = space.inertia(first_new, c.acceleration[0]);
+                    effective = Some(self.effective_factor()?);
                 }
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
             if round == 0 && !self.probes().is_empty() {
                 products.extend(space.products(0, rows));
-                min_length *= self.probe_factor(&space, &products)?;
+                min_length *= self.probe_length_factor(&space, &products)?;
             }
             let mut is_last = false;
-            if let Some((fewer_responses, fewer_modes)) = last.take() {
-                products.extend(space.products(products.len() / count, rows));
-                let (modes, all) =
-                    space.ritz_with((&block, newest), c, (&products, rows), min_length)?;
-                let new_change =
-                    self.smooth_responses(&modes, &all).difference(&fewer_responses, tolerance);
+            if let Some((previous_responses, previous_modes)) = previous.take() {
+                products.extend(space.products(products.len() / row_count, rows));
+                let (modes, extended_products) =
+                    space.extended_ritz((&block, first_new), c, (&products, rows), min_length)?;
+                let responses = self.smooth_responses(&modes, &extended_products);
+                let new_change = responses.difference(&previous_responses, tolerance);
                 if new_change <= tolerance {
-                    converged = Some(fewer_modes);
+                    converged = Some(previous_modes);
                     break;
                 }
                 let ratio = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
                 is_last = change.is_finite() && new_change * ratio <= tolerance;
                 change = new_change;
             }
-            newest = space.count();
+            first_new = space.count();
             space.extend_by_length(block, min_length);
-            block = space.inertia(newest, c.acceleration[0]);
+            block = space.inertia(first_new, c.acceleration[0]);
             let modes = space.ritz()?;
             if is_last || space.count() == self.assembled.dofs() {
                 converged = Some(modes);
                 break;
             }
-            products.extend(space.products(products.len() / count, rows));
-            last = Some((self.smooth_responses(&modes, &products), modes));
+            products.extend(space.products(products.len() / row_count, rows));
+            previous = Some((self.smooth_responses(&modes, &products), modes));
         }
         let Some(modes) = converged else {
             return Err(self.slow_convergence(space.count(), change, tolerance));
         };
-        self.basis_of_many(space, &modes, effective.as_deref(), scheme_shift, tolerance)
+        self.basis_of_modes(space, &modes, effective.as_deref(), scheme_shift, tolerance)
     }
 
     /// Error for powers of K_eff that do not reach the tolerance.
-    fn slow_convergence(&self, vectors: usize, reached: f64, tolerance: f64) -> Error {
-        let forces = self.rows.force_count;
+    fn slow_convergence(&self, vector_count: usize, change: f64, tolerance: f64) -> Error {
+        let force_count = self.rows.force_count;
         let remedy = format!(
-            "with {vectors} vectors; it has {forces} forces, and with more than 99 few powers of the effective stiffness are \
-             tried, by which section forces of stiff structures do not converge below it: ask for 1e-4, leave out such \
-             probes, or take the degrees of freedom"
+            "with {vector_count} vectors for {force_count} forces; with more than 99 forces, section forces of stiff \
+             structures do not converge below it: use a tolerance of 1e-4, omit such probes, or use the degrees of freedom"
         );
-        inaccurate(reached, tolerance, remedy)
+        inaccurate(change, tolerance, remedy)
     }
 
-    /// The modes in degrees of freedom.
-    fn basis_of_many(
+    /// The modal basis in degrees of freedom.
+    fn basis_of_modes(
         &self,
         space: Subspace<'_>,
-        modes: &Ritz,
+        modes: &RitzModes,
         effective: Option<&SparseFactor>,
         scheme_shift: f64,
         tolerance: f64,
     ) -> Result<ModalBasis> {
-        if self.without_p_delta.is_none() {
+        if self.damping_without_p_delta.is_none() {
             return Ok(space.basis(modes));
         }
-        let floating = self.on_springs(scheme_shift)?;
-        let factors: Vec<_> = effective.into_iter().chain([&floating.factor]).collect();
-        self.basis(space, modes, &factors, tolerance)
+        let shifted = self.shifted_stiffness_factor(scheme_shift)?;
+        let factors: Vec<_> = effective.into_iter().chain([&shifted.factor]).collect();
+        self.basis_with_damping(space, modes, &factors, tolerance)
     }
 
-    /// Numbers of the rows of probes.
+    /// Indices of the rows of displacements and velocities of probes.
     fn probes(&self) -> Range<usize> {
         self.rows.force_count..self.rows.first_acceleration
     }
 
-    /// Factor on the length of directions that are left out, where the weakest response of a probe is small.
-    fn probe_factor(&self, space: &Subspace<'_>, products: &[f64]) -> Result<f64> {
+    /// Factor for the length of omitted directions, for the weakest response of a probe.
+    fn probe_length_factor(&self, space: &Subspace<'_>, products: &[f64]) -> Result<f64> {
         let responses = self.smooth_responses(&space.ritz()?, products);
-        Ok((WEAK_PROBE_FACTOR * responses.weakest(self.probes()))
+        Ok((WEAK_PROBE_FACTOR * responses.weakest_response(self.probes()))
             .clamp(MIN_PROBE_FACTOR, 1.0)
             .sqrt())
     }
 
-    /// Adds the vibration modes up to a frequency `limit`; returns the factor, or `None` for too many modes.
+    /// Adds the vibration modes up to a frequency limit (1/s), and returns the factor for static responses.
+    ///
+    /// `None` for too many modes.
     fn add_modes(
         &self,
         space: &mut Subspace<'_>,
-        limit: f64,
+        frequency_limit: f64,
         scheme_shift: f64,
         tolerance: f64,
-    ) -> Result<Option<Rc<Floating>>> {
-        let floating = self.on_springs(scheme_shift)?;
-        let upto =
-            Some((limit * limit + floating.springs, MODE_RESIDUAL_FACTOR * tolerance.sqrt()));
-        let found = lowest_modes(&floating.factor, &self.assembled.mass, MAX_VIBRATION_MODES, upto);
-        let found = found.filter(|modes| modes.values.len() < MAX_VIBRATION_MODES);
-        Ok(found.map(|modes| {
+    ) -> Result<Option<Rc<ShiftedStiffnessFactor>>> {
+        let shifted = self.shifted_stiffness_factor(scheme_shift)?;
+        let max_eigenvalue = frequency_limit * frequency_limit + shifted.shift;
+        let max_residual = MODE_RESIDUAL_FACTOR * tolerance.sqrt();
+        let modes = lowest_modes(
+            &shifted.factor,
+            &self.assembled.mass,
+            MAX_VIBRATION_MODES,
+            Some((max_eigenvalue, max_residual)),
+        );
+        let all_modes = modes.filter(|modes| modes.values.len() < MAX_VIBRATION_MODES);
+        Ok(all_modes.map(|modes| {
             // A small new component is the error of a mode already in the basis, not a new direction: skip it.
             space.extend(modes.vectors, MIN_NEW_FRACTION);
-            floating
+            shifted
         }))
     }
 
     /// Responses to forces that grow over [`FORCE_GROWTH_STEPS`] steps.
-    fn smooth_responses(&self, modes: &Ritz, products: &[f64]) -> StepResponses {
+    fn smooth_responses(&self, modes: &RitzModes, products: &[f64]) -> StepResponses {
         self.responses(modes, Subspace::modal_rows(modes, products), FORCE_GROWTH_STEPS)
     }
 
-    /// Factored K + σ²M; the factor of the static state is taken if it is usable.
-    fn on_springs(&self, scheme_shift: f64) -> Result<Rc<Floating>> {
-        if let Some(floating) = self.floating.take()
-            && floating.factor.is_positive_definite()
-            && floating.springs > MIN_SQUARED_SHIFT_RATIO * scheme_shift * scheme_shift
+    /// Factors K + σ²M, or takes the factor of the static state if its shift is usable.
+    fn shifted_stiffness_factor(&self, scheme_shift: f64) -> Result<Rc<ShiftedStiffnessFactor>> {
+        if let Some(shifted) = self.shifted_stiffness.take()
+            && shifted.factor.is_positive_definite()
+            && shifted.shift > MIN_SQUARED_SHIFT_RATIO * scheme_shift * scheme_shift
         {
-            return Ok(floating);
+            return Ok(shifted);
         }
-        let min_shift = STATIC_SHIFT_RANGE[0] * scheme_shift;
-        let max_shift = STATIC_SHIFT_RANGE[1] * scheme_shift;
-        let shift = self.fixed_base.lowest.clamp(min_shift, max_shift);
-        Floating::new(self.assembled, &SparseMatrix::default(), shift * shift).map(Rc::new)
+        let min_shift = MIN_STATIC_SHIFT_RATIO * scheme_shift;
+        let max_shift = MAX_STATIC_SHIFT_RATIO * scheme_shift;
+        let shift = self.fixed_base.lowest_frequency.clamp(min_shift, max_shift);
+        ShiftedStiffnessFactor::new(self.assembled, &SparseMatrix::default(), shift * shift)
+            .map(Rc::new)
     }
 }

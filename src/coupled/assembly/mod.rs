@@ -2,14 +2,16 @@
 //!
 //! 1. `parts.rs`: the builder's parts, each checked alone;
 //! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
-//! 3. `at_rest.rs`, `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
-//!    `flexible_base.rs` compares the result with the static state on twice the elements if these may be too few;
-//! 4. `stepped.rs`: choice of the coordinates; matrices, base and operators in them; `vibration_modes.rs` computes
-//!    all modes, `krylov.rs` and `many_forces.rs` Ritz modes;
+//! 3. `at_rest.rs`, `static_stages.rs`: the static state under the weight, then under the loads at t = 0, by the search of
+//!    `statics/equilibrium.rs`; if the elements may be too few, `flexible_base.rs` compares this state with that on twice
+//!    the elements;
+//! 4. `stepped.rs`: choice of the coordinates; matrices, base and operators in these coordinates. `vibration_modes.rs`
+//!    computes all modes, `krylov.rs` and `many_forces.rs` compute Ritz modes;
 //! 5. `scene.rs`: the scene; `initial_motion.rs`: the motion at t = 0.
 
 mod at_rest;
 mod backfilled;
+mod extended_subspace;
 mod fixed_base_results;
 mod flexible_base;
 mod growing_weight;
@@ -22,13 +24,13 @@ mod static_stages;
 mod step_response;
 mod stepped;
 mod subspace;
-mod unseen_shape;
 mod vibration_modes;
+mod zero_mean_shape;
 
 use std::cell::RefCell;
 
 use crate::coupled::assembly::fixed_base_results::FixedBaseResults;
-use crate::coupled::assembly::stepped::Stepped;
+use crate::coupled::assembly::stepped::SteppedStructure;
 use crate::coupled::base::tears;
 use crate::coupled::builder::SimulationBuilder;
 use crate::coupled::conditioning::conditioning;
@@ -57,20 +59,21 @@ impl Simulation {
 }
 
 impl SimulationBuilder {
-    /// Checks the parts against each other, finds the static state and factors constant matrices.
+    /// Checks the parts, computes the static state and factors constant matrices.
     ///
     /// # Errors
-    /// * the typed error of a part that is wrong, [`crate::Error::Scene`] for a missing part;
-    /// * [`StructureError::Restrained`](crate::structure::StructureError::Restrained) for a structure held by more than the ground, [`StructureError::Detached`](crate::structure::StructureError::Detached) for
-    ///   one with a part that is not connected to its base, [`crate::Error::Indefinite`] for a negative mass or
-    ///   damping, or a stiffness that is negative with the base held;
+    /// * the typed error of an invalid part, [`crate::Error::Scene`] for a missing part;
+    /// * [`StructureError::Restrained`](crate::structure::StructureError::Restrained) for a structure with a support besides
+    ///   the ground, [`StructureError::Detached`](crate::structure::StructureError::Detached) for a structure with a part
+    ///   that is not connected to its base, [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that
+    ///   is negative with a fixed base;
     /// * [`crate::Error::Item`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
     ///   not exist or a name that occurs twice;
-    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0, or buckles on its
-    ///   ground (P–Δ), without gravity and without a static state too;
-    ///   [`crate::Error::Preload`] if no equilibrium was found for another reason;
-    /// * [`crate::Error::CoarseBase`] for a flexible base on so few contact elements that twice as many change its
-    ///   static shape by more than 30 %;
+    /// * [`crate::Error::Stability`] if the structure has no equilibrium under its weight and the loads at t = 0, or buckles
+    ///   on its ground (P–Δ), also without gravity or a static state;
+    ///   [`crate::Error::Preload`] if the search finds no equilibrium for an unknown reason;
+    /// * [`crate::Error::CoarseBase`] for a flexible base on too few contact elements: twice as many change its static shape
+    ///   by more than 30 %;
     /// * [`crate::Error::IllConditioned`] if double precision is insufficient for the scene;
     /// * [`crate::Error::Law`] for an interface law that returns numbers which are not finite;
     /// * [`crate::Error::Memory`] for more expected steps than fit into the memory of the ground's history;
@@ -79,51 +82,63 @@ impl SimulationBuilder {
         let mut parts = Parts::new(self)?;
         let (assembled, fixed_factor) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let mut fixed_base = FixedBaseResults::new(&parts, &assembled, fixed_factor)?;
-        let shared = RefCell::default();
-        let at_rest = at_rest::solve(&mut parts, &assembled, &mut fixed_base.condensed, &shared)?;
-        let models = (&assembled, fixed_base.condensed.as_ref());
-        let coarse = flexible_base::check(&parts, models, &at_rest, &shared)?;
-        let floating = shared.take().map(|compliance: Compliance| compliance.floating);
+        let shared_compliance = RefCell::default();
+        let static_state =
+            at_rest::solve(&mut parts, &assembled, &mut fixed_base.condensed, &shared_compliance)?;
+        let structures = (&assembled, fixed_base.condensed.as_ref());
+        let coarse_base_warning =
+            flexible_base::check(&parts, structures, &static_state, &shared_compliance)?;
+        let shifted_stiffness =
+            shared_compliance.take().map(|compliance: Compliance| compliance.factor);
         let structure = parts.structure.as_ref();
-        let positive_definite = fixed_base.positive_definite(&assembled, floating.as_deref());
+        let positive_definite =
+            fixed_base.positive_definite(&assembled, shifted_stiffness.as_deref());
         assembled.check_damping(structure, positive_definite)?;
-        let reduction = fixed_base.take_for_reduction(&assembled, floating);
-        let Assembled { stiffness, influence, .. } = &assembled;
-        let motion: [&[f64]; 2] = [&at_rest.displacement, &at_rest.force];
-        let joined = supports::joined_by_force(structure, stiffness, influence, motion)?;
-        let Stepped { model, base, operators } =
-            Stepped::choose(&parts, &assembled, reduction, &at_rest)?;
-        let scene = Scene::new(&mut parts, model, base, at_rest, joined);
+        let reduction = fixed_base.take_reduction_input(&assembled, shifted_stiffness);
+        let is_connected_by_force = supports::parts_connected_by_force(
+            structure,
+            &assembled.stiffness,
+            &assembled.influence,
+            &static_state.displacement,
+            &static_state.force,
+        )?;
+        let SteppedStructure { model, base, operators } =
+            SteppedStructure::new(&parts, &assembled, reduction, &static_state)?;
+        let scene = Scene::new(&mut parts, model, base, static_state, is_connected_by_force);
 
-        let Parts { mut structure, ground, description, builder, first_order_ground, .. } = parts;
+        let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } =
+            parts;
         let mut solver = Solver::new(&scene, operators, builder.search);
         let mut state = State::at_rest(&scene)?;
-        let compliant = scene.is_compliant(&state.start)?;
+        let is_compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;
-        initial_motion::set_in_motion(&builder, mass, &scene, structure.as_mut(), &mut state)?;
-        let mut energy = None;
-        if builder.energy_balance {
-            energy = Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant)?);
+        initial_motion::set_initial_motion(&builder, mass, &scene, structure.as_mut(), &mut state)?;
+        let mut energies = None;
+        if builder.has_energy_balance {
+            energies =
+                Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, is_compliant)?);
         }
         state.energy_balance =
-            energy.as_ref().map_or(EnergyBalance::LEFT_OUT, |energy| energy.energy_balance);
+            energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
         let mut warnings =
             Warning::of_scene(&scene, &description, builder.motion.as_ref(), fixed_base.period);
-        warnings.extend(first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
+        warnings
+            .extend(is_first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
         let weight = Weight::new(builder.gravity, &assembled);
         let soils = &description.soils;
         Warning::add_mistakes(&mut warnings, &scene, soils, structure.as_ref(), &weight);
         warnings.extend(Warning::of_tears(tears(&structure.base())?));
-        warnings.extend(coarse);
+        warnings.extend(coarse_base_warning);
         let pressures_above =
             wall_pressure::pressures_above(&scene, &description.mass_above, builder.gravity);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
-        // Checked last: stiffnesses too far apart for double precision look like a mechanism.
-        fixed_base.is_firm?;
+        // The check for mechanisms comes last. Stiffnesses too different for double precision look like a mechanism and
+        // have an error of their own.
+        fixed_base.mechanism_check?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene, &state, compliant && builder.energy_balance),
-            energies: energy,
+            increment: Increment::new(&scene, &state, is_compliant && builder.has_energy_balance),
+            energies,
             motion: builder.motion,
             structure,
             ground,
@@ -133,10 +148,10 @@ impl SimulationBuilder {
             conditioning,
             warnings,
             pressures_above,
-            drag: assembled.drag(),
+            translation_damping_rate: assembled.translation_damping_rate(),
             rotation_limit: builder.rotation_limit,
-            expected_steps: builder.steps,
-            prepared: builder.steps,
+            expected_steps: builder.expected_steps,
+            prepared_steps: builder.expected_steps,
         })
     }
 }

@@ -7,30 +7,32 @@
 //! | Φ, ω | Ritz modes of M and K, and their circular frequencies |
 //! | Z | K_eff, or K + σ²M |
 //!
-//! C couples the modes by −βG alone. The space is found, and its tolerance checked, with the damping βK + αM. The forces −βG of
-//! the modes' velocities act on all degrees of freedom. The space therefore receives the responses Z⁻¹βGΦω to them.
+//! Only −βG in C couples the modes. The space is built, and its tolerance checked, with the damping βK + αM. The damping
+//! forces −βG of the modes' velocities act on all degrees of freedom. The responses Z⁻¹βGΦω to them are added to the space.
 
 use crate::coupled::assembly::krylov::Reduction;
-use crate::coupled::assembly::subspace::{Ritz, Subspace};
+use crate::coupled::assembly::subspace::{RitzModes, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, symmetric_products};
 
-/// Length of responses to the coupling that are left out, relative to the mode and to the root of the tolerance.
+/// Smallest length of a response to the coupling that is added, relative to the mode and to the root of the tolerance.
 ///
-/// Forces and probes respond to the square of what is left out.
-const LEFT_OUT: f64 = 0.1;
+/// Errors of forces and probes depend on the square of this length.
+const MIN_COUPLING_LENGTH_RATIO: f64 = 0.1;
 
 impl Reduction<'_> {
-    /// The modes in degrees of freedom, with responses to the coupling by damping; `factors`: of Z.
-    pub(super) fn basis(
+    /// The modes in degrees of freedom, with responses to the coupling by damping.
+    ///
+    /// `factors` are the factored matrices Z.
+    pub(super) fn basis_with_damping(
         &self,
         mut space: Subspace<'_>,
-        modes: &Ritz,
+        modes: &RitzModes,
         factors: &[&SparseFactor],
         tolerance: f64,
     ) -> Result<ModalBasis> {
-        let Some([beta, alpha]) = self.without_p_delta else {
+        let Some([beta, alpha]) = self.damping_without_p_delta else {
             return Ok(space.basis(modes));
         };
         let mass: &SparseMatrix = &self.assembled.mass;
@@ -39,14 +41,14 @@ impl Reduction<'_> {
         let order = mass.order();
         let terms = [(1.0, damping), (-beta, stiffness), (-alpha, mass)];
         let coupling = SparseMatrix::sum("damping matrix of P–Δ", order, &terms)?;
-        // The space may have grown since.
+        // The space may have more vectors than the modes.
         let modes = space.ritz()?;
-        // A step follows no faster motion.
+        // The time scheme does not resolve higher frequencies.
         let c = self.coefficients;
-        let fastest = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
+        let max_frequency = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
         let mut forces = coupling.times(&space.mode_rows(&modes));
         for (force, square) in forces.chunks_exact_mut(order).zip(&modes.stiffness) {
-            let frequency = square.max(0.0).sqrt().min(fastest);
+            let frequency = square.max(0.0).sqrt().min(max_frequency);
             for value in force.iter_mut() {
                 *value *= frequency;
             }
@@ -54,7 +56,7 @@ impl Reduction<'_> {
         for factor in factors {
             let mut block = forces.clone();
             factor.solve_many(&mut block);
-            space.extend_by_length(block, LEFT_OUT * tolerance.sqrt());
+            space.extend_by_length(block, MIN_COUPLING_LENGTH_RATIO * tolerance.sqrt());
         }
         let modes = space.ritz()?;
         let rows = space.mode_rows(&modes);

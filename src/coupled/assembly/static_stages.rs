@@ -1,4 +1,4 @@
-//! Stages of the static state: weight, and then the loads at t = 0.
+//! Stages of the static state: the weight first, then the loads at t = 0.
 
 use std::cell::Cell;
 
@@ -6,7 +6,7 @@ use super::growing_weight::state_under_growing_weight;
 use super::settled::settle;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::statics::buckling::has_p_delta;
-use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::stability::cause;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, LawError, Result, StabilityError};
@@ -16,64 +16,66 @@ use crate::interface::{
 };
 use crate::linalg::largest;
 
-/// Number of load increments if elements slide, since friction depends on the path.
+/// Number of load increments if elements slide or yield: friction depends on the path.
 const LOAD_INCREMENT_COUNT: usize = 10;
 
 /// Tolerance of a law's conditions in a static state, relative to the largest pressure and displacement.
 const LAW_CONDITION_TOLERANCE: f64 = 1e-6;
 
-/// Step length that laws see in a gravity stage, s.
+/// Time step of laws in a gravity stage, s; static states do not depend on it.
 pub(super) const GRAVITY_STAGE_TIME_STEP: f64 = 1.0;
 
-/// The state under `weight` by the chosen gravity stage, and the contact states at which laws start.
-pub(super) fn placed(
-    stage: &Standing<'_>,
+/// Static state under the `weight`, by the chosen gravity stage, and the contact of its elements.
+pub(super) fn state_under_weight(
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     gravity_stage: GravityStage,
     weight: &[f64],
 ) -> Result<(StaticState, Vec<ContactState>)> {
-    let layout = stage.assembled.base.layout();
-    let count = layout.elements();
-    let is_placed = gravity_stage != GravityStage::Frictional;
-    // Limits apply without friction and cohesion.
-    let by_limits = is_placed && LawForm::of(layout) == LawForm::Limits;
-    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
+    let layout = problem.assembled.base.layout();
+    let element_count = layout.elements();
+    let is_frictionless = gravity_stage != GravityStage::Frictional;
+    // Laws with limits act without friction and cohesion.
+    let has_frictionless_limits = is_frictionless && LawForm::of(layout) == LawForm::Limits;
+    let frictionless_laws: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
-    let is_smooth = is_placed && !by_limits && can_open;
-    let placing = if is_smooth { &smooth } else { laws };
+    let has_frictionless_laws = is_frictionless && !has_frictionless_limits && can_open;
+    let placing_laws = if has_frictionless_laws { &frictionless_laws } else { laws };
     let at_rest =
         PreviousContact::new(ContactState::default(), Mode::Stick, GRAVITY_STAGE_TIME_STEP);
-    let first = PreviousContacts::new(placing, &vec![at_rest; count])?;
+    let initial_contact = PreviousContacts::new(placing_laws, &vec![at_rest; element_count])?;
     let mut state = StaticState::weightless(layout, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
-        *mode = law_of(placing, e).modes()[0];
+        *mode = law_of(placing_laws, e).modes()[0];
     }
-    let place = Standing { frictionless: by_limits, ..*stage };
-    let found = settle(&place, placing, first.clone(), state.clone(), weight);
-    let (mut state, start) = found.or_else(|error| {
-        let error = cause(&place, placing, weight, error);
-        state_under_growing_weight(&place, placing, (&first, state), weight, error)
+    let problem = StaticProblem { is_frictionless: has_frictionless_limits, ..*problem };
+    let equilibrium =
+        settle(&problem, placing_laws, initial_contact.clone(), state.clone(), weight);
+    let (mut state, contact) = equilibrium.or_else(|error| {
+        let error = cause(&problem, placing_laws, weight, error);
+        let start = (&initial_contact, state);
+        state_under_growing_weight(&problem, placing_laws, start, weight, error)
     })?;
-    if is_smooth {
-        check_placed(laws, &state, &start)?;
+    if has_frictionless_laws {
+        check_frictionless_state(laws, &state, &contact)?;
     }
-    // A frictionless law with as many state variables is the same law and keeps them. Other laws start with new
-    // ones, and so do elements whose state variables have not changed.
-    state.state_variables = Vec::with_capacity(count);
-    for e in 0..count {
-        let values = start.state_variables_of(e);
+    // A frictionless law with as many state variables counts as the same law, and its variables are transferred. Other
+    // laws start with initial state variables, as do elements whose state variables have not changed.
+    state.state_variables = Vec::with_capacity(element_count);
+    for e in 0..element_count {
+        let values = contact.state_variables_of(e);
         let is_same_law = values.len() == law_of(laws, e).state_variables();
-        let is_unchanged = values == first.state_variables_of(e);
-        let is_kept = is_same_law && !(by_limits && is_unchanged);
-        state.state_variables.push(if is_kept { values.to_vec() } else { Vec::new() });
+        let is_unchanged = values == initial_contact.state_variables_of(e);
+        let is_transferred = is_same_law && !(has_frictionless_limits && is_unchanged);
+        state.state_variables.push(if is_transferred { values.to_vec() } else { Vec::new() });
     }
-    Ok((state, (0..count).map(|e| *start.state(e)).collect()))
+    Ok((state, (0..element_count).map(|e| *contact.state(e)).collect()))
 }
 
-/// The state under `load` in addition to the `weight`, with the interface laws.
-pub(super) fn loaded(
-    stage: &Standing<'_>,
+/// Static state under `weight` and `load`, from the state under the weight, with the interface laws.
+pub(super) fn state_under_load(
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     (mut state, contact): (StaticState, Vec<ContactState>),
     [weight, load]: [&[f64]; 2],
@@ -81,49 +83,51 @@ pub(super) fn loaded(
     if load.iter().all(|force| *force == 0.0) {
         return Ok(state);
     }
-    // From now on the base sticks at its place.
+    // Under further loads the base sticks at its present position.
     state.modes = state.modes_with(laws);
-    under_growing_load(stage, laws, (state, &contact), [weight, load])
+    state_under_growing_load(problem, laws, (state, &contact), [weight, load])
 }
 
-/// The state under `weight` and `load`, from the `state` under the weight, with its contact states.
+/// Static state under `weight` and `load`, from the `state` under the weight with its contact.
 ///
-/// In one increment, or in several if elements slide or yield: friction depends on the path.
-fn under_growing_load(
-    stage: &Standing<'_>,
+/// The load is applied in one increment, or in several if elements slide or yield: friction depends on the path.
+fn state_under_growing_load(
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     (state, contact): (StaticState, &[ContactState]),
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let count = state.modes.len();
-    let placed: Vec<_> = (0..count)
+    let element_count = state.modes.len();
+    let element_contacts: Vec<_> = (0..element_count)
         .map(|e| {
             let start = PreviousContact::new(contact[e], state.modes[e], GRAVITY_STAGE_TIME_STEP);
             start.with_state_variables(&state.state_variables[e])
         })
         .collect();
-    let begin = PreviousContacts::new(laws, &placed)?;
+    let initial_contact = PreviousContacts::new(laws, &element_contacts)?;
     let total_load = |factor: f64| -> Vec<f64> {
         weight.iter().zip(load).map(|(weight, load)| weight + factor * load).collect()
     };
-    let reached = Cell::new(0.0);
-    let path = |increments: usize| -> Result<StaticState> {
+    // Largest factor of the load with an equilibrium.
+    let equilibrium_factor = Cell::new(0.0);
+    let follow_path = |increment_count: usize| -> Result<StaticState> {
         let mut state = state.clone();
-        let mut start = begin.clone();
-        reached.set(0.0);
-        for k in 1..=increments {
-            let factor = k as f64 / increments as f64;
-            (state, start) = settle(stage, laws, start, state, &total_load(factor))?;
-            reached.set(factor);
+        let mut contact = initial_contact.clone();
+        equilibrium_factor.set(0.0);
+        for k in 1..=increment_count {
+            let factor = k as f64 / increment_count as f64;
+            (state, contact) = settle(problem, laws, contact, state, &total_load(factor))?;
+            equilibrium_factor.set(factor);
         }
-        state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
+        state.state_variables =
+            (0..element_count).map(|e| contact.state_variables_of(e).to_vec()).collect();
         Ok(state)
     };
-    match path(1) {
+    match follow_path(1) {
         Ok(state) if !is_path_dependent(laws, &state) => Ok(state),
-        _ => path(LOAD_INCREMENT_COUNT).map_err(|error| {
-            let error = cause(stage, laws, &total_load(1.0), error);
-            toppling_by_loads(stage, reached.get(), error)
+        _ => follow_path(LOAD_INCREMENT_COUNT).map_err(|error| {
+            let error = cause(problem, laws, &total_load(1.0), error);
+            toppling_by_loads(problem, equilibrium_factor.get(), error)
         }),
     }
 }
@@ -136,28 +140,32 @@ fn is_path_dependent(laws: &[Box<dyn InterfaceLaw>], state: &StaticState) -> boo
     })
 }
 
-/// Toppling beyond the fraction `reached` of the loads, where P–Δ explains an unexplained `error`.
-fn toppling_by_loads(stage: &Standing<'_>, reached: f64, error: Error) -> Error {
-    if matches!(error, Error::Preload { .. }) && has_p_delta(stage.structure) {
-        let cause = StabilityError::Toppling { factor: reached, by_loads: true };
+/// Replaces an unexplained `error` by toppling, for a structure with P–Δ.
+///
+/// `equilibrium_factor` is the largest factor of the loads with an equilibrium.
+fn toppling_by_loads(problem: &StaticProblem<'_>, equilibrium_factor: f64, error: Error) -> Error {
+    if matches!(error, Error::Preload { .. }) && has_p_delta(problem.structure) {
+        let cause = StabilityError::Toppling { factor: equilibrium_factor, by_loads: true };
         return Error::Stability(Box::new(cause));
     }
     error
 }
 
-/// Error for a static state, found without friction, that the law of a closed element cannot hold.
+/// Error for a frictionless static state that violates the law of a closed element.
 ///
-/// Example: a law with a bearing pressure or a compliance whose frictionless law has none.
-fn check_placed(
+/// An example is a law with a bearing pressure or a compliance, if its frictionless law has none.
+fn check_frictionless_state(
     laws: &[Box<dyn InterfaceLaw>],
     state: &StaticState,
     start: &PreviousContacts,
 ) -> Result<()> {
     let pressures = &state.traction[..state.modes.len()];
-    let pressure = largest(pressures);
-    let length = largest(&state.displacement);
-    let tolerance =
-        Tolerance::new(LAW_CONDITION_TOLERANCE * length, LAW_CONDITION_TOLERANCE * pressure);
+    let pressure_scale = largest(pressures);
+    let length_scale = largest(&state.displacement);
+    let tolerance = Tolerance::new(
+        LAW_CONDITION_TOLERANCE * length_scale,
+        LAW_CONDITION_TOLERANCE * pressure_scale,
+    );
     for (element, mode) in state.modes.iter().enumerate().filter(|(_, mode)| mode.is_closed()) {
         let law = law_of(laws, element);
         let contact = ContactState {
@@ -165,32 +173,33 @@ fn check_placed(
             pressure: pressures[element],
             ..ContactState::default()
         };
-        let at_rest = law.modes()[0];
-        let previous = PreviousContact::new(contact, at_rest, GRAVITY_STAGE_TIME_STEP);
+        let first_mode = law.modes()[0];
+        let previous = PreviousContact::new(contact, first_mode, GRAVITY_STAGE_TIME_STEP);
         let values = start.state_variables_of(element);
-        let first = previous.first_state_variables(law);
-        let previous = previous.with_state_variables(if values.len() == first.len() {
-            values
-        } else {
-            &first
-        });
+        let initial_values = previous.first_state_variables(law);
+        let has_same_count = values.len() == initial_values.len();
+        let previous =
+            previous.with_state_variables(if has_same_count { values } else { &initial_values });
         let is_violated = |condition: &Condition| {
-            let Condition { gap, pressure: factor, value, .. } = *condition;
-            let residual = gap * contact.gap + factor * contact.pressure - value;
-            let scale = gap.abs() * length + factor.abs() * pressure + value.abs();
+            let Condition { gap: gap_factor, pressure: pressure_factor, value, .. } = *condition;
+            let residual = gap_factor * contact.gap + pressure_factor * contact.pressure - value;
+            let scale = gap_factor.abs() * length_scale
+                + pressure_factor.abs() * pressure_scale
+                + value.abs();
             residual.abs() > LAW_CONDITION_TOLERANCE * scale
         };
-        let next = law.next_mode(at_rest, &previous, &contact, tolerance);
+        let next_mode = law.next_mode(first_mode, &previous, &contact, tolerance);
         let is_at_limit = mode.is_yield() || mode.is_active();
-        let yields = (next.is_yield() || next.is_active()) && !is_at_limit;
-        if !yields && (is_at_limit || !law.conditions(at_rest, &previous).iter().any(is_violated)) {
+        let starts_yielding = (next_mode.is_yield() || next_mode.is_active()) && !is_at_limit;
+        let has_violation = || law.conditions(first_mode, &previous).iter().any(is_violated);
+        if !starts_yielding && (is_at_limit || !has_violation()) {
             continue;
         }
-        let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
+        let needed = "one that satisfies the law: implement `frictionless` of the law, or use \
                       `GravityStage::Frictional`, in which the law itself acts";
-        let unheld = Error::Scene { quantity: "static state without friction", needed };
-        let reason = Box::new(law.check_start(&previous).err().unwrap_or(unheld));
-        return Err(Error::Law(LawError { element, mode: at_rest.word(), reason }));
+        let violation = Error::Scene { quantity: "static state without friction", needed };
+        let reason = Box::new(law.check_start(&previous).err().unwrap_or(violation));
+        return Err(Error::Law(LawError { element, mode: first_mode.word(), reason }));
     }
     Ok(())
 }

@@ -1,168 +1,228 @@
-//! Responses of modes to suddenly applied unit forces, by the time scheme; they serve to compare two sets of Ritz
-//! modes.
+//! Responses of Ritz modes to suddenly applied unit forces, by the time scheme, to compare two sets of modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | f | row in terms of the modes, with f K_eff⁻¹ fᵀ = 1 |
-//! | u, v, a | displacement, velocity, acceleration of the modes under a unit force on each |
+//! | f | modal weights of a row, with f K_eff⁻¹ fᵀ = 1 |
+//! | u, v, a | displacement, velocity and acceleration of each mode under a unit force |
 //!
-//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows at a constant rate,
-//! the accelerations are the velocities v under a constant force, and the velocities the displacements u. Loads
-//! may jump: the value of a probe is then its sum of u, v and a.
+//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows at a constant rate, the
+//! accelerations are the velocities v under a constant force, and the velocities are the displacements u. Loads may start
+//! suddenly. The value of a probe is then its sum of u, v and a.
 
-use crate::coupled::assembly::subspace::Ritz;
+use crate::coupled::assembly::subspace::RitzModes;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::linalg::{largest, row_products};
 
 /// Rounding of a response, relative to the largest response.
-const RESPONSE_ROUNDING: f64 = 1e-13;
+const RESPONSE_ROUNDING_TOLERANCE: f64 = 1e-13;
 
-/// Rows of degrees of freedom with forces, and rows of probes.
+/// Rows of forces and of probes, with a weight for each degree of freedom.
 #[derive(Default)]
 pub(crate) struct ResponseRows {
-    /// Rows of loads, other forces, displacements and velocities, accelerations: an entry for every degree of
-    /// freedom.
+    /// All rows, one after the other: loads, other forces, displacements and velocities of probes, accelerations of
+    /// probes.
     pub(crate) all: Vec<f64>,
     /// Number of loads, which are the first rows.
     pub(crate) load_count: usize,
     /// Number of all forces, loads included.
     pub(crate) force_count: usize,
-    /// Number of the first row of an acceleration.
+    /// Index of the first row of an acceleration.
     pub(crate) first_acceleration: usize,
-    /// Row numbers of displacements, velocities and accelerations that each probe sums.
+    /// Indices of the rows of displacement, velocity and acceleration of each probe; `None` for a row of zeros.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
 
-/// Responses of all outputs to all forces.
+/// Responses of all outputs (rows) to all forces, at some steps.
 pub(crate) struct StepResponses {
-    /// Displacements and velocities at some steps: forces × outputs each.
-    values: [Vec<f64>; 2],
-    outputs: usize,
-    /// Number of the first output that is an acceleration.
-    accelerations: usize,
-    /// Values of the probes at these steps: loads × probes.
-    read: Vec<f64>,
-    probes: usize,
+    /// Displacements at each step: forces × outputs.
+    displacements: Vec<f64>,
+    /// Velocities in the same order.
+    velocities: Vec<f64>,
+    output_count: usize,
+    /// Index of the first output that is an acceleration.
+    first_acceleration: usize,
+    /// Values of the probes at each step: loads × probes.
+    probe_values: Vec<f64>,
+    probe_count: usize,
 }
 
 impl StepResponses {
-    /// Responses over `steps` steps of `rows`; `modal_rows`: the rows in terms of the modes.
+    /// Responses of `rows` over `step_count` steps to forces that grow over `growth_steps` steps.
     ///
-    /// Forces grow over `growth_steps` steps by binomial weights.
+    /// `modal_rows` has the modal weights of the rows. The forces grow by binomial weights.
     pub(crate) fn new(
-        modes: &Ritz,
+        modes: &RitzModes,
         mut modal_rows: Vec<f64>,
         rows: &ResponseRows,
         c: &SchemeCoefficients,
-        steps: usize,
+        step_count: usize,
         growth_steps: usize,
     ) -> Self {
-        let loads = rows.load_count;
-        let forces = rows.force_count;
-        let accelerations = rows.first_acceleration;
-        let count = modes.stiffness.len().max(1);
-        let mut effective = Vec::with_capacity(count);
+        let mode_count = modes.stiffness.len().max(1);
+        let mut effective_stiffness = Vec::with_capacity(mode_count);
         for (k, d) in modes.stiffness.iter().zip(&modes.damping) {
-            effective.push(c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k);
+            effective_stiffness.push(c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k);
         }
-        let norms = normalise_rows(&mut modal_rows, &effective);
-        let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
-            .take_while(|s| *s <= steps)
-            .collect();
-        let states = mode_states(modes, c, &effective, &times, &binomial(growth_steps));
-        let mut values = [Vec::new(), Vec::new()];
-        let mut read = Vec::new();
-        let mut weighted = vec![0.0; forces * count];
-        for states in states.chunks_exact(3 * count) {
-            let mut responses = |forces: usize, kind: usize| {
-                let states = &states[kind * count..(kind + 1) * count];
-                let weighted = &mut weighted[..forces * count];
-                for (row, weighted) in
-                    modal_rows.chunks_exact(count).zip(weighted.chunks_exact_mut(count))
-                {
-                    let terms = row.iter().zip(states).zip(weighted);
-                    terms.for_each(|((f, state), term)| *term = f * state);
-                }
-                row_products(weighted, &modal_rows, count)
-            };
-            let displacements = responses(forces, 0);
-            let velocities = responses(forces, 1);
-            if loads > 0 {
-                let by_kind = [&displacements, &velocities, &responses(loads, 2)];
-                for load in 0..loads {
-                    read.extend(rows.probes.iter().map(|probe| {
-                        let parts = probe.iter().zip(by_kind).filter_map(|(row, responses)| {
-                            row.map(|row| responses[load * norms.len() + row] * norms[row])
-                        });
-                        parts.sum::<f64>()
-                    }));
-                }
+        let norms = normalise_rows(&mut modal_rows, &effective_stiffness);
+        let compared_steps: Vec<usize> =
+            std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
+                .take_while(|step| *step <= step_count)
+                .collect();
+        let growth_weights = binomial_weights(growth_steps);
+        let all_states =
+            mode_states(modes, c, &effective_stiffness, &compared_steps, &growth_weights);
+        let mut responses = Self {
+            displacements: Vec::new(),
+            velocities: Vec::new(),
+            output_count: norms.len(),
+            first_acceleration: rows.first_acceleration,
+            probe_values: Vec::new(),
+            probe_count: rows.probes.len(),
+        };
+        let mut scratch = vec![0.0; rows.force_count * mode_count];
+        for states in all_states.chunks_exact(3 * mode_count) {
+            let [u, v, a] = [0, 1, 2].map(|k| &states[k * mode_count..(k + 1) * mode_count]);
+            let displacements = output_responses(&modal_rows, u, rows.force_count, &mut scratch);
+            let velocities = output_responses(&modal_rows, v, rows.force_count, &mut scratch);
+            if rows.load_count > 0 {
+                let accelerations = output_responses(&modal_rows, a, rows.load_count, &mut scratch);
+                let derivatives = [&displacements, &velocities, &accelerations];
+                responses.add_probe_values(rows, derivatives, &norms);
             }
-            values[0].extend(displacements);
-            values[1].extend(velocities);
+            responses.displacements.extend(displacements);
+            responses.velocities.extend(velocities);
         }
-        Self { values, outputs: norms.len(), accelerations, read, probes: rows.probes.len() }
+        responses
     }
 
-    /// Largest displacement of each of these `outputs`, the smallest of all.
-    ///
-    /// It is at most about 1, the response of a row of unit energy norm to a force on itself. The row of a section force
-    /// has a large norm by the stiffness at the cut, and responds little to tractions far away. Directions that the modes
-    /// lack cause errors relative to the norms, which are larger relative to such a response.
-    pub(crate) fn weakest(&self, outputs: std::ops::Range<usize>) -> f64 {
-        let mut sizes = vec![0.0_f64; outputs.len()];
-        for responses in self.values[0].chunks_exact(self.outputs.max(1)) {
-            let values = sizes.iter_mut().zip(&responses[outputs.clone()]);
-            values.for_each(|(size, value)| *size = size.max(value.abs()));
+    /// Adds the values of all probes under each load, from responses of the normalised rows.
+    fn add_probe_values(
+        &mut self,
+        rows: &ResponseRows,
+        derivatives: [&Vec<f64>; 3],
+        norms: &[f64],
+    ) {
+        for load in 0..rows.load_count {
+            for probe in &rows.probes {
+                let terms = probe.iter().zip(derivatives).filter_map(|(row, responses)| {
+                    row.map(|row| responses[load * norms.len() + row] * norms[row])
+                });
+                self.probe_values.push(terms.sum::<f64>());
+            }
         }
-        sizes.into_iter().filter(|size| *size > 0.0).fold(1.0, f64::min)
     }
 
-    /// Largest difference of any output from `other`, relative to the largest value of that output.
+    /// Weakest response: the smallest of the largest displacements of some outputs.
     ///
-    /// At least rounding.
+    /// It is at most about 1, the response of a row of unit energy norm to a force on itself. The row of a section force has
+    /// a large norm because of the stiffness at the section, and small responses to distant tractions. Directions that the
+    /// modes do not contain cause errors relative to the norms. These errors are larger relative to a small response.
+    pub(crate) fn weakest_response(&self, outputs: std::ops::Range<usize>) -> f64 {
+        let mut max_values = vec![0.0_f64; outputs.len()];
+        for responses in self.displacements.chunks_exact(self.output_count.max(1)) {
+            let pairs = max_values.iter_mut().zip(&responses[outputs.clone()]);
+            pairs.for_each(|(max_value, value)| *max_value = max_value.max(value.abs()));
+        }
+        max_values.into_iter().filter(|value| *value > 0.0).fold(1.0, f64::min)
+    }
+
+    /// Largest difference of any output from `other`, relative to the largest value of this output.
+    ///
+    /// It is not smaller than rounding.
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
-        let [displacements, velocities] = &self.values;
-        let first_acceleration = self.accelerations;
-        let outputs = self.outputs;
-        let rounding = RESPONSE_ROUNDING / tolerance;
-        let displacement_floor = rounding * largest(displacements);
-        let velocity_floor = rounding * largest(velocities);
-        let comparisons = [
-            (displacements, &other.values[0], outputs, 0..first_acceleration, displacement_floor),
-            (velocities, &other.values[1], outputs, first_acceleration..outputs, velocity_floor),
-            // Probes have different units: no common floor.
-            (&self.read, &other.read, self.probes, 0..self.probes, 0.0),
-        ];
-        let mut worst = RESPONSE_ROUNDING;
-        for (values, others, outputs, compared, floor) in comparisons {
-            let mut sizes = vec![floor; compared.len()];
-            let mut changes = vec![0.0_f64; compared.len()];
-            let outputs = outputs.max(1);
-            for (row, other) in values.chunks_exact(outputs).zip(others.chunks_exact(outputs)) {
-                let pairs = row[compared.clone()].iter().zip(&other[compared.clone()]);
-                for ((a, b), (size, change)) in pairs.zip(sizes.iter_mut().zip(&mut changes)) {
-                    *size = size.max(a.abs());
-                    // `max` ignores NaN.
-                    let difference = (a - b).abs();
-                    *change =
-                        if difference.is_finite() { change.max(difference) } else { f64::INFINITY };
-                }
-            }
-            for (size, change) in sizes.into_iter().zip(changes) {
-                if change.is_infinite() {
-                    return f64::INFINITY;
-                }
-                worst =
-                    worst.max(if change > 0.0 { change / (size * rounding.max(1.0)) } else { 0.0 });
-            }
+        let Self { output_count, first_acceleration, .. } = *self;
+        let rounding = RESPONSE_ROUNDING_TOLERANCE / tolerance;
+        let displacements = Comparison {
+            values: &self.displacements,
+            other_values: &other.displacements,
+            output_count,
+            compared_outputs: 0..first_acceleration,
+            min_scale: rounding * largest(&self.displacements),
+        };
+        let accelerations = Comparison {
+            values: &self.velocities,
+            other_values: &other.velocities,
+            output_count,
+            compared_outputs: first_acceleration..output_count,
+            min_scale: rounding * largest(&self.velocities),
+        };
+        // Probes have different units and therefore no common smallest scale.
+        let probes = Comparison {
+            values: &self.probe_values,
+            other_values: &other.probe_values,
+            output_count: self.probe_count,
+            compared_outputs: 0..self.probe_count,
+            min_scale: 0.0,
+        };
+        let mut max_difference = RESPONSE_ROUNDING_TOLERANCE;
+        for comparison in [displacements, accelerations, probes] {
+            max_difference = max_difference.max(comparison.difference(rounding));
         }
-        worst
+        max_difference
     }
 }
 
-/// Weights of a force at each of `count` steps and the one before: k of `count`, over 2 to the power of `count`.
-fn binomial(count: usize) -> Vec<f64> {
+/// Comparison of two sets of responses.
+struct Comparison<'a> {
+    /// Responses, one output after the other for each force and step.
+    values: &'a [f64],
+    other_values: &'a [f64],
+    output_count: usize,
+    compared_outputs: std::ops::Range<usize>,
+    /// Smallest scale of an output.
+    min_scale: f64,
+}
+
+impl Comparison<'_> {
+    /// Largest difference of any compared output, relative to the largest value of this output.
+    fn difference(self, rounding: f64) -> f64 {
+        let compared_outputs = self.compared_outputs;
+        let mut scales = vec![self.min_scale; compared_outputs.len()];
+        let mut changes = vec![0.0_f64; compared_outputs.len()];
+        let output_count = self.output_count.max(1);
+        let rows = self.values.chunks_exact(output_count);
+        for (row, other_row) in rows.zip(self.other_values.chunks_exact(output_count)) {
+            let pairs =
+                row[compared_outputs.clone()].iter().zip(&other_row[compared_outputs.clone()]);
+            for ((a, b), (scale, change)) in pairs.zip(scales.iter_mut().zip(&mut changes)) {
+                *scale = scale.max(a.abs());
+                // `max` ignores NaN.
+                let difference = (a - b).abs();
+                *change =
+                    if difference.is_finite() { change.max(difference) } else { f64::INFINITY };
+            }
+        }
+        let mut max_difference = 0.0_f64;
+        for (scale, change) in scales.into_iter().zip(changes) {
+            if change.is_infinite() {
+                return f64::INFINITY;
+            }
+            let relative = if change > 0.0 { change / (scale * rounding.max(1.0)) } else { 0.0 };
+            max_difference = max_difference.max(relative);
+        }
+        max_difference
+    }
+}
+
+/// Responses of all outputs to the first `force_count` rows as forces, from the states of the modes.
+fn output_responses(
+    modal_rows: &[f64],
+    states: &[f64],
+    force_count: usize,
+    scratch: &mut [f64],
+) -> Vec<f64> {
+    let mode_count = states.len();
+    let weighted_rows = &mut scratch[..force_count * mode_count];
+    let rows = modal_rows.chunks_exact(mode_count);
+    for (row, weighted_row) in rows.zip(weighted_rows.chunks_exact_mut(mode_count)) {
+        let terms = row.iter().zip(states).zip(weighted_row);
+        terms.for_each(|((f, state), term)| *term = f * state);
+    }
+    row_products(weighted_rows, modal_rows, mode_count)
+}
+
+/// Binomial weights of a force that grows over `count` steps; their sum is 1.
+fn binomial_weights(count: usize) -> Vec<f64> {
     let mut weight = 0.5_f64.powi(i32::try_from(count).unwrap_or(i32::MAX));
     let mut weights = vec![weight];
     for k in 0..count {
@@ -173,30 +233,30 @@ fn binomial(count: usize) -> Vec<f64> {
     weights
 }
 
-/// u, v and a of each mode under a unit force that grows by `weights`, at these steps: steps × 3 × modes.
+/// States u, v and a of each mode under a unit force that grows by weights: steps × 3 × modes.
 fn mode_states(
-    modes: &Ritz,
+    modes: &RitzModes,
     coefficients: &SchemeCoefficients,
-    effective: &[f64],
-    times: &[usize],
-    weights: &[f64],
+    effective_stiffness: &[f64],
+    compared_steps: &[usize],
+    growth_weights: &[f64],
 ) -> Vec<f64> {
-    let count = effective.len().max(1);
-    let mut states = vec![0.0; times.len() * 3 * count];
+    let mode_count = effective_stiffness.len().max(1);
+    let mut states = vec![0.0; compared_steps.len() * 3 * mode_count];
     for (j, (k, d)) in modes.stiffness.iter().zip(&modes.damping).enumerate() {
-        // Every set contains the rigid motions.
+        // Every set of modes contains the rigid motions, which need no comparison.
         if *k == 0.0 {
             continue;
         }
-        let step = Step::new(coefficients, effective[j], *d, *k);
-        for (at, mut state) in step.states(times).enumerate() {
+        let step = ModeStep::new(coefficients, effective_stiffness[j], *d, *k);
+        for (i, mut state) in step.states(compared_steps).enumerate() {
             let mut sums = [0.0; 3];
-            for weight in weights {
+            for weight in growth_weights {
                 sums.iter_mut().zip(state).for_each(|(sum, value)| *sum += weight * value);
                 state = step.apply(state);
             }
-            for (kind, value) in sums.into_iter().enumerate() {
-                states[(3 * at + kind) * count + j] = value;
+            for (derivative, value) in sums.into_iter().enumerate() {
+                states[(3 * i + derivative) * mode_count + j] = value;
             }
         }
     }
@@ -205,54 +265,57 @@ fn mode_states(
 
 /// A step of one mode under a unit force.
 ///
-/// Rows of the new displacement, velocity and acceleration in terms of the old ones and of 1.
+/// The rows have the weights of the old displacement, velocity and acceleration and of 1 in the new ones.
 #[derive(Clone, Copy)]
-struct Step([[f64; 4]; 3]);
+struct ModeStep([[f64; 4]; 3]);
 
-impl Step {
-    /// Step of a mode with this effective stiffness, damping and stiffness.
-    fn new(c: &SchemeCoefficients, effective: f64, damping: f64, stiffness: f64) -> Self {
-        let predicted =
+impl ModeStep {
+    /// Step of a mode with an effective stiffness, a damping and a stiffness.
+    fn new(c: &SchemeCoefficients, effective_stiffness: f64, damping: f64, stiffness: f64) -> Self {
+        let residual_weight =
             |i: usize| c.acceleration[i] + damping * c.velocity[i] + stiffness * c.displacement[i];
-        let increment =
-            [-stiffness, -predicted(1), -predicted(2), 1.0].map(|term| term / effective);
-        let row = |[by_increment, v, a]: [f64; 3]| {
+        let increment = [-stiffness, -residual_weight(1), -residual_weight(2), 1.0]
+            .map(|term| term / effective_stiffness);
+        let row = |[increment_factor, v, a]: [f64; 3]| {
             let direct = [0.0, v, a, 0.0];
-            std::array::from_fn(|i| by_increment * increment[i] + direct[i])
+            std::array::from_fn(|i| increment_factor * increment[i] + direct[i])
         };
         let mut displacement = increment;
         displacement[0] += 1.0;
         Self([displacement, row(c.new_velocity), row(c.new_acceleration)])
     }
 
+    /// State after the step.
     fn apply(&self, state: [f64; 3]) -> [f64; 3] {
         self.0.map(|[u, v, a, one]| u * state[0] + v * state[1] + a * state[2] + one)
     }
 
-    /// Two steps in one.
-    fn twice(&self) -> Self {
+    /// Combines two steps into one.
+    fn doubled(&self) -> Self {
         Self(self.0.map(|row| {
             std::array::from_fn(|i| {
-                let through: f64 = (0..3).map(|k| row[k] * self.0[k][i]).sum();
-                through + if i == 3 { row[3] } else { 0.0 }
+                let product: f64 = (0..3).map(|k| row[k] * self.0[k][i]).sum();
+                product + if i == 3 { row[3] } else { 0.0 }
             })
         }))
     }
 
-    /// States from rest after the numbers of steps `times`, ascending; computed by powers of two of the step.
-    fn states(self, times: &[usize]) -> impl Iterator<Item = [f64; 3]> {
+    /// States after numbers of steps from rest, by powers of two of the step.
+    ///
+    /// `step_numbers` ascend.
+    fn states(self, step_numbers: &[usize]) -> impl Iterator<Item = [f64; 3]> {
         let mut powers = vec![self];
         let mut state = [0.0; 3];
-        let mut now = 0;
-        times.iter().map(move |time| {
-            let mut remaining = time - now;
-            now = *time;
+        let mut current_step = 0;
+        step_numbers.iter().map(move |step| {
+            let mut remaining = step - current_step;
+            current_step = *step;
             for power in 0.. {
                 if remaining == 0 {
                     break;
                 }
                 if power == powers.len() {
-                    powers.push(powers[power - 1].twice());
+                    powers.push(powers[power - 1].doubled());
                 }
                 if remaining % 2 == 1 {
                     state = powers[power].apply(state);
@@ -264,11 +327,12 @@ impl Step {
     }
 }
 
-/// Divides rows of modal forces by their energy norms with these effective stiffnesses, and returns the norms.
-fn normalise_rows(modal_rows: &mut [f64], effective: &[f64]) -> Vec<f64> {
-    let mut norms = Vec::with_capacity(modal_rows.len() / effective.len().max(1));
-    for row in modal_rows.chunks_exact_mut(effective.len().max(1)) {
-        let energy: f64 = row.iter().zip(effective).map(|(f, k)| f * f / k).sum();
+/// Divides rows of modal forces by their energy norms, and returns the norms.
+fn normalise_rows(modal_rows: &mut [f64], effective_stiffness: &[f64]) -> Vec<f64> {
+    let mode_count = effective_stiffness.len().max(1);
+    let mut norms = Vec::with_capacity(modal_rows.len() / mode_count);
+    for row in modal_rows.chunks_exact_mut(mode_count) {
+        let energy: f64 = row.iter().zip(effective_stiffness).map(|(f, k)| f * f / k).sum();
         let norm = if energy > 0.0 { energy.sqrt() } else { 1.0 };
         for value in row {
             *value /= norm;
@@ -285,19 +349,21 @@ mod tests {
 
     #[test]
     fn responses_that_overflow_are_not_equal() {
-        let of = |value: f64| StepResponses {
-            values: [vec![value; 2], Vec::new()],
-            outputs: 1,
-            accelerations: 1,
-            read: Vec::new(),
-            probes: 0,
+        let constant = |value: f64| StepResponses {
+            displacements: vec![value; 2],
+            velocities: Vec::new(),
+            output_count: 1,
+            first_acceleration: 1,
+            probe_values: Vec::new(),
+            probe_count: 0,
         };
         for value in [f64::INFINITY, f64::NAN] {
-            assert_eq!(of(value).difference(&of(value), 1e-6), f64::INFINITY);
+            assert_eq!(constant(value).difference(&constant(value), 1e-6), f64::INFINITY);
         }
-        assert_eq!(of(1.0).difference(&of(1.0), 1e-6), RESPONSE_ROUNDING);
-        assert!((of(1.0).difference(&of(2.0), 1e-6) - 1.0).abs() < 1e-12);
+        assert_eq!(constant(1.0).difference(&constant(1.0), 1e-6), RESPONSE_ROUNDING_TOLERANCE);
+        assert!((constant(1.0).difference(&constant(2.0), 1e-6) - 1.0).abs() < 1e-12);
     }
+
     /// REFERENCE: single steps.
     #[test]
     fn powers_of_a_step_are_many_steps() {
@@ -305,30 +371,30 @@ mod tests {
         let damping = 1.0;
         let stiffness = 4.0e3;
         let effective = c.acceleration[0] + c.velocity[0] * damping + c.displacement[0] * stiffness;
-        let times = [1, 2, 3, 5, 8, 13, 100, 1000];
-        let mut found = Step::new(&c, effective, damping, stiffness).states(&times);
+        let steps = [1, 2, 3, 5, 8, 13, 100, 1000];
+        let mut states = ModeStep::new(&c, effective, damping, stiffness).states(&steps);
         let apply = SchemeCoefficients::apply;
         let mut u = 0.0;
         let mut v = 0.0;
         let mut a = 0.0;
         for step in 1..=1000 {
-            let known = apply(c.acceleration, 0.0, v, a)
+            let residual = apply(c.acceleration, 0.0, v, a)
                 + damping * apply(c.velocity, 0.0, v, a)
                 + stiffness * (u + apply(c.displacement, 0.0, v, a));
-            let increment = (1.0 - known) / effective;
+            let increment = (1.0 - residual) / effective;
             let velocity = apply(c.new_velocity, increment, v, a);
             a = apply(c.new_acceleration, increment, v, a);
             (u, v) = (u + increment, velocity);
-            if times.contains(&step) {
-                for (kind, (value, expected)) in
-                    found.next().unwrap().into_iter().zip([u, v, a]).enumerate()
+            if steps.contains(&step) {
+                for (derivative, (value, expected)) in
+                    states.next().unwrap().into_iter().zip([u, v, a]).enumerate()
                 {
-                    let size = [1.0 / stiffness, 1.0 / f64::sqrt(stiffness), 1.0][kind];
+                    let scale = [1.0 / stiffness, 1.0 / f64::sqrt(stiffness), 1.0][derivative];
                     let difference = f64::abs(value - expected);
-                    assert!(difference < 1e-12 * size, "step {step}: {value} for {expected}");
+                    assert!(difference < 1e-12 * scale, "step {step}: {value} for {expected}");
                 }
             }
         }
-        assert!(found.next().is_none());
+        assert!(states.next().is_none());
     }
 }

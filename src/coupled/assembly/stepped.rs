@@ -1,10 +1,10 @@
-//! The structure in its stepping coordinates: the choice between degrees of freedom, modes and Ritz modes.
+//! The structure in its stepping coordinates: degrees of freedom, all modes, or Ritz modes.
 
 use std::rc::Rc;
 
 use super::vibration_modes::vibration_modes;
 use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
-use crate::coupled::assembly::krylov::{Factored, Reduction};
+use crate::coupled::assembly::krylov::{FactorEffective, Reduction};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
@@ -13,124 +13,135 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::mechanism::unresisted;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::parts::Parts;
-use crate::coupled::statics::compliance::Floating;
+use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::{Structure, Tangent};
 
-/// Default number of steps within which computing the modes must save time.
+/// Number of steps for the choice of coordinates if the expected number is unknown.
 const DEFAULT_EXPECTED_STEPS: usize = 4_000;
 
-/// Largest number of degrees of freedom of which all modes may replace Ritz modes that are not accurate.
+/// Largest number of degrees of freedom of a structure whose modes may all replace inaccurate Ritz modes.
 const MAX_FALLBACK_DOFS: usize = 1_000;
-/// The same with many forces, where a tolerance below some 1e-4 is often beyond the Ritz modes: their computation takes
-/// seven seconds.
+/// Largest number of degrees of freedom for the same replacement with many forces.
+///
+/// With many forces Ritz modes often do not reach tolerances below 1e-4. All modes of this number take seven seconds.
 const MAX_FALLBACK_DOFS_OF_MANY_FORCES: usize = 2_500;
 
-/// Needs of [`Coordinates::Modes`].
-const MODAL_COORDINATES_NEED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
-                      damping that the modes decouple";
+/// Properties that [`Coordinates::Modes`] needs, for errors.
+const MODAL_COORDINATES_NEED: &str = "a linear structure with symmetric matrices, a positive definite mass and a damping that the modes decouple";
 
 /// Times in nanoseconds for the choice of coordinates, as measured by `benches/studies/benches/step.rs`.
 mod cost {
-    /// Per entry of a sparse factor or matrix, and use.
+    /// For each use of an entry of a sparse factor or matrix.
     pub(crate) const SPARSE_ENTRY: f64 = 1.0;
-    /// Per mode and step, in addition to a degree of freedom.
+    /// For each mode and step.
     pub(crate) const MODE_AND_STEP: f64 = 4.0;
-    /// Per mode, contact component and step, in addition to degrees of freedom.
+    /// For each mode, contact component and step, in addition to the time in degrees of freedom.
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
-    /// Per squared and per cubed number of modes, for computing them.
-    pub(crate) const ALL_MODES: [f64; 2] = [60.0, 0.45];
+    /// For the computation of all modes, times the square of their number.
+    pub(crate) const ALL_MODES_SQUARE: f64 = 60.0;
+    /// For the computation of all modes, times the cube of their number.
+    pub(crate) const ALL_MODES_CUBE: f64 = 0.45;
 }
 
 /// Matrices, base and operators of a structure, in the stepping coordinates.
-pub(crate) struct Stepped {
+pub(crate) struct SteppedStructure {
     pub(crate) model: Model,
     pub(crate) base: PlacedBase,
     pub(crate) operators: Operators,
 }
 
-impl Stepped {
+impl SteppedStructure {
     /// Chooses the coordinates, and factors the effective stiffness in them.
     ///
-    /// The effective stiffness of the degrees of freedom is factored only if they are stepped or the choice needs
-    /// it. `reduction`: input of [`Reduction`], for reduced coordinates.
-    pub(crate) fn choose(
+    /// The effective stiffness in degrees of freedom is factored only if these are stepped, or if the choice depends on the
+    /// factor. `reduction` is the input of [`Reduction`], for reduced coordinates.
+    pub(crate) fn new(
         parts: &Parts,
         assembled: &Assembled,
-        reduction: Option<(FixedBaseResponses, Option<Rc<Floating>>)>,
-        at_rest: &StaticState,
+        reduction: Option<(FixedBaseResponses, Option<Rc<ShiftedStiffnessFactor>>)>,
+        static_state: &StaticState,
     ) -> Result<Self> {
         let Parts { builder, coefficients, .. } = parts;
         let structure = parts.structure.as_ref();
-        let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
-        let steps = if builder.steps > 0 { builder.steps } else { DEFAULT_EXPECTED_STEPS };
+        let tangent = Tangent::at(structure, &static_state.displacement)?.matrix;
+        let steps = if builder.expected_steps > 0 {
+            builder.expected_steps
+        } else {
+            DEFAULT_EXPECTED_STEPS
+        };
         let physical = Model::new(assembled);
-        let factored = || {
+        let factor_in_dofs = || {
             let factor = Factor::of_dofs(&physical, coefficients, &tangent);
-            factor.map_err(|error| cause(assembled, structure, &tangent, error))
+            factor.map_err(|error| singularity_cause(assembled, structure, &tangent, error))
         };
         let chosen = match builder.coordinates {
-            Coordinates::Physical => Chosen::Physical(factored()?),
+            Coordinates::Physical => ChosenCoordinates::Physical(factor_in_dofs()?),
             Coordinates::Auto => {
-                let factor = factored()?;
-                let modes = cheaper_modes(assembled, factor.entry_count(), steps);
-                modes.map_or(Chosen::Physical(factor), Chosen::Modes)
+                let factor = factor_in_dofs()?;
+                let modes = modes_if_faster(assembled, factor.entry_count(), steps);
+                modes.map_or(ChosenCoordinates::Physical(factor), ChosenCoordinates::Modes)
             }
             Coordinates::Modes => {
                 let Some(modes) = vibration_modes(assembled) else {
-                    // A singular matrix is reported first.
-                    factored()?;
+                    // A singular matrix has its own error, which comes first.
+                    factor_in_dofs()?;
                     return Err(Error::Scene {
                         quantity: "modal coordinates",
                         needed: MODAL_COORDINATES_NEED,
                     });
                 };
-                Chosen::Modes(modes)
+                ChosenCoordinates::Modes(modes)
             }
             Coordinates::Reduced { tolerance } => {
-                let (fixed_base, floating) = reduction.unwrap_or_default();
-                let responses = (fixed_base, floating, &factored as &Factored<'_>);
-                let reduction = Reduction::new(parts, assembled, responses, steps)?;
+                let (fixed_base, shifted_stiffness) = reduction.unwrap_or_default();
+                let inputs =
+                    (fixed_base, shifted_stiffness, &factor_in_dofs as &FactorEffective<'_>);
+                let reduction = Reduction::new(parts, assembled, inputs, steps)?;
                 let max_dofs = if reduction.has_many_forces() {
                     MAX_FALLBACK_DOFS_OF_MANY_FORCES
                 } else {
                     MAX_FALLBACK_DOFS
                 };
                 let modes = reduction.modes(tolerance);
-                Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, max_dofs, error))?)
+                ChosenCoordinates::Modes(
+                    modes.or_else(|error| all_modes_instead(assembled, max_dofs, error))?,
+                )
             }
         };
         let (model, factor) = match chosen {
-            Chosen::Physical(factor) => (physical, Factor::Sparse(factor)),
-            Chosen::Modes(modes) => {
+            ChosenCoordinates::Physical(factor) => (physical, Factor::Sparse(factor)),
+            ChosenCoordinates::Modes(modes) => {
                 let model = physical.in_modes(assembled, modes);
                 let factor = Factor::of_modes(&model, coefficients)?;
                 (model, factor)
             }
         };
         let base = assembled.base.stepped(&model.transformation);
-        let operators = Operators::new(&model, &base, &parts.soil, factor, tangent)?;
+        let operators = Operators::new(&model, &base, &parts.step_compliance, factor, tangent)?;
         Ok(Self { model, base, operators })
     }
 }
 
-/// Coordinates, and the matrices already computed for them.
-enum Chosen {
+/// Chosen coordinates, with the matrices that have been computed for the choice.
+enum ChosenCoordinates {
     Physical(Box<SparseFactor>),
     Modes(ModalBasis),
 }
 
-/// All modes of a structure of up to `max_dofs` degrees of freedom for which fewer do not suffice; otherwise `error`.
-fn instead_of_few(assembled: &Assembled, max_dofs: usize, error: Error) -> Result<ModalBasis> {
+/// All modes of a structure of at most `max_dofs`, in place of inaccurate Ritz modes.
+///
+/// Returns `error` for a larger structure, and for any error except a missing accuracy.
+fn all_modes_instead(assembled: &Assembled, max_dofs: usize, error: Error) -> Result<ModalBasis> {
     let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= max_dofs;
-    let all = if is_small { vibration_modes(assembled) } else { None };
-    all.ok_or(error)
+    let modes = if is_small { vibration_modes(assembled) } else { None };
+    modes.ok_or(error)
 }
 
-/// Cause of `error`: the reason why the effective stiffness cannot be factored.
-fn cause(
+/// Replaces the `error` of a singular effective stiffness by the mechanism that causes it, if there is one.
+fn singularity_cause(
     assembled: &Assembled,
     structure: &dyn Structure,
     tangent: &SparseMatrix,
@@ -143,17 +154,24 @@ fn cause(
     mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// The modes, if stepping in them takes less time, including their computation.
+/// The modes, if steps in modal coordinates take less time, including the computation of the modes.
 ///
-/// `factor`: number of entries of the sparse factor.
-fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
-    let n = assembled.dofs() as f64;
+/// `factor_entries` is the number of entries of the sparse factor in degrees of freedom.
+fn modes_if_faster(
+    assembled: &Assembled,
+    factor_entries: usize,
+    steps: usize,
+) -> Option<ModalBasis> {
+    let dofs = assembled.dofs() as f64;
     let steps = steps as f64;
-    let contact = assembled.base.layout().len();
-    let entry_count: usize = assembled.matrices().into_iter().map(SparseMatrix::entry_count).sum();
-    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * entry_count) as f64;
-    let modal = cost::MODE_AND_STEP * n + cost::MODE_AND_CONTACT * n * contact as f64;
-    let computation = cost::ALL_MODES[0] * n.powi(2) + cost::ALL_MODES[1] * n.powi(3);
-    let saves_time = modal * steps + computation < sparse * steps;
+    let contact_components = assembled.base.layout().len();
+    let matrix_entries: usize =
+        assembled.matrices().into_iter().map(SparseMatrix::entry_count).sum();
+    let sparse_step = cost::SPARSE_ENTRY * (2 * factor_entries + 2 * matrix_entries) as f64;
+    let modal_step =
+        cost::MODE_AND_STEP * dofs + cost::MODE_AND_CONTACT * dofs * contact_components as f64;
+    let mode_computation =
+        cost::ALL_MODES_SQUARE * dofs.powi(2) + cost::ALL_MODES_CUBE * dofs.powi(3);
+    let saves_time = modal_step * steps + mode_computation < sparse_step * steps;
     if saves_time { vibration_modes(assembled) } else { None }
 }

@@ -1,59 +1,67 @@
-//! A base in plan: its faces, and its mean displacement over a contact element.
+//! A base in plan: faces, and mean displacements over contact elements.
 
 use std::ops::Range;
 
-use super::corner_weights::{Point, bilinear, corner_weights, distance, outside};
+use super::corner_weights::{Point, bilinear_weights, corner_weights, distance, distance_outside};
 use super::transformation::{Terms, Weights, accumulate};
-use super::{BasePoint, Outline, PlacedBase, check_covered};
+use super::{BasePoint, PlacedBase, PlacedFoundation, check_covered};
 use crate::bem::plan::faces::{MatFace, side};
 use crate::error::{Error, Result, require};
 use crate::geometry::{ContactElement, Patch};
 use crate::structure::BaseNode;
 
-/// Distance of a Gauss point from the middle of an interval, relative to its length: 1/(2√3).
+/// Distance of a Gauss point from the middle of an interval, relative to the interval's length: 1/(2√3).
 pub(crate) const GAUSS_POINT_OFFSET: f64 = 0.288_675_134_594_812_9;
+/// Smallest number of integration points of an element, as with 2 × 2 Gauss points.
+const MIN_POINTS_PER_ELEMENT: usize = 4;
 /// Area below which a triangle counts as degenerate, relative to the square of its longest side.
 const DEGENERATE_AREA_FRACTION: f64 = 1e-12;
 
 impl PlacedBase {
-    /// The base of these faces: faces that touch form one mat, and each mat is a foundation.
+    /// Places faces on elements; faces that touch form one mat, and each mat is a foundation.
     pub(crate) fn on_faces(faces: &[Vec<BaseNode>], patch: &Patch) -> Result<Self> {
         let mats = mats(faces)?;
         let nodes = mats.concat().concat();
-        let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
-        let surface = Faces::new(&nodes, &corners)?;
+        let corner_counts: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
+        let faces = DividedFaces::new(&nodes, &corner_counts)?;
         let mut foundations = Vec::with_capacity(mats.len());
-        let mut first = 0;
+        let mut first_node = 0;
         for mat in &mats {
-            let range = first..first + mat.iter().map(Vec::len).sum::<usize>();
+            let range = first_node..first_node + mat.iter().map(Vec::len).sum::<usize>();
             let mut rotations = BaseNode::mean_rotations(&nodes[range.clone()]);
-            // By the right-hand rule a rise to the right is a negative rotation about y.
+            // By the right-hand rule an upward slope to the right is a negative rotation about y.
             rotations[0] = -rotations[0].clone();
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
-            first = range.end;
+            first_node = range.end;
             let corners = hull(nodes[range.clone()].iter());
-            let settlement = surface.settlement(&range);
+            let settlement = faces.settlement(&range);
             let elements = 0..0;
-            foundations.push(Outline { nodes: range, elements, settlement, rotations, corners });
+            foundations.push(PlacedFoundation {
+                nodes: range,
+                elements,
+                settlement,
+                rotations,
+                corners,
+            });
         }
         let mut weights = Vec::with_capacity(patch.len());
         // Elements at an oblique outline are smaller than the others.
-        let widest = patch.iter().flat_map(ContactElement::sides).fold(0.0, f64::max);
+        let longest_side = patch.iter().flat_map(ContactElement::sides).fold(0.0, f64::max);
         for e in 0..patch.len() {
-            let mean = surface.mean_weights(e, patch, 0.5 * widest)?;
-            let mut mats = mean.iter().filter_map(|(node, _)| {
+            let mean_weights = faces.mean_weights(e, patch, 0.5 * longest_side)?;
+            let mut element_mats = mean_weights.iter().filter_map(|(node, _)| {
                 foundations.iter().position(|mat| mat.nodes.contains(node))
             });
-            let mat = mats.next().unwrap_or(0);
-            let is_under_one_mat = mats.all(|other| other == mat);
+            let mat = element_mats.next().unwrap_or(0);
+            let is_under_one_mat = element_mats.all(|other| other == mat);
             add_element(&mut foundations[mat].elements, e, is_under_one_mat)?;
-            weights.push(mean);
+            weights.push(mean_weights);
         }
         check_covered(&foundations)?;
         let mut points = Vec::new();
         for mat in &foundations {
             if !BaseNode::are_flat(&nodes[mat.nodes.clone()]) {
-                points.extend(surface.points(mat, patch));
+                points.extend(faces.integration_points(mat, patch));
             }
         }
         Ok(Self::from_weights(nodes, foundations, weights, patch, points))
@@ -62,10 +70,10 @@ impl PlacedBase {
 
 /// Adds an element to the elements of a mat.
 ///
-/// Returns an error unless these are consecutive, and no other mat stands on the element.
+/// Returns an error unless the elements are consecutive, and the element lies under this mat only.
 fn add_element(elements: &mut Range<usize>, e: usize, is_under_one_mat: bool) -> Result<()> {
     let value = e as f64;
-    let needed = "elements under one mat each";
+    let needed = "an element under one mat";
     require("number of a contact element under two mats", value, is_under_one_mat, needed)?;
     if elements.start == elements.end {
         elements.start = e;
@@ -81,49 +89,56 @@ fn add_element(elements: &mut Range<usize>, e: usize, is_under_one_mat: bool) ->
     Ok(())
 }
 
-/// All faces, divided into triangles and quadrilaterals.
-struct Faces<'a> {
+/// Faces of a base, divided into triangles and quadrilaterals.
+struct DividedFaces<'a> {
     nodes: &'a [BaseNode],
-    /// Corners of each piece, in order.
+    /// Indices of the nodes at the corners of each triangle or quadrilateral, in order.
     pieces: Vec<Vec<usize>>,
 }
 
-impl<'a> Faces<'a> {
-    /// `faces`: number of corners of each face; `nodes`: the corners of all faces, one face after the other.
-    fn new(nodes: &'a [BaseNode], faces: &[usize]) -> Result<Self> {
-        let mut all = Self { nodes, pieces: Vec::new() };
-        let mut first = 0;
-        for (number, &count) in faces.iter().enumerate() {
-            let face: Vec<usize> = (first..first + count).collect();
-            MatFace::new(number, &all.corners(&face))?;
-            if count <= 4 {
-                all.pieces.push(face);
+impl<'a> DividedFaces<'a> {
+    /// Divides faces of more than four corners into triangles.
+    ///
+    /// `nodes` has the corners of all faces, one face after the other. `corner_counts` has the number of corners of each
+    /// face.
+    fn new(nodes: &'a [BaseNode], corner_counts: &[usize]) -> Result<Self> {
+        let mut faces = Self { nodes, pieces: Vec::new() };
+        let mut first_node = 0;
+        for (number, &corner_count) in corner_counts.iter().enumerate() {
+            let face: Vec<usize> = (first_node..first_node + corner_count).collect();
+            MatFace::new(number, &faces.corners(&face))?;
+            if corner_count <= 4 {
+                faces.pieces.push(face);
             } else {
                 let fan = face[1..].windows(2).map(|side| vec![face[0], side[0], side[1]]);
-                let fan: Vec<_> = fan.filter(|triangle| all.has_area(triangle)).collect();
-                all.pieces.extend(fan);
+                let triangles: Vec<_> = fan.filter(|triangle| faces.has_area(triangle)).collect();
+                faces.pieces.extend(triangles);
             }
-            first += count;
+            first_node += corner_count;
         }
-        Ok(all)
+        Ok(faces)
     }
 
+    /// Corners of a piece in plan, m.
     fn corners(&self, piece: &[usize]) -> Vec<Point> {
         piece.iter().map(|&node| self.nodes[node].place()).collect()
     }
 
+    /// Whether the corners of a triangle are not collinear.
     fn has_area(&self, triangle: &[usize]) -> bool {
         let corners = self.corners(triangle);
-        let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
-        side([corners[0], corners[1]], corners[2]).abs() > DEGENERATE_AREA_FRACTION * size * size
+        let longest_side =
+            (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
+        side([corners[0], corners[1]], corners[2]).abs()
+            > DEGENERATE_AREA_FRACTION * longest_side * longest_side
     }
 
     /// Mean displacement over the area of the mat with these nodes, downwards.
-    fn settlement(&self, nodes: &Range<usize>) -> Weights {
-        let mut weights = vec![0.0; nodes.len()];
-        for piece in self.pieces.iter().filter(|piece| nodes.contains(&piece[0])) {
+    fn settlement(&self, mat_nodes: &Range<usize>) -> Weights {
+        let mut weights = vec![0.0; mat_nodes.len()];
+        for piece in self.pieces.iter().filter(|piece| mat_nodes.contains(&piece[0])) {
             let corners = self.corners(piece);
-            // Both divisions of a quadrilateral into triangles.
+            // Both divisions of a quadrilateral into triangles, each with half of the weight.
             let triangles: &[[usize; 3]] = match corners.len() {
                 3 => &[[0, 1, 2]],
                 _ => &[[0, 1, 2], [0, 2, 3], [1, 2, 3], [1, 3, 0]],
@@ -133,67 +148,74 @@ impl<'a> Faces<'a> {
                 let area =
                     side([points[0], points[1]], points[2]).abs() / triangles.len().min(2) as f64;
                 for &k in triangle {
-                    weights[piece[k] - nodes.start] += area;
+                    weights[piece[k] - mat_nodes.start] += area;
                 }
             }
         }
         let sum: f64 = weights.iter().sum();
         let mut terms = Terms::new();
-        for (node, weight) in self.nodes[nodes.clone()].iter().zip(weights) {
+        for (node, weight) in self.nodes[mat_nodes.clone()].iter().zip(weights) {
             accumulate(&mut terms, &node.vertical, -weight / sum);
         }
         Weights::Sparse(terms)
     }
 
-    /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points.
+    /// Indices and weights of nodes in the mean displacement of an element, by 2 × 2 Gauss points.
     ///
-    /// A point outside all faces moves with the continued displacement of the nearest face. A point farther off
-    /// than `reach` (m) is an error that names the element.
-    fn mean_weights(&self, element: usize, patch: &Patch, reach: f64) -> Result<Vec<(usize, f64)>> {
+    /// A point outside all faces has the continued displacement of the nearest face. A point with a distance of more than
+    /// `max_distance` (m) from the faces is an error that names the element.
+    fn mean_weights(
+        &self,
+        element: usize,
+        patch: &Patch,
+        max_distance: f64,
+    ) -> Result<Vec<(usize, f64)>> {
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
             let (corner_weights, value) = self.corner_weights(point);
-            if value.is_nan() || value > reach {
+            if value.is_nan() || value > max_distance {
                 let quantity = "distance of a contact element from the faces of the base, m";
-                let needed = "half an element or less: all lie under the structure's base";
-                let fault = Error::Input { quantity, value, needed };
-                return Err(fault.within(format!("contact element {element}")));
+                let needed =
+                    "half an element or less: all elements must lie under the structure's base";
+                let error = Error::Input { quantity, value, needed };
+                return Err(error.within(format!("contact element {element}")));
             }
             weights.extend(corner_weights.into_iter().map(|(node, weight)| (node, 0.25 * weight)));
         }
         Ok(weights)
     }
 
-    /// (node, weight) of the displacement of a point, and its distance from the faces, m.
+    /// Indices and weights of nodes in the displacement of a point, and its distance from the faces, m.
     fn corner_weights(&self, point: Point) -> (Vec<(usize, f64)>, f64) {
         let (piece, corners, distance) = self.nearest(point);
         (piece.iter().copied().zip(corner_weights(&corners, point)).collect(), distance)
     }
 
-    /// Points for integrals over the elements of a mat.
+    /// Integration points for the elements of a mat.
     ///
-    /// Gauss points of its faces; 2 × 2 Gauss points of an element that contains fewer than four of these.
-    fn points(&self, mat: &Outline, patch: &Patch) -> Vec<BasePoint> {
-        let mut found = vec![Vec::new(); mat.elements.len()];
+    /// They are the Gauss points of its faces. An element that contains fewer than four of these has its own 2 × 2 Gauss
+    /// points.
+    fn integration_points(&self, mat: &PlacedFoundation, patch: &Patch) -> Vec<BasePoint> {
+        let mut weights_by_element = vec![Vec::new(); mat.elements.len()];
         for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {
             let corners = self.corners(piece);
-            for corner_weights in face_points(corners.len()) {
-                let place = [0, 1].map(|k| {
+            for corner_weights in gauss_weights(corners.len()) {
+                let point = [0, 1].map(|k| {
                     let terms = corners
                         .iter()
                         .zip(&corner_weights)
                         .map(|(corner, weight)| weight * corner[k]);
                     terms.sum::<f64>()
                 });
-                if let Some(e) = mat.elements.clone().find(|e| is_on(&patch[*e], place)) {
-                    found[e - mat.elements.start]
+                if let Some(e) = mat.elements.clone().find(|e| is_on_element(&patch[*e], point)) {
+                    weights_by_element[e - mat.elements.start]
                         .push(piece.iter().copied().zip(corner_weights).collect::<Vec<_>>());
                 }
             }
         }
         let mut points = Vec::new();
-        for (e, mut weights) in mat.elements.clone().zip(found) {
-            if weights.len() < 4 {
+        for (e, mut weights) in mat.elements.clone().zip(weights_by_element) {
+            if weights.len() < MIN_POINTS_PER_ELEMENT {
                 weights = gauss_points(e, patch).map(|point| self.corner_weights(point).0).into();
             }
             let area = patch.areas()[e] / weights.len() as f64;
@@ -206,34 +228,34 @@ impl<'a> Faces<'a> {
         points
     }
 
-    /// The piece nearest to a point, its corners, and its distance.
+    /// The triangle or quadrilateral nearest to a point, its corners, and its distance, m.
     fn nearest(&self, point: Point) -> (&[usize], Vec<Point>, f64) {
-        let mut found: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
+        let mut nearest: (&[usize], Vec<Point>, f64) = (&[], Vec::new(), f64::INFINITY);
         for piece in &self.pieces {
             let corners = self.corners(piece);
-            let distance = outside(&corners, point);
-            if distance < found.2 {
-                found = (piece, corners, distance);
+            let distance = distance_outside(&corners, point);
+            if distance < nearest.2 {
+                nearest = (piece, corners, distance);
             }
             if distance == 0.0 {
                 break;
             }
         }
-        found
+        nearest
     }
 }
 
-/// The faces of each mat, by their corners; faces that touch belong to one mat.
+/// Groups faces into mats; faces that touch belong to one mat.
 fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
-    let mut checked = Vec::with_capacity(faces.len());
+    let mut mat_faces = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {
         let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
-        checked.push(MatFace::new(number, &corners)?);
+        mat_faces.push(MatFace::new(number, &corners)?);
     }
-    MatFace::check_overlap(&checked)?;
-    let mat_numbers = MatFace::mats(&checked);
-    let count = mat_numbers.iter().max().map_or(0, |last| last + 1);
-    let mut mats = vec![Vec::new(); count];
+    MatFace::check_overlap(&mat_faces)?;
+    let mat_numbers = MatFace::mats(&mat_faces);
+    let mat_count = mat_numbers.iter().max().map_or(0, |last| last + 1);
+    let mut mats = vec![Vec::new(); mat_count];
     faces.iter().zip(mat_numbers).for_each(|(face, mat)| mats[mat].push(face.clone()));
     Ok(mats)
 }
@@ -243,11 +265,11 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> 
     let mut sorted: Vec<Point> = nodes.map(BaseNode::place).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut hull: Vec<Point> = Vec::new();
-    // From left to right along the lower side, and back along the upper.
-    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
-        let first = hull.len();
+    // Adds one side of the hull: first the lower side from left to right, then the upper side back (Andrew 1979).
+    let mut add_side = |points: &mut dyn Iterator<Item = &Point>| {
+        let start = hull.len();
         for point in points {
-            while let [.., a, b] = hull[first..] {
+            while let [.., a, b] = hull[start..] {
                 if side([a, b], *point) > 0.0 {
                     break;
                 }
@@ -257,13 +279,13 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> 
         }
         hull.pop();
     };
-    half(&mut sorted.iter());
-    half(&mut sorted.iter().rev());
+    add_side(&mut sorted.iter());
+    add_side(&mut sorted.iter().rev());
     hull
 }
 
 /// Whether a point lies on an element in plan.
-fn is_on(element: &ContactElement, point: Point) -> bool {
+fn is_on_element(element: &ContactElement, point: Point) -> bool {
     let middle = element.center();
     let sides = element.sides();
     (0..2).all(|k| (point[k] - middle[k]).abs() <= 0.5 * sides[k])
@@ -277,17 +299,20 @@ fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
     signs.map(|signs| [0, 1].map(|k| center[k] + GAUSS_POINT_OFFSET * signs[k] * sides[k]))
 }
 
-/// Weights of the corners of a triangle or a quadrilateral in the displacements of its Gauss points.
-fn face_points(corners: usize) -> Vec<Vec<f64>> {
-    if corners == 3 {
+/// Weights of the corners of a triangle or a quadrilateral at its Gauss points.
+fn gauss_weights(corner_count: usize) -> Vec<Vec<f64>> {
+    if corner_count == 3 {
         let mut points = vec![vec![1.0 / 6.0; 3]; 3];
         for (k, weights) in points.iter_mut().enumerate() {
             weights[k] = 2.0 / 3.0;
         }
         return points;
     }
-    let ends = [0.5 - GAUSS_POINT_OFFSET, 0.5 + GAUSS_POINT_OFFSET];
-    ends.into_iter().flat_map(|s| ends.map(|t| bilinear([s, t]).to_vec())).collect()
+    let coordinates = [0.5 - GAUSS_POINT_OFFSET, 0.5 + GAUSS_POINT_OFFSET];
+    coordinates
+        .into_iter()
+        .flat_map(|s| coordinates.map(|t| bilinear_weights([s, t]).to_vec()))
+        .collect()
 }
 
 #[cfg(test)]
@@ -301,13 +326,13 @@ mod tests {
             .collect()
     }
 
-    /// Mean over a cell of a field given at the corners.
+    /// Mean over a cell of a field with values at the corners.
     fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
         let cell = ContactElement::in_plan([cell[0], cell[1]], [cell[2], cell[3]]);
         let patch = Patch::new(vec![cell]).unwrap();
         let nodes = nodes(corners);
         let mut sum = 0.0;
-        let faces = Faces::new(&nodes, faces).unwrap();
+        let faces = DividedFaces::new(&nodes, faces).unwrap();
         for (node, weight) in faces.mean_weights(0, &patch, 1.0).unwrap() {
             sum += weight * field(corners[node]);
         }
@@ -324,27 +349,30 @@ mod tests {
         let straight = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]];
         for corners in [&triangle[..], &distorted, &pentagon, &straight] {
             for cell in [[0.5, 1.5, 0.5, 1.0], [-0.2, 1.0, -0.3, 0.8], [2.0, 3.5, 0.4, 1.4]] {
-                let exact = field([0.5 * (cell[0] + cell[1]), 0.5 * (cell[2] + cell[3])]);
-                let found = mean(corners, &[corners.len()], cell, field);
-                assert!((found - exact).abs() < 1e-13, "{corners:?} {cell:?} {found} {exact}");
+                let expected = field([0.5 * (cell[0] + cell[1]), 0.5 * (cell[2] + cell[3])]);
+                let computed = mean(corners, &[corners.len()], cell, field);
+                assert!(
+                    (computed - expected).abs() < 1e-13,
+                    "{corners:?} {cell:?} {computed} {expected}"
+                );
             }
         }
     }
 
-    /// x y of a rectangle is bilinear; next to it, a triangle.
+    /// The field x y is bilinear on a rectangle; a triangle is next to it.
     #[test]
     fn faces_side_by_side_have_displacements_of_their_own() {
         let corners =
             [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [4.0, 3.0], [4.0, 0.0], [7.0, 0.0]];
         let product = |[x, y]: Point| if x <= 4.0 { x * y } else { 0.0 };
-        let found = mean(&corners, &[4, 3], [1.0, 2.0, 0.0, 2.0], product);
-        assert!((found - 1.5).abs() < 1e-14, "{found}");
-        // Over the triangle it falls from 4 y at x = 4 to zero at x = 7: 4 y.
-        let found = mean(&corners, &[4, 3], [4.5, 5.0, 0.5, 1.0], product);
-        assert!((found - 3.0).abs() < 1e-14, "{found}");
-        // Half in each: y x to the left, 4 y to the right.
-        let found = mean(&corners, &[4, 3], [3.0, 5.0, 0.0, 1.0], product);
+        let computed = mean(&corners, &[4, 3], [1.0, 2.0, 0.0, 2.0], product);
+        assert!((computed - 1.5).abs() < 1e-14, "{computed}");
+        // On the triangle the field is 4 y.
+        let computed = mean(&corners, &[4, 3], [4.5, 5.0, 0.5, 1.0], product);
+        assert!((computed - 3.0).abs() < 1e-14, "{computed}");
+        // Half of the cell is on each face: x y to the left, 4 y to the right.
+        let computed = mean(&corners, &[4, 3], [3.0, 5.0, 0.0, 1.0], product);
         let gauss = 0.5 * (0.5 * (4.0 - 2.0 * GAUSS_POINT_OFFSET) + 0.5 * 4.0);
-        assert!((found - gauss).abs() < 1e-14, "{found}");
+        assert!((computed - gauss).abs() < 1e-14, "{computed}");
     }
 }

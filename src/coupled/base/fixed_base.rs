@@ -1,10 +1,10 @@
-//! The held base: a rigid base on an almost rigid ground.
+//! The fixed base: rigid foundations on an almost rigid ground.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | N | displacements of a foundation's contact nodes |
 //! | Q | orthonormal rigid motions of these nodes |
-//! | γ | stiffness of the springs |
+//! | γ | stiffness of the springs between the nodes of a foundation |
 
 use crate::bem::{DiagonalCompliance, Ground};
 use crate::coupled::base::{PlacedBase, dofs_of};
@@ -16,104 +16,117 @@ use crate::structure::{
     stiffest,
 };
 
-/// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
-const HELD_GROUND_STIFFNESS_RATIO: f64 = 1e6;
-/// Stiffness that keeps the shape of a base, over the structure's largest stiffness.
-const SHAPE_STIFFNESS_RATIO: f64 = 1e5;
-/// Part of a node's displacement that counts as rounding.
+/// Stiffness of the ground over 4 m/Δt², the resistance of the structure's mass m in a step.
+const FIXED_GROUND_STIFFNESS_RATIO: f64 = 1e6;
+/// Stiffness that makes foundations rigid, relative to the structure's largest stiffness.
+const RIGID_FOUNDATION_STIFFNESS_RATIO: f64 = 1e5;
+/// Fraction of a node's displacement that counts as rounding.
 const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 
-/// The structure with a base that keeps its shape, and the ground that holds it.
+/// The structure with rigid foundations, and an almost rigid ground under it.
 pub(crate) fn on_fixed_base(
     structure: Box<dyn Structure>,
     elements: &Patch,
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
     let base = PlacedBase::of(structure.as_ref(), elements)?;
-    let n = structure.dofs();
+    let dofs = structure.dofs();
     let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
     let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
-    let mut along = springs.pulls().swap_remove(0);
-    // The assembly names the motion that makes the matrix singular.
+    let mut translation = springs.pulls().swap_remove(0);
+    // Without a factor the assembly later returns an error that names the mechanism.
     if let Ok(mut factor) = springs.factor() {
-        factor.solve(&mut along);
+        factor.solve(&mut translation);
     }
-    let total: f64 = elements.areas().iter().sum();
-    let resistance = 4.0 * mass.form(&along, &along) / (time_step * time_step);
-    // A massless structure: the reference is its stiffness.
-    let is_usable = resistance > 0.0 && resistance.is_finite();
-    let resistance = if is_usable { resistance } else { stiffest(&stiffness) };
+    let total_area: f64 = elements.areas().iter().sum();
+    let resistance = 4.0 * mass.form(&translation, &translation) / (time_step * time_step);
+    // The reference of a massless structure is its stiffness.
+    let has_inertia = resistance > 0.0 && resistance.is_finite();
+    let resistance = if has_inertia { resistance } else { stiffest(&stiffness) };
     let ground = FixedGround {
         elements: elements.clone(),
-        compliance: total / (HELD_GROUND_STIFFNESS_RATIO * resistance),
+        compliance: total_area / (FIXED_GROUND_STIFFNESS_RATIO * resistance),
     };
-    let mut shape = Triplets::new(n);
+    let mut foundation_stiffness = Triplets::new(dofs);
     for (nodes, _) in base.foundations() {
-        keep_shape(nodes, SHAPE_STIFFNESS_RATIO * stiffest(&stiffness), &mut shape);
+        add_rigid_foundation(
+            nodes,
+            RIGID_FOUNDATION_STIFFNESS_RATIO * stiffest(&stiffness),
+            &mut foundation_stiffness,
+        );
     }
-    let structure: Box<dyn Structure> = if shape.entries().is_empty() {
+    let structure: Box<dyn Structure> = if foundation_stiffness.entries().is_empty() {
         structure
     } else {
-        Box::new(RigidBase { structure, shape })
+        Box::new(StructureOnRigidFoundations { structure, foundation_stiffness })
     };
     Ok((structure, Box::new(ground)))
 }
 
-/// Whether the ground is a held one.
+/// Whether the ground belongs to a fixed base.
 pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
     ground.is::<FixedGround>()
 }
 
-/// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all but rigid motions of its nodes.
-fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
+/// Adds the stiffness γ Nᵀ (1 − Q Qᵀ) N, which makes a foundation rigid.
+///
+/// It resists all motions of the nodes except rigid ones.
+fn add_rigid_foundation(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
     let Some(directions) = nodes.first().map(BaseNode::directions) else { return };
-    let rigid = rigid_motions(nodes, directions);
-    // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
+    let rigid_motions = rigid_motions(nodes, directions);
     let rows: Vec<_> =
         nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
     let dofs = dofs_of(nodes);
-    let dense = |row: usize| {
+    let dense_row = |row: usize| {
         let mut values = vec![0.0; dofs.len()];
         for &(dof, weight) in rows[row] {
-            if let Ok(place) = dofs.binary_search(&dof) {
-                values[place] += weight;
+            if let Ok(index) = dofs.binary_search(&dof) {
+                values[index] += weight;
             }
         }
         values
     };
     // Qᵀ N, a row for each rigid motion.
-    let mut rigid_rows: Vec<Vec<f64>> = Vec::with_capacity(rigid.len());
-    for motion in &rigid {
+    let mut rigid_rows: Vec<Vec<f64>> = Vec::with_capacity(rigid_motions.len());
+    for motion in &rigid_motions {
         let mut sum = vec![0.0; dofs.len()];
         for (row, factor) in motion.iter().enumerate() {
-            sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
+            sum.iter_mut().zip(dense_row(row)).for_each(|(sum, x)| *sum += factor * x);
         }
         rigid_rows.push(sum);
     }
     for row in 0..rows.len() {
-        let mut values = dense(row);
-        let largest = largest(&values);
-        for (motion, sum) in rigid.iter().zip(&rigid_rows) {
-            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= motion[row] * sum);
+        let mut values = dense_row(row);
+        let max_weight = largest(&values);
+        for (motion, rigid_row) in rigid_motions.iter().zip(&rigid_rows) {
+            values.iter_mut().zip(rigid_row).for_each(|(x, r)| *x -= motion[row] * r);
         }
-        let terms = dofs.iter().copied().zip(values);
-        let terms: Vec<_> =
-            terms.filter(|(_, x)| x.abs() > RIGID_MOTION_TOLERANCE * largest).collect();
+        let mut terms = Vec::with_capacity(dofs.len());
+        for (&dof, value) in dofs.iter().zip(values) {
+            if value.abs() > RIGID_MOTION_TOLERANCE * max_weight {
+                terms.push((dof, value));
+            }
+        }
         if !terms.is_empty() {
             matrix.add_outer(&terms, spring);
         }
     }
 }
 
-/// Columns of Q: components of each node along x, up, along y.
+/// Columns of Q, the orthonormal rigid motions of nodes.
+///
+/// The components of each node are those along x, upwards and, in plan, along y.
 fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
-    let count = nodes.len() as f64;
-    let x = nodes.iter().map(|node| node.x).sum::<f64>() / count;
-    let y = nodes.iter().map(|node| node.y).sum::<f64>() / count;
-    let z = nodes.iter().map(|node| node.z).sum::<f64>() / count;
-    let motion = |of: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
-        nodes.iter().flat_map(|node| of(node).into_iter().take(directions)).collect()
+    let node_count = nodes.len() as f64;
+    let x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
+    let y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
+    let z = nodes.iter().map(|node| node.z).sum::<f64>() / node_count;
+    let motion = |node_motion: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
+        nodes
+            .iter()
+            .flat_map(|node| node_motion(node).into_iter().take(directions))
+            .collect()
     };
     let mut motions = vec![
         motion(&|_| [1.0, 0.0, 0.0]),
@@ -125,10 +138,10 @@ fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
         motions.push(motion(&|node| [0.0, node.y - y, 0.0]));
         motions.push(motion(&|node| [y - node.y, 0.0, node.x - x]));
     }
-    let mut rigid: Vec<Vec<f64>> = Vec::new();
+    let mut orthonormal: Vec<Vec<f64>> = Vec::new();
     for mut motion in motions {
         let initial_norm = dot(&motion, &motion).sqrt();
-        for other in rigid.iter().chain(&rigid) {
+        for other in orthonormal.iter().chain(&orthonormal) {
             let component = dot(other, &motion);
             motion.iter_mut().zip(other).for_each(|(x, y)| *x -= component * y);
         }
@@ -137,19 +150,20 @@ fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
             for x in &mut motion {
                 *x /= norm;
             }
-            rigid.push(motion);
+            orthonormal.push(motion);
         }
     }
-    rigid
+    orthonormal
 }
 
 /// A structure whose foundations move as rigid bodies.
-struct RigidBase {
+struct StructureOnRigidFoundations {
     structure: Box<dyn Structure>,
-    shape: Triplets,
+    /// Stiffness that makes the foundations rigid.
+    foundation_stiffness: Triplets,
 }
 
-impl Structure for RigidBase {
+impl Structure for StructureOnRigidFoundations {
     forward_structure! { self.structure }
 
     forward! {
@@ -161,7 +175,7 @@ impl Structure for RigidBase {
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.structure.stiffness(matrix)?;
-        for &(row, column, value) in self.shape.entries() {
+        for &(row, column, value) in self.foundation_stiffness.entries() {
             matrix.add(row, column, value);
         }
         Ok(())
@@ -176,11 +190,12 @@ struct FixedGround {
 }
 
 impl FixedGround {
-    fn fill(&self, matrix: &mut [f64]) -> Result<()> {
-        let size = self.elements.layout().len();
-        same_length("matrix of the held ground", matrix.len(), size * size)?;
+    /// Writes the diagonal compliance to a full matrix.
+    fn write_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        let order = self.elements.layout().len();
+        same_length("matrix of the fixed ground", matrix.len(), order * order)?;
         matrix.fill(0.0);
-        matrix.iter_mut().step_by(size + 1).for_each(|entry| *entry = self.compliance);
+        matrix.iter_mut().step_by(order + 1).for_each(|entry| *entry = self.compliance);
         Ok(())
     }
 }
@@ -200,7 +215,7 @@ impl Ground for FixedGround {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.fill(matrix)
+        self.write_compliance(matrix)
     }
 
     /// A traction has no effect on later steps.
@@ -212,7 +227,7 @@ impl Ground for FixedGround {
     fn commit(&mut self, _traction: &[f64]) {}
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.fill(matrix)
+        self.write_compliance(matrix)
     }
 
     fn diagonal_compliance(&self) -> Result<Option<DiagonalCompliance>> {

@@ -1,9 +1,9 @@
-//! Influence vectors: displacements when a connected part of the structure translates by 1 m.
+//! Influence vectors: displacements under a translation of a connected part by 1 m.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | R | influence vectors, one to the right, one upwards and in plan one away for each connected part |
-//! | y | translation of each part's ground: the mean free field under it |
+//! | R | influence vectors: for each connected part one to the right, one upwards and, in plan, one away |
+//! | y | mean translation of the free field under each part |
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::Terms;
@@ -18,7 +18,7 @@ pub(crate) struct Influence {
     directions: usize,
 }
 
-/// Number of the upward direction.
+/// Index of the upward direction among right, up and away.
 pub(crate) const UPWARD_DIRECTION: usize = 1;
 
 /// A connected part of the structure and the elements under it.
@@ -32,7 +32,7 @@ pub(crate) struct ConnectedPart {
 impl Influence {
     /// Splits the rigid translations of the whole structure into translations of its parts.
     ///
-    /// `roots`: the same number for all degrees of freedom of one part.
+    /// `roots` has one number for each degree of freedom, the same for all of a part.
     pub(crate) fn split(base: &PlacedBase, translations: &[Vec<f64>], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
         for (nodes, elements) in base.foundations() {
@@ -45,9 +45,9 @@ impl Influence {
                 continue;
             }
             let vectors = [0, 1, 2].map(|direction| {
-                let vector = translations.get(direction).into_iter().flatten().enumerate();
-                let of_part = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
-                of_part.map(|(i, r)| (i, *r)).collect()
+                let terms = translations.get(direction).into_iter().flatten().enumerate();
+                let part_terms = terms.filter(|&(i, r)| roots[i] == root && *r != 0.0);
+                part_terms.map(|(i, r)| (i, *r)).collect()
             });
             parts.push((root, ConnectedPart { vectors, elements: elements.collect() }));
         }
@@ -60,7 +60,7 @@ impl Influence {
         &self.parts
     }
 
-    /// These vectors in other coordinates.
+    /// Converts all vectors to other coordinates.
     pub(crate) fn converted(&self, convert: impl Fn(&Terms) -> Terms) -> Self {
         let mut parts = self.parts.clone();
         for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
@@ -69,7 +69,9 @@ impl Influence {
         Self { parts, directions: self.directions }
     }
 
-    /// Adds factor · R y to `displacement`; y: translation `[right, up, away]` of each part.
+    /// Adds factor · R y to `displacement`.
+    ///
+    /// `translations` has the translation y, `[right, up, away]`, of each part.
     pub(crate) fn translate(
         &self,
         factor: f64,
@@ -77,30 +79,32 @@ impl Influence {
         displacement: &mut [f64],
     ) {
         for (part, translation) in self.parts.iter().zip(translations) {
-            for (vector, amount) in part.vectors.iter().zip(translation) {
-                if amount != 0.0 {
+            for (vector, distance) in part.vectors.iter().zip(translation) {
+                if distance != 0.0 {
                     for &(i, r) in vector {
-                        displacement[i] += factor * r * amount;
+                        displacement[i] += factor * r * distance;
                     }
                 }
             }
         }
     }
 
-    /// The vectors of all parts, one after the other, each over `dofs` entries.
-    pub(crate) fn translations(&self, dofs: usize) -> Vec<f64> {
+    /// The vectors of all parts, one after the other, with `dofs` entries each.
+    pub(crate) fn part_vectors(&self, dofs: usize) -> Vec<f64> {
         let vectors = self.parts.iter().flat_map(|part| &part.vectors);
         let moving = vectors.filter(|vector| !vector.is_empty());
         moving.flat_map(|vector| spread(vector, dofs)).collect()
     }
 
-    /// The vectors of the whole structure, all parts together, over `dofs` entries.
-    pub(crate) fn of_all(&self, dofs: usize) -> Vec<Vec<f64>> {
-        (0..self.directions).map(|direction| self.of(direction, dofs)).collect()
+    /// The vectors of the whole structure for all directions, with `dofs` entries each.
+    pub(crate) fn whole_vectors(&self, dofs: usize) -> Vec<Vec<f64>> {
+        (0..self.directions).map(|direction| self.whole_vector(direction, dofs)).collect()
     }
 
-    /// Influence vector of all parts for one direction: right 0, [`UPWARD_DIRECTION`], away 2.
-    pub(crate) fn of(&self, direction: usize, dofs: usize) -> Vec<f64> {
+    /// The vector of the whole structure for one direction.
+    ///
+    /// Direction 0 is to the right, [`UPWARD_DIRECTION`] upwards, 2 away.
+    pub(crate) fn whole_vector(&self, direction: usize, dofs: usize) -> Vec<f64> {
         let mut vector = vec![0.0; dofs];
         let unit = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });
         self.translate(1.0, std::iter::repeat(unit), &mut vector);
@@ -122,35 +126,39 @@ impl ConnectedPart {
             .collect()
     }
 
-    /// Rᵀ f: the resultants to the right, upwards and away.
+    /// Resultants Rᵀ f of forces: to the right, upwards and away.
     pub(crate) fn resultants(&self, force: &[f64]) -> [f64; 3] {
         [0, 1, 2].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())
     }
 
     /// Mean translation `[right, up, away]` of contact displacements over this part's elements.
     ///
-    /// Normal components count down. Zero in directions in which the part cannot move. Exact if all displacements
-    /// are equal.
-    pub(crate) fn mean(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
-        let Some(&first) = self.elements.first() else { return [0.0; 3] };
+    /// Normal components of contact displacements are positive downwards. The mean is zero in directions in which the part
+    /// cannot move. It is exact if all displacements are equal.
+    pub(crate) fn mean_translation(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
+        let Some(&first_element) = self.elements.first() else { return [0.0; 3] };
         let areas = base.areas();
-        let area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
-        let start = base.motion_of(first, displacement);
-        // Differences from the first element: equal displacements then have an exact mean.
+        let total_area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
+        let first_motion = base.element_displacement(first_element, displacement);
+        // Sums of differences from the first element, which are exactly zero for equal displacements.
         let mut differences = [0.0; 3];
         for &e in &self.elements {
-            let motion = base.motion_of(e, displacement);
+            let motion = base.element_displacement(e, displacement);
             for (k, sum) in differences.iter_mut().enumerate() {
-                *sum += areas[e] * (motion[k] - start[k]);
+                *sum += areas[e] * (motion[k] - first_motion[k]);
             }
         }
         [0, 1, 2].map(|k| {
-            if self.vectors[k].is_empty() { 0.0 } else { start[k] + differences[k] / area }
+            if self.vectors[k].is_empty() {
+                0.0
+            } else {
+                first_motion[k] + differences[k] / total_area
+            }
         })
     }
 
-    /// Subtracts a translation `[right, up, away]` from contact displacements.
-    pub(crate) fn subtract(
+    /// Subtracts a translation `[right, up, away]` from the contact displacements of this part's elements.
+    pub(crate) fn subtract_translation(
         &self,
         base: &PlacedBase,
         [right, up, away]: [f64; 3],
@@ -158,9 +166,9 @@ impl ConnectedPart {
     ) {
         let layout = base.layout();
         for &e in &self.elements {
-            let moved = base.elements()[e].components([right, away, up]);
-            for (component, moved) in (0..layout.components()).zip(moved) {
-                displacement[layout.place(component, e)] -= moved;
+            let values = base.elements()[e].components([right, away, up]);
+            for (component, value) in (0..layout.components()).zip(values) {
+                displacement[layout.place(component, e)] -= value;
             }
         }
     }

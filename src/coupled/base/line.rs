@@ -1,66 +1,68 @@
-//! A base in the plane: lines of nodes, its mean displacement over a contact element, and its chord.
+//! A base in the plane: lines of nodes, mean displacements over contact elements, and chords.
 
 use super::faces::GAUSS_POINT_OFFSET;
 use super::transformation::{Terms, Weights, accumulate};
-use super::{BasePoint, Outline, PlacedBase, check_covered};
+use super::{BasePoint, PlacedBase, PlacedFoundation, check_covered};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, number_text};
 use crate::geometry::Patch;
 use crate::structure::{BaseNode, check_left_to_right, check_line};
 
-/// Distance from an element's line and ends that counts as rounding, relative to its length.
+/// Distance from an element's line or ends that counts as rounding, relative to its length.
 const ON_ELEMENT_TOLERANCE: f64 = 1e-9;
 
 impl PlacedBase {
-    /// Averages the piecewise straight base over each element.
+    /// Places lines of nodes on elements; each line is a foundation.
     ///
-    /// Each line is a foundation.
+    /// The displacement is linear between neighbouring nodes, and averaged over each element.
     pub(crate) fn on_lines(lines: &[Vec<BaseNode>], elements: &Patch) -> Result<Self> {
         let nodes = lines.concat();
         check_order(&nodes)?;
-        let mut foundations: Vec<Outline> = Vec::with_capacity(lines.len());
-        let mut first = 0;
-        let mut element = 0;
+        let mut foundations: Vec<PlacedFoundation> = Vec::with_capacity(lines.len());
+        let mut first_node = 0;
+        let mut first_element = 0;
         for line in lines {
             check_line(line)?;
             check_left_to_right(line[0].x, line[line.len() - 1].x)?;
-            let range = first..first + line.len();
+            let range = first_node..first_node + line.len();
             let floor = BaseNode::floor(line);
-            let last = range.end - 1;
-            let end = nodes.get(range.end).map_or(elements.len(), |next| {
-                let middle = 0.5 * (nodes[last].x + next.x);
+            let last_node = range.end - 1;
+            // The elements end in the middle between this foundation and the next.
+            let element_end = nodes.get(range.end).map_or(elements.len(), |next| {
+                let middle = 0.5 * (nodes[last_node].x + next.x);
                 elements.partition_point(|element| element.center()[0] < middle)
             });
-            foundations.push(Outline {
-                elements: element..end,
+            foundations.push(PlacedFoundation {
+                elements: first_element..element_end,
                 settlement: Weights::Sparse(mean_settlement(floor)),
                 rotations: vec![Weights::Sparse(chord_rotation(floor))],
                 nodes: range,
                 corners: Vec::new(),
             });
-            first = last + 1;
-            element = end;
+            first_node = last_node + 1;
+            first_element = element_end;
         }
         check_covered(&foundations)?;
         let mut weights = Vec::with_capacity(elements.len());
         let mut points = Vec::new();
-        for Outline { nodes: range, elements: under, .. } in &foundations {
+        for PlacedFoundation { nodes: range, elements: foundation_elements, .. } in &foundations {
             let line = &nodes[range.clone()];
-            let numbered = |weights: Vec<(usize, f64)>| {
+            // From indices in the line to indices in the base.
+            let to_base_indices = |weights: Vec<(usize, f64)>| {
                 weights.into_iter().map(|(k, weight)| (range.start + k, weight)).collect::<Vec<_>>()
             };
             let is_flexible = !BaseNode::are_flat(line);
-            for e in under.clone() {
-                let run = NodesOnElement::new(line, &elements[e])?;
-                weights.push(numbered(run.mean_weights()));
+            for e in foundation_elements.clone() {
+                let nodes_on_element = NodesOnElement::new(line, &elements[e])?;
+                weights.push(to_base_indices(nodes_on_element.mean_weights()));
                 if !is_flexible {
                     continue;
                 }
-                for (area, corner_weights) in run.gauss_points() {
+                for (area, corner_weights) in nodes_on_element.gauss_points() {
                     points.push(BasePoint {
                         element: e,
                         area,
-                        corner_weights: numbered(corner_weights),
+                        corner_weights: to_base_indices(corner_weights),
                     });
                 }
             }
@@ -69,12 +71,10 @@ impl PlacedBase {
     }
 }
 
-/// Error for nodes out of order.
-///
-/// Nodes of one height run from left to right.
+/// Error for nodes out of order: nodes of one height must run from left to right.
 fn check_order(nodes: &[BaseNode]) -> Result<()> {
-    let mut level = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
-    level.try_for_each(|pair| check_left_to_right(pair[0].x, pair[1].x))
+    let mut level_pairs = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
+    level_pairs.try_for_each(|pair| check_left_to_right(pair[0].x, pair[1].x))
 }
 
 /// Mean displacement over the length between the first node and the last, downwards.
@@ -91,7 +91,7 @@ fn mean_settlement(nodes: &[BaseNode]) -> Terms {
     terms
 }
 
-/// Rise of the last node over the first, per distance.
+/// Rotation of a chord: difference of the vertical displacements of its ends over their distance.
 fn chord_rotation(nodes: &[BaseNode]) -> Terms {
     let first = &nodes[0];
     let last = &nodes[nodes.len() - 1];
@@ -103,86 +103,95 @@ fn chord_rotation(nodes: &[BaseNode]) -> Terms {
 
 /// The nodes on the line of an element.
 struct NodesOnElement {
-    /// Number of the first node.
-    first: usize,
-    /// Places of the nodes along the element's tangent, m.
-    places: Vec<f64>,
-    /// Ends of the element, m.
+    /// Index of the first node in its line.
+    first_node: usize,
+    /// Coordinates of the nodes along the element's tangent, m.
+    coordinates: Vec<f64>,
+    /// Coordinates of the element's ends along its tangent, m.
     ends: [f64; 2],
 }
 
 impl NodesOnElement {
-    /// Nodes on the line of an element; an error unless they reach from end to end.
+    /// Selects the nodes on the line of an element; an error unless they cover the element.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
-        let place = |node: &BaseNode| element.components([node.x, node.y, node.z]);
+        // Coordinates along the element's normal and tangent.
+        let local = |node: &BaseNode| element.components([node.x, node.y, node.z]);
         let depth = element.components(element.center())[0];
-        let slack = ON_ELEMENT_TOLERANCE * element.length();
-        let is_on = |node: &&BaseNode| (place(node)[0] - depth).abs() <= slack;
-        let first = nodes.iter().position(|node| is_on(&node)).unwrap_or(nodes.len());
-        let on = nodes[first..].iter().take_while(is_on);
-        let run =
-            Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
-        let [start, .., end] = run.places[..] else {
-            let center = element.center().map(number_text);
-            let x = &center[0];
-            let z = &center[2];
+        let tolerance = ON_ELEMENT_TOLERANCE * element.length();
+        let is_on_line = |node: &&BaseNode| (local(node)[0] - depth).abs() <= tolerance;
+        let first_node = nodes.iter().position(|node| is_on_line(&node)).unwrap_or(nodes.len());
+        let nodes_on_line = nodes[first_node..].iter().take_while(is_on_line);
+        let coordinates = nodes_on_line.map(|node| local(node)[1]).collect();
+        let nodes_on_element = Self { first_node, coordinates, ends: element.span() };
+        let [first, .., last] = nodes_on_element.coordinates[..] else {
+            let [x, _, z] = element.center().map(number_text);
             let reason = format!(
                 "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` and \
                  `FemModel::in_trench` put a base at the depth of a trench"
             );
             return Err(Error::part("structure", reason));
         };
-        let left = run.ends[0];
-        let right = run.ends[1];
-        if start - left <= slack && right - end <= slack {
-            return Ok(run);
+        let [left, right] = nodes_on_element.ends;
+        if first - left <= tolerance && right - last <= tolerance {
+            return Ok(nodes_on_element);
         }
-        let left = number_text(left);
-        let right = number_text(right);
-        let start = number_text(start);
-        let end = number_text(end);
-        Err(Error::part(
-            "ground",
-            format!(
-                "its element from {left} to {right} m reaches beyond the structure's base, {start} to {end} m: `under` \
-                 makes a ground of the base's width"
-            ),
-        ))
+        let reason = format!(
+            "its element from {} to {} m extends beyond the structure's base, {} to {} m: `under` makes a ground of the \
+             base's width",
+            number_text(left),
+            number_text(right),
+            number_text(first),
+            number_text(last)
+        );
+        Err(Error::part("ground", reason))
     }
 
-    /// The pieces of the element between neighbouring nodes: places of both nodes, and both ends.
-    fn pieces(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
-        let left = self.ends[0];
-        let right = self.ends[1];
-        let segments = self.places.windows(2).enumerate().map(move |(k, pair)| {
-            // The outermost segments also include a part outside them by rounding.
-            let from = if k == 0 { left } else { left.max(pair[0]) };
-            let to = if k + 2 == self.places.len() { right } else { right.min(pair[1]) };
-            (self.first + k, [pair[0], pair[1]], [from, to])
+    /// Pieces of the element between neighbouring nodes.
+    fn pieces(&self) -> impl Iterator<Item = ElementPiece> {
+        let [left, right] = self.ends;
+        let pieces = self.coordinates.windows(2).enumerate().map(move |(k, pair)| {
+            // The outermost pieces also include the rounding between the base's end and the element's end.
+            let start = if k == 0 { left } else { left.max(pair[0]) };
+            let end = if k + 2 == self.coordinates.len() { right } else { right.min(pair[1]) };
+            ElementPiece { node: self.first_node + k, x0: pair[0], x1: pair[1], start, end }
         });
-        segments.filter(|(.., [from, to])| to > from)
+        pieces.filter(|piece| piece.end > piece.start)
     }
 
-    /// (node, weight) of the mean over the element of the piecewise linear interpolation.
+    /// Indices and weights of nodes in the mean displacement of the element.
     fn mean_weights(&self) -> Vec<(usize, f64)> {
         let length = self.ends[1] - self.ends[0];
-        let weights = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
-            let middle = (0.5 * (from + to) - x0) / (x1 - x0);
-            let fraction = (to - from) / length;
-            [(k, fraction * (1.0 - middle)), (k + 1, fraction * middle)]
-        });
-        weights.collect()
+        let mut weights = Vec::new();
+        for ElementPiece { node, x0, x1, start, end } in self.pieces() {
+            let middle = (0.5 * (start + end) - x0) / (x1 - x0);
+            let fraction = (end - start) / length;
+            weights.extend([(node, fraction * (1.0 - middle)), (node + 1, fraction * middle)]);
+        }
+        weights
     }
 
-    /// Gauss points on each piece of the element: length (m) and node weights of each point.
+    /// Gauss points on each piece of the element: length (m), and indices and weights of nodes.
     fn gauss_points(&self) -> Vec<(f64, Vec<(usize, f64)>)> {
-        let points = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
-            [-GAUSS_POINT_OFFSET, GAUSS_POINT_OFFSET].map(|place| {
-                let x = 0.5 * (from + to) + place * (to - from);
+        let mut points = Vec::new();
+        for ElementPiece { node, x0, x1, start, end } in self.pieces() {
+            for offset in [-GAUSS_POINT_OFFSET, GAUSS_POINT_OFFSET] {
+                let x = 0.5 * (start + end) + offset * (end - start);
                 let weight = (x - x0) / (x1 - x0);
-                (0.5 * (to - from), vec![(k, 1.0 - weight), (k + 1, weight)])
-            })
-        });
-        points.collect()
+                points.push((0.5 * (end - start), vec![(node, 1.0 - weight), (node + 1, weight)]));
+            }
+        }
+        points
     }
+}
+
+/// Piece of an element between two neighbouring nodes.
+struct ElementPiece {
+    /// Index of the first of the two nodes.
+    node: usize,
+    /// Coordinates of the nodes along the element's tangent, m.
+    x0: f64,
+    x1: f64,
+    /// Ends of the piece along the element's tangent, m.
+    start: f64,
+    end: f64,
 }

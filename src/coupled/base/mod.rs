@@ -1,4 +1,4 @@
-//! The base's element means of displacement, and their transpose.
+//! Base of a structure on contact elements: mean displacements of the elements, and forces of tractions.
 
 mod corner_weights;
 pub(crate) mod faces;
@@ -18,70 +18,76 @@ use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends,
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Fraction of a foundation's length that may extend beyond the elements.
+/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the one before.
+const TRANSLATION_CORRECTION_COUNT: usize = 4;
+/// Fraction of a foundation's length that may extend beyond the elements: its effect on the response is small.
 const MAX_UNCOVERED_FRACTION: f64 = 0.1;
 
-/// B, from coordinates to element means of the base displacement, and BᵀA, from tractions to forces.
+/// Base on contact elements: B from coordinates to element means of displacement, and BᵀA from tractions to forces.
 ///
-/// Normal components count down. The coordinates are the structure's degrees of freedom or its stepping
-/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes the means are the T matrix of
-/// halves of Patel & Spyrakos, eq. 14, and the transpose is their eq. 15. `faces.rs` computes the means in plan.
+/// Normal components are positive downwards. The coordinates are the structure's degrees of freedom or its stepping
+/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes B is the matrix T of halves of
+/// Patel & Spyrakos, eq. 14, and Bᵀ their eq. 15. `faces.rs` computes the means in plan.
 #[derive(Debug, Clone)]
 pub(crate) struct PlacedBase {
-    /// Rows, component by component.
+    /// Rows of B, component by component.
     rows: Rows,
-    foundations: Vec<Outline>,
+    foundations: Vec<PlacedFoundation>,
     elements: Patch,
     nodes: Vec<BaseNode>,
-    /// Points under flexible foundations, for integrals over elements; empty in stepping coordinates.
+    /// Integration points under flexible foundations; empty in stepping coordinates.
     points: Vec<BasePoint>,
 }
 
-/// A point of a flexible base.
+/// Integration point under a flexible foundation.
 #[derive(Debug, Clone)]
 pub(crate) struct BasePoint {
     pub(crate) element: usize,
-    /// Area of the point in integrals, m²; in the plane a length.
+    /// Weight of the point in an integral over the area, m²; in the plane a length, m.
     pub(crate) area: f64,
-    /// Nodes, and their weights in the point's displacement.
+    /// Indices of nodes, and their weights in the point's displacement.
     pub(crate) corner_weights: Vec<(usize, f64)>,
 }
 
-/// Foundation: its nodes, elements, settlement, rotations and outline.
-///
-/// In the plane it has the rotation of its chord; in plan also the rotations about the other axes, and the corners
-/// of its convex outline.
+/// Foundation on contact elements.
 #[derive(Debug, Clone)]
-pub(crate) struct Outline {
+pub(crate) struct PlacedFoundation {
+    /// Indices of its nodes in the base.
     pub(crate) nodes: Range<usize>,
+    /// Indices of its contact elements.
     pub(crate) elements: Range<usize>,
+    /// Settlement, downwards.
     pub(crate) settlement: Weights,
+    /// Rotation of the chord in the plane; in plan the rotations about y, about x and about the vertical.
     pub(crate) rotations: Vec<Weights>,
+    /// Corners of the convex outline in plan, counter-clockwise; empty in the plane.
     pub(crate) corners: Vec<[f64; 2]>,
 }
 
 impl PlacedBase {
-    /// The base of `structure` on the elements of a ground.
+    /// Places the base of `structure` on the elements of a ground.
     pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
         let base = structure.base();
         base.check(structure.dofs())?;
-        let refuse = |needed| Err(Error::Scene { quantity: "structure", needed });
+        let scene_error = |needed| Err(Error::Scene { quantity: "structure", needed });
         match (base, patch.is_plan()) {
             (Base::Lines(lines), false) => Self::on_lines(&lines, patch),
             (Base::Faces(faces), true) => Self::on_faces(&faces, patch),
-            (Base::Lines(_), true) => refuse(
+            (Base::Lines(_), true) => scene_error(
                 "must touch a ground in plan with faces: its base has lines of contact nodes, in the plane",
             ),
-            (Base::Faces(_), false) => refuse(
+            (Base::Faces(_), false) => scene_error(
                 "must touch a ground of the plane with lines of contact nodes: its base has faces, in plan",
             ),
         }
     }
 
-    /// A base of these foundations; `weights`: (node, weight) of the mean over each element.
+    /// A base in degrees of freedom, from the weights of its nodes.
+    ///
+    /// `weights` has pairs of a node's index and its weight in the mean displacement of each element.
     pub(crate) fn from_weights(
         nodes: Vec<BaseNode>,
-        foundations: Vec<Outline>,
+        foundations: Vec<PlacedFoundation>,
         weights: Vec<Vec<(usize, f64)>>,
         elements: &Patch,
         points: Vec<BasePoint>,
@@ -89,7 +95,7 @@ impl PlacedBase {
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for (e, weights) in weights.into_iter().enumerate() {
-            let means = components(&nodes, &weights, &elements[e]);
+            let means = element_components(&nodes, &weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
                 rows[layout.place(component, e)] = terms;
             }
@@ -103,14 +109,17 @@ impl PlacedBase {
         !self.points.is_empty()
     }
 
-    /// Points under flexible foundations, each with its displacement minus the mean over its element.
+    /// Integration points, with the deviation of their displacement from the mean over the element.
     ///
-    /// Component by component.
+    /// Each deviation has one row for each component.
     pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
-            let mut rows =
-                components(&self.nodes, &point.corner_weights, &self.elements[point.element]);
+            let mut rows = element_components(
+                &self.nodes,
+                &point.corner_weights,
+                &self.elements[point.element],
+            );
             for (component, terms) in rows.iter_mut().enumerate() {
                 accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
             }
@@ -131,10 +140,11 @@ impl PlacedBase {
     /// This base in stepping coordinates.
     pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
         let mut foundations = self.foundations.clone();
-        for footing in &mut foundations {
-            for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
+        for foundation in &mut foundations {
+            let rotations = foundation.rotations.iter_mut();
+            for weights in rotations.chain([&mut foundation.settlement]) {
                 if let Weights::Sparse(terms) = weights {
-                    *weights = transformation.row(terms);
+                    *weights = transformation.weights(terms);
                 }
             }
         }
@@ -142,22 +152,23 @@ impl PlacedBase {
         Self { rows: transformation.rows(&self.rows), foundations, points, ..self.clone() }
     }
 
-    /// This base with other numbers of the degrees of freedom; not in stepping coordinates.
-    pub(crate) fn renumbered(&self, number: impl Fn(usize) -> usize) -> Self {
+    /// This base with renumbered degrees of freedom; not for stepping coordinates.
+    pub(crate) fn renumbered(&self, new_index: impl Fn(usize) -> usize) -> Self {
         let mut base = self.clone();
-        for footing in &mut base.foundations {
-            for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
+        for foundation in &mut base.foundations {
+            let rotations = foundation.rotations.iter_mut();
+            for weights in rotations.chain([&mut foundation.settlement]) {
                 if let Weights::Sparse(terms) = weights {
                     for (dof, _) in terms.iter_mut() {
-                        *dof = number(*dof);
+                        *dof = new_index(*dof);
                     }
                 }
             }
         }
         if let Rows::Sparse(rows) = &mut base.rows {
-            rows.iter_mut().flatten().for_each(|(dof, _)| *dof = number(*dof));
+            rows.iter_mut().flatten().for_each(|(dof, _)| *dof = new_index(*dof));
         }
-        base.nodes.iter_mut().for_each(|node| node.map_rows(|row| row.map_dofs(&number)));
+        base.nodes.iter_mut().for_each(|node| node.map_rows(|row| row.map_dofs(&new_index)));
         base
     }
 
@@ -170,17 +181,18 @@ impl PlacedBase {
     pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[BaseNode], Range<usize>)> + '_ {
         self.foundations
             .iter()
-            .map(|footing| (&self.nodes[footing.nodes.clone()], footing.elements.clone()))
+            .map(|foundation| (&self.nodes[foundation.nodes.clone()], foundation.elements.clone()))
     }
 
     /// Corners of the convex outline of each foundation in plan, counter-clockwise; empty in the plane.
     pub(crate) fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + '_ {
-        self.foundations.iter().map(|footing| &footing.corners[..])
+        self.foundations.iter().map(|foundation| &foundation.corners[..])
     }
 
-    /// Foundations that extend too far beyond the ground's elements, the axis in plan, and how far (m).
+    /// Foundations that extend too far beyond the ground's elements.
     ///
-    /// Too far: more than their longest side there or a tenth of the foundation.
+    /// An entry is the foundation's number, in plan the axis, and the overhang, m. An overhang is too long if it exceeds
+    /// the longest side of the elements along the axis, or a tenth of the foundation.
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
         let mut uncovered = Vec::new();
         for (foundation, (nodes, elements)) in self.foundations().enumerate() {
@@ -190,12 +202,13 @@ impl PlacedBase {
                 let sides = ends.clone().map(|[low, high]| high - low);
                 let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
                 let edges = far_ends(ends);
-                let corners = span(nodes.iter().map(|node| node.place()[axis]));
-                let limit = longest_side.min(MAX_UNCOVERED_FRACTION * (corners[1] - corners[0]));
-                let reach = (edges[0] - corners[0]).max(corners[1] - edges[1]);
-                if reach > limit {
+                let node_ends = span(nodes.iter().map(|node| node.place()[axis]));
+                let limit =
+                    longest_side.min(MAX_UNCOVERED_FRACTION * (node_ends[1] - node_ends[0]));
+                let overhang = (edges[0] - node_ends[0]).max(node_ends[1] - edges[1]);
+                if overhang > limit {
                     let axis = axis_name(self.elements.is_plan(), axis);
-                    uncovered.push((foundation, axis, reach));
+                    uncovered.push((foundation, axis, overhang));
                 }
             }
         }
@@ -217,23 +230,23 @@ impl PlacedBase {
         self.elements.layout()
     }
 
-    /// Area of contact component `i`.
+    /// Area of the element of contact component `i`, m²; in the plane its length, m.
     pub(crate) fn area(&self, i: usize) -> f64 {
         self.areas()[self.layout().origin(i)[1]]
     }
 
-    /// out ← B u.
+    /// Writes the element means B u to `out`.
     pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
         self.rows.multiply(u, out);
     }
 
-    /// Component `i` of B u.
+    /// Component `i` of the element means B u.
     pub(crate) fn component_mean(&self, i: usize, u: &[f64]) -> f64 {
-        self.rows.sum(i, u)
+        self.rows.row_value(i, u)
     }
 
-    /// Displacement `[right, up, away]` of element `e` from contact displacements.
-    pub(crate) fn motion_of(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
+    /// Displacement `[right, up, away]` of element `e`, from contact displacements.
+    pub(crate) fn element_displacement(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
         let mut components = [0.0; 3];
         for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
@@ -243,52 +256,57 @@ impl PlacedBase {
         [vector[0], vector[2], vector[1]]
     }
 
-    /// Mean `[right, up, away]` of contact displacements over the whole base.
+    /// Mean `[right, up, away]` of contact displacements over the area of the whole base.
     ///
-    /// Nothing moves away in the plane.
-    pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
+    /// The component away is zero in the plane.
+    pub(crate) fn mean_displacement(&self, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
-        let [down, along, across] = layout.split(displacement);
+        let [down, tangential_x, tangential_y] = layout.split(displacement);
         let areas = self.areas();
-        let area: f64 = areas.iter().sum();
+        let total_area: f64 = areas.iter().sum();
         if self.elements.has_walls() {
             let mut mean = [0.0; 3];
             for (e, element_area) in areas.iter().enumerate() {
-                for (sum, motion) in mean.iter_mut().zip(self.motion_of(e, displacement)) {
-                    *sum += element_area / area * motion;
+                for (sum, component) in
+                    mean.iter_mut().zip(self.element_displacement(e, displacement))
+                {
+                    *sum += element_area / total_area * component;
                 }
             }
             return mean;
         }
-        let away = if across.is_empty() { 0.0 } else { dot(across, areas) / area };
-        [dot(along, areas) / area, -(dot(down, areas) / area), away]
+        let away =
+            if tangential_y.is_empty() { 0.0 } else { dot(tangential_y, areas) / total_area };
+        [dot(tangential_x, areas) / total_area, -(dot(down, areas) / total_area), away]
     }
 
-    /// f ← f + factor · BᵀA τ.
+    /// Adds the generalised forces factor · BᵀA τ of the tractions to `force`.
     pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
+    /// Rotation of a foundation's chord, counter-clockwise, rad.
     ///
-    /// In plan: the rotations about y, about x and about the vertical, by the right-hand rule.
+    /// In plan the rotations are about y, about x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
-        self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
+        self.foundations[foundation].rotations.iter().map(|rotation| rotation.value(u))
     }
 
-    /// Settlement of a foundation, downwards: mean displacement over its length, in plan over its area.
-    pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
-        self.foundations[foundation].settlement.of(u)
-    }
-
-    /// Largest error of N r for translations of 1 to the right, 1 up and 1 away.
+    /// Settlement of a foundation, downwards, m.
     ///
-    /// N: displacements of the contact nodes. Components without terms are ignored.
+    /// It is the mean displacement over the length of its floor, in plan the mean over its area.
+    pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
+        self.foundations[foundation].settlement.value(u)
+    }
+
+    /// Largest error of the contact nodes' displacements under translations of 1 m, m.
+    ///
+    /// The translations are to the right, upwards and away. Components without terms are ignored.
     pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
         let mut max_error = 0.0_f64;
         for (direction, translation) in translations.iter().enumerate() {
-            for (terms, needed) in self.node_components(direction) {
-                max_error = max_error.max((terms.value(translation) - needed).abs());
+            for (row, expected) in self.node_rows(direction) {
+                max_error = max_error.max((row.value(translation) - expected).abs());
             }
         }
         max_error
@@ -298,24 +316,24 @@ impl PlacedBase {
     ///
     /// Directions: 0 to the right, 1 upwards, 2 away.
     pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
-        for _ in 0..4 {
-            for (terms, needed) in self.node_components(direction) {
-                let missing = needed - terms.value(translation);
-                let square: f64 = terms.iter().map(|(_, weight)| weight * weight).sum();
-                if missing != 0.0 && square > 0.0 {
-                    for &(i, weight) in terms {
-                        translation[i] += missing * weight / square;
+        for _ in 0..TRANSLATION_CORRECTION_COUNT {
+            for (row, expected) in self.node_rows(direction) {
+                let residual = expected - row.value(translation);
+                let squared_norm: f64 = row.iter().map(|(_, weight)| weight * weight).sum();
+                if residual != 0.0 && squared_norm > 0.0 {
+                    for &(i, weight) in row {
+                        translation[i] += residual * weight / squared_norm;
                     }
                 }
             }
         }
     }
 
-    /// Rows of the contact nodes, and their values under a translation of 1 m.
-    fn node_components(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
+    /// Rows of the contact nodes' displacements, and their values under a translation of 1 m.
+    fn node_rows(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
         let rows = self.nodes.iter().flat_map(|node| node.rows().into_iter().enumerate());
         rows.filter(|(_, row)| !row.is_empty())
-            .map(move |(k, row)| (row, if k == direction { 1.0 } else { 0.0 }))
+            .map(move |(component, row)| (row, if component == direction { 1.0 } else { 0.0 }))
     }
 
     /// The contact nodes.
@@ -332,33 +350,33 @@ fn dofs_of(nodes: &[BaseNode]) -> Vec<usize> {
     dofs
 }
 
-/// Displacement by (node, weight) terms along the directions of an element.
-fn components(
+/// Weighted displacement of nodes in the directions of an element: normal and tangential components.
+fn element_components(
     nodes: &[BaseNode],
     weights: &[(usize, f64)],
     element: &ContactElement,
 ) -> Vec<Terms> {
     let mut components = Vec::new();
     for direction in element.directions() {
-        let mut component = Terms::new();
+        let mut terms = Terms::new();
         for &(node, weight) in weights {
             let BaseNode { horizontal, across, vertical, .. } = &nodes[node];
             let rows = direction.iter().zip([horizontal, across, vertical]);
-            for (part, row) in rows.filter(|(part, _)| **part != 0.0) {
-                accumulate(&mut component, row, part * weight);
+            for (cosine, row) in rows.filter(|(cosine, _)| **cosine != 0.0) {
+                accumulate(&mut terms, row, cosine * weight);
             }
         }
-        components.push(component);
+        components.push(terms);
     }
     components
 }
 
 /// Error for a foundation without elements.
-pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
+pub(crate) fn check_covered(foundations: &[PlacedFoundation]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
     foundations
         .iter()
-        .try_for_each(|footing| at_least(quantity, footing.elements.len(), 1))
+        .try_for_each(|foundation| at_least(quantity, foundation.elements.len(), 1))
 }
 
 #[cfg(test)]

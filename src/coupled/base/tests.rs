@@ -1,4 +1,4 @@
-//! A base in the plane: means over elements, walls, and refusals.
+//! A base in the plane: means over elements, walls, and errors.
 
 use super::*;
 use crate::structure::BaseNode;
@@ -45,13 +45,12 @@ fn means_of_a_linear_field_are_exact_on_any_mesh() {
     let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
     let mut force = vec![0.0; 8];
     base.add_forces(1.0, &traction, &mut force);
-    let left: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
-    let right: f64 = (0..8).map(|i| base.area(i) * traction[i] * means[i]).sum();
-    assert!((left - right).abs() < 1e-13);
+    let force_work: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
+    let traction_work: f64 = (0..8).map(|i| base.area(i) * traction[i] * means[i]).sum();
+    assert!((force_work - traction_work).abs() < 1e-13);
 }
 
-/// A block 4 m wide and 3 m deep, with two elements on each side: rigid motions by hand, along the normals into the
-/// soil and along the outline.
+/// Rigid motions by hand of a block 4 m wide and 3 m deep, along the normals into the soil and along the outline.
 #[test]
 fn walls_move_along_their_own_directions() {
     let node = |x: f64, z: f64| BaseNode {

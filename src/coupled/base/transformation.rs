@@ -1,4 +1,4 @@
-//! Transformations between a structure's degrees of freedom and its stepping coordinates; vibration modes.
+//! Transformation between the degrees of freedom of a structure and its stepping coordinates.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -10,33 +10,33 @@ use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{dense_multiply_add, dot, largest, transposed_multiply_add};
 use crate::structure::DofCombination;
 
-/// (coordinate, weight) pairs.
+/// Weighted sum of coordinates: pairs of a coordinate's index and its weight.
 pub(crate) type Terms = Vec<(usize, f64)>;
 
-/// Adds `factor` times a weighted sum.
-pub(crate) fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
-    for &(index, weight) in terms {
-        match row.iter_mut().find(|(j, _)| *j == index) {
+/// Adds `factor` times the weighted sum `added_terms` to the weighted sum `terms`.
+pub(crate) fn accumulate(terms: &mut Terms, added_terms: &DofCombination, factor: f64) {
+    for &(dof, weight) in added_terms {
+        match terms.iter_mut().find(|(j, _)| *j == dof) {
             Some((_, sum)) => *sum += factor * weight,
-            None => row.push((index, factor * weight)),
+            None => terms.push((dof, factor * weight)),
         }
     }
 }
 
-/// Coordinates that are stepped, chosen once while building.
+/// Transformation to the stepping coordinates, which the build chooses.
 #[derive(Debug, Clone)]
 pub(crate) enum Transformation {
     /// The degrees of freedom themselves.
     Identity,
-    /// Coordinates of modes.
+    /// Modal coordinates.
     Modes(Arc<ModalBasis>),
 }
 
 impl Transformation {
-    /// A weighted sum of degrees of freedom.
-    pub(crate) fn row(&self, terms: &[(usize, f64)]) -> Weights {
+    /// Transforms a weighted sum of degrees of freedom.
+    pub(crate) fn weights(&self, terms: &[(usize, f64)]) -> Weights {
         match self {
-            Self::Modes(modes) if !terms.is_empty() => Weights::Dense(modes.row(terms)),
+            Self::Modes(modes) if !terms.is_empty() => Weights::Dense(modes.modal_weights(terms)),
             _ => Weights::Sparse(terms.to_vec()),
         }
     }
@@ -45,21 +45,21 @@ impl Transformation {
     pub(crate) fn rows(&self, rows: &Rows) -> Rows {
         match (self, rows) {
             (Self::Modes(modes), Rows::Sparse(rows)) => {
-                Rows::Dense(rows.iter().flat_map(|terms| modes.row(terms)).collect())
+                Rows::Dense(rows.iter().flat_map(|terms| modes.modal_weights(terms)).collect())
             }
             _ => rows.clone(),
         }
     }
 
-    /// Adds forces on the degrees of freedom to `force`.
-    pub(crate) fn add_forces(&self, on_dofs: &[f64], force: &mut [f64]) {
+    /// Transforms forces on the degrees of freedom, and adds them to `force`.
+    pub(crate) fn add_forces(&self, dof_forces: &[f64], force: &mut [f64]) {
         match self {
-            Self::Identity => force.iter_mut().zip(on_dofs).for_each(|(f, added)| *f += added),
-            Self::Modes(modes) => modes.project(on_dofs, force),
+            Self::Identity => force.iter_mut().zip(dof_forces).for_each(|(f, added)| *f += added),
+            Self::Modes(modes) => modes.add_projection(dof_forces, force),
         }
     }
 
-    /// Coordinates q = Φᵀ M u of a motion of the degrees of freedom; M is their mass.
+    /// Stepping coordinates of a motion u of the degrees of freedom; q = Φᵀ M u for modes.
     pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
         match self {
             Self::Identity => dofs.to_vec(),
@@ -67,7 +67,7 @@ impl Transformation {
         }
     }
 
-    /// The degrees of freedom at these coordinates.
+    /// Degrees of freedom at stepping coordinates.
     pub(crate) fn dofs(&self, coordinates: Vec<f64>) -> Vec<f64> {
         match self {
             Self::Identity => coordinates,
@@ -85,16 +85,18 @@ pub(crate) enum Weights {
 }
 
 impl Weights {
-    /// The sum at coordinates `x`.
-    pub(crate) fn of(&self, x: &[f64]) -> f64 {
+    /// Value of the sum at coordinates `x`.
+    pub(crate) fn value(&self, x: &[f64]) -> f64 {
         match self {
             Self::Sparse(terms) => terms.iter().map(|&(i, weight)| weight * x[i]).sum(),
             Self::Dense(weights) => dot(weights, x),
         }
     }
 
-    /// Adds `factor` times the weights to `force`: the effect of a force on the sum.
-    pub(crate) fn add(&self, factor: f64, force: &mut [f64]) {
+    /// Adds `factor` times the weights to `force`.
+    ///
+    /// This is the generalised force of a force `factor` on the sum.
+    pub(crate) fn add_scaled(&self, factor: f64, force: &mut [f64]) {
         match self {
             Self::Sparse(terms) => {
                 for &(i, weight) in terms {
@@ -108,7 +110,7 @@ impl Weights {
     }
 }
 
-/// Weighted sums of coordinates, a row each.
+/// Several weighted sums of coordinates, one in each row.
 #[derive(Debug, Clone)]
 pub(crate) enum Rows {
     Sparse(Vec<Terms>),
@@ -117,12 +119,12 @@ pub(crate) enum Rows {
 }
 
 impl Rows {
-    /// Writes the sums at coordinates `x` to `out`.
+    /// Writes the values of the sums at coordinates `x` to `out`.
     pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Sparse(rows) => {
-                for (row, out) in rows.iter().zip(out) {
-                    *out = row.iter().map(|&(j, weight)| weight * x[j]).sum();
+                for (row, value) in rows.iter().zip(out) {
+                    *value = row.iter().map(|&(j, weight)| weight * x[j]).sum();
                 }
             }
             Self::Dense(rows) => {
@@ -132,15 +134,17 @@ impl Rows {
         }
     }
 
-    /// The sum of a row at coordinates `x`.
-    pub(crate) fn sum(&self, row: usize, x: &[f64]) -> f64 {
+    /// Value of the sum in a row at coordinates `x`.
+    pub(crate) fn row_value(&self, row: usize, x: &[f64]) -> f64 {
         match self {
             Self::Sparse(rows) => rows[row].iter().map(|&(j, weight)| weight * x[j]).sum(),
             Self::Dense(rows) => dot(&rows[row * x.len()..][..x.len()], x),
         }
     }
 
-    /// Adds factor · rowsᵀ (scale ∘ x) to `force`; `scale` depends on the number of the row.
+    /// Adds factor · rowsᵀ (scale ∘ x) to `force`.
+    ///
+    /// `scale` returns the factor of a row.
     pub(crate) fn add_transposed(
         &self,
         factor: f64,
@@ -148,62 +152,67 @@ impl Rows {
         x: &[f64],
         force: &mut [f64],
     ) {
+        // So many scaled values fit into a buffer on the stack.
         const ROW_BLOCK_SIZE: usize = 64;
         match self {
             Self::Sparse(rows) => {
-                for (i, (row, x)) in rows.iter().zip(x).enumerate() {
-                    let scaled = factor * scale(i) * x;
+                for (i, (row, value)) in rows.iter().zip(x).enumerate() {
+                    let scaled_value = factor * scale(i) * value;
                     for &(j, weight) in row {
-                        force[j] += weight * scaled;
+                        force[j] += weight * scaled_value;
                     }
                 }
             }
             Self::Dense(rows) => {
-                let mut scaled = [0.0; ROW_BLOCK_SIZE];
-                let rows = rows.chunks(ROW_BLOCK_SIZE * force.len());
-                for (block, (rows, x)) in rows.zip(x.chunks(ROW_BLOCK_SIZE)).enumerate() {
-                    for (k, (scaled, x)) in scaled.iter_mut().zip(x).enumerate() {
-                        *scaled = scale(block * ROW_BLOCK_SIZE + k) * x;
+                let mut scaled_values = [0.0; ROW_BLOCK_SIZE];
+                let row_blocks = rows.chunks(ROW_BLOCK_SIZE * force.len());
+                let value_blocks = x.chunks(ROW_BLOCK_SIZE);
+                for (block, (rows, values)) in row_blocks.zip(value_blocks).enumerate() {
+                    for (k, (scaled, value)) in scaled_values.iter_mut().zip(values).enumerate() {
+                        *scaled = scale(block * ROW_BLOCK_SIZE + k) * value;
                     }
-                    transposed_multiply_add(rows, factor, &scaled[..x.len()], force);
+                    transposed_multiply_add(rows, factor, &scaled_values[..values.len()], force);
                 }
             }
         }
     }
 }
 
+/// Modal coordinate of a rigid translation that counts as rounding, relative to the largest.
+const RIGID_COORDINATE_ROUNDING: f64 = 1e-12;
+
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 ///
-/// In modes every matrix of the equation of motion is diagonal: Φᵀ M Φ = 1, Φᵀ K Φ = diag(λ), Φᵀ C Φ = diag(c). A
-/// step costs a few operations per mode, and as many per mode and contact component for contact. A step evaluates
-/// only the rows of Φ of the base and of probes.
+/// In modal coordinates every matrix of the equation of motion is diagonal: Φᵀ M Φ = 1, Φᵀ K Φ = diag(λ),
+/// Φᵀ C Φ = diag(c). A step needs a few operations per mode, and a few per mode and contact component. It evaluates only
+/// the rows of Φ for the base and the probes.
 #[derive(Debug)]
 pub(crate) struct ModalBasis {
-    /// λ.
+    /// Modal stiffnesses λ, the squared circular frequencies.
     pub(crate) stiffness: Vec<f64>,
-    /// c.
+    /// Modal damping coefficients c.
     pub(crate) damping: Vec<f64>,
-    /// Φᵀ C Φ, row-major, of Ritz modes that the damping couples; otherwise empty.
+    /// Φᵀ C Φ, row-major, if the damping couples the modes; otherwise empty.
     pub(crate) coupled_damping: Vec<f64>,
     /// Φ, row-major: a row per degree of freedom.
     vectors: Vec<f64>,
 }
 
 impl ModalBasis {
-    /// The modes with these λ, c and Φ (row-major, a row per degree of freedom).
+    /// Modes with λ, c and Φ, with uncoupled damping.
     ///
-    /// They include rigid translations with λ = 0.
+    /// `vectors` is Φ, row-major, with a row per degree of freedom. The modes include rigid translations with λ = 0.
     pub(crate) fn of(stiffness: Vec<f64>, damping: Vec<f64>, vectors: Vec<f64>) -> Self {
         Self { stiffness, damping, coupled_damping: Vec::new(), vectors }
     }
 
-    /// Weights by mode of a weighted sum of degrees of freedom.
-    pub(crate) fn row(&self, terms: &[(usize, f64)]) -> Vec<f64> {
-        let n = self.count();
-        let mut weights = vec![0.0; n];
+    /// Modal weights of a weighted sum of degrees of freedom.
+    pub(crate) fn modal_weights(&self, terms: &[(usize, f64)]) -> Vec<f64> {
+        let mode_count = self.count();
+        let mut weights = vec![0.0; mode_count];
         for &(dof, weight) in terms {
-            let displacements = &self.vectors[dof * n..(dof + 1) * n];
-            weights.iter_mut().zip(displacements).for_each(|(w, phi)| *w += weight * phi);
+            let row = &self.vectors[dof * mode_count..(dof + 1) * mode_count];
+            weights.iter_mut().zip(row).for_each(|(w, phi)| *w += weight * phi);
         }
         weights
     }
@@ -213,43 +222,43 @@ impl ModalBasis {
         self.stiffness.len()
     }
 
-    /// Adds Φᵀ f to `modal`; skips degrees of freedom without force.
-    pub(crate) fn project(&self, force: &[f64], modal: &mut [f64]) {
-        for (row, force) in self.vectors.chunks_exact(self.count()).zip(force) {
+    /// Adds Φᵀ f to the `modal_forces`; skips degrees of freedom without force.
+    pub(crate) fn add_projection(&self, forces: &[f64], modal_forces: &mut [f64]) {
+        for (row, force) in self.vectors.chunks_exact(self.count()).zip(forces) {
             if *force != 0.0 {
-                modal.iter_mut().zip(row).for_each(|(q, phi)| *q += phi * force);
+                modal_forces.iter_mut().zip(row).for_each(|(q, phi)| *q += phi * force);
             }
         }
     }
 
-    /// Φᵀ M u: the coordinates of u, since Φᵀ M Φ = 1.
+    /// Modal coordinates Φᵀ M u of a motion u, since Φᵀ M Φ = 1.
     pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
         let mut momentum = vec![0.0; dofs.len()];
         mass.multiply_add(1.0, dofs, &mut momentum);
-        let mut modal = vec![0.0; self.count()];
-        self.project(&momentum, &mut modal);
-        modal
+        let mut coordinates = vec![0.0; self.count()];
+        self.add_projection(&momentum, &mut coordinates);
+        coordinates
     }
 
-    /// Modal coordinates of a rigid translation with mass matrix M: only rigid modes have a part in it.
-    pub(crate) fn translation(
+    /// Modal coordinates of a rigid translation; only rigid modes have nonzero ones.
+    pub(crate) fn rigid_translation(
         &self,
         vector: &[(usize, f64)],
         mass: &SparseMatrix,
     ) -> Vec<(usize, f64)> {
         let coordinates = self.coordinates(&spread(vector, mass.order()), mass);
-        let noise = 1e-12 * largest(&coordinates);
-        let mut rigid = Vec::new();
+        let rounding = RIGID_COORDINATE_ROUNDING * largest(&coordinates);
+        let mut rigid_terms = Vec::new();
         for (j, (q, stiffness)) in coordinates.into_iter().zip(&self.stiffness).enumerate() {
-            if *stiffness == 0.0 && q.abs() > noise {
-                rigid.push((j, q));
+            if *stiffness == 0.0 && q.abs() > rounding {
+                rigid_terms.push((j, q));
             }
         }
-        rigid
+        rigid_terms
     }
 
-    /// Φ q.
-    pub(crate) fn dofs(&self, modal: &[f64]) -> Vec<f64> {
-        self.vectors.chunks_exact(self.count()).map(|row| dot(row, modal)).collect()
+    /// Degrees of freedom Φ q at modal coordinates q.
+    pub(crate) fn dofs(&self, coordinates: &[f64]) -> Vec<f64> {
+        self.vectors.chunks_exact(self.count()).map(|row| dot(row, coordinates)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Motion of the structure in stepping coordinates.
+//! Displacement, velocity and acceleration of the structure in stepping coordinates.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,22 +10,25 @@ use crate::coupled::scheme::SchemeCoefficients;
 /// Mean translation of the free field under a part, `[right, up, away]`; away is zero in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Translation {
-    /// y at the end of the step, m.
+    /// Translation y at the end of the step, m.
     pub(crate) displacement: [f64; 3],
-    /// Δy, m.
+    /// Increment Δy of the step, m.
     pub(crate) increment: [f64; 3],
-    /// Velocity at v* of the time scheme, so that a structure moving with the ground has no damping force.
+    /// Velocity at the time of v* of the time scheme, m/s.
+    ///
+    /// With it, a structure that moves with the ground has no damping force.
     pub(crate) velocity: [f64; 3],
-    /// Velocity and acceleration of the translation at the end of the step.
+    /// Velocity at the end of the step, m/s.
     pub(crate) new_velocity: [f64; 3],
+    /// Acceleration at the end of the step, m/s².
     pub(crate) new_acceleration: [f64; 3],
 }
 
 impl Translation {
-    /// The next translation, which ends at `displacement`.
+    /// The translation of the next step, which ends at `displacement`.
     pub(crate) fn next(&self, displacement: [f64; 3], c: &SchemeCoefficients) -> Self {
         let increment: [f64; 3] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
-        let stepped = |coefficients| -> [f64; 3] {
+        let apply_scheme = |coefficients| -> [f64; 3] {
             std::array::from_fn(|k| {
                 let velocity = self.new_velocity[k];
                 SchemeCoefficients::apply(
@@ -39,16 +42,17 @@ impl Translation {
         Self {
             displacement,
             increment,
-            velocity: stepped(c.velocity),
-            new_velocity: stepped(c.new_velocity),
-            new_acceleration: stepped(c.new_acceleration),
+            velocity: apply_scheme(c.velocity),
+            new_velocity: apply_scheme(c.new_velocity),
+            new_acceleration: apply_scheme(c.new_acceleration),
         }
     }
 }
 
-/// Displacement relative to the free field's translation, total velocity and total acceleration.
+/// Motion of the structure: relative displacement, total velocity and total acceleration.
 ///
-/// It stores the degrees of freedom after their first use.
+/// The displacement is relative to the free field's translation. Degrees of freedom are computed at their first use and
+/// stored.
 #[derive(Clone)]
 pub(crate) struct Kinematics {
     pub(crate) displacement: Vec<f64>,
@@ -58,10 +62,11 @@ pub(crate) struct Kinematics {
     pub(crate) translations: Vec<Translation>,
     influence: Arc<Influence>,
     transformation: Transformation,
-    dofs: [OnceLock<Vec<f64>>; 4],
+    /// Degrees of freedom computed so far, by [`DofResponse`].
+    dof_cache: [OnceLock<Vec<f64>>; 4],
 }
 
-/// Quantities of [`Kinematics`].
+/// Quantity of [`Kinematics`] in degrees of freedom.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum DofResponse {
     Displacement,
@@ -80,29 +85,29 @@ impl Kinematics {
             translations: vec![Translation::default(); model.influence.parts().len()],
             influence: model.influence.clone(),
             transformation: model.transformation.clone(),
-            dofs: Default::default(),
+            dof_cache: Default::default(),
         }
     }
 
-    /// Discards the stored degrees of freedom; call it when coordinates have changed.
-    pub(crate) fn changed(&mut self) {
-        self.dofs.iter_mut().for_each(|seen| drop(seen.take()));
+    /// Discards the stored degrees of freedom; call it after a change of the coordinates.
+    pub(crate) fn clear_dof_cache(&mut self) {
+        self.dof_cache.iter_mut().for_each(|values| drop(values.take()));
     }
 
-    /// The degrees of freedom.
+    /// A quantity in degrees of freedom.
     pub(crate) fn dofs(&self, quantity: DofResponse) -> &[f64] {
         let coordinates = match quantity {
             DofResponse::Displacement | DofResponse::AbsoluteDisplacement => &self.displacement,
             DofResponse::Velocity => &self.velocity,
             DofResponse::Acceleration => &self.acceleration,
         };
-        let absolute = matches!(quantity, DofResponse::AbsoluteDisplacement);
-        if let (Transformation::Identity, false) = (&self.transformation, absolute) {
+        let is_absolute = matches!(quantity, DofResponse::AbsoluteDisplacement);
+        if let (Transformation::Identity, false) = (&self.transformation, is_absolute) {
             return coordinates;
         }
-        self.dofs[quantity as usize].get_or_init(|| {
+        self.dof_cache[quantity as usize].get_or_init(|| {
             let mut values = coordinates.clone();
-            if absolute {
+            if is_absolute {
                 let translations = self.translations.iter().map(|y| y.displacement);
                 self.influence.translate(1.0, translations, &mut values);
             }
@@ -111,6 +116,7 @@ impl Kinematics {
     }
 }
 
+/// All quantities, with their names for `Debug`.
 const RESPONSE_QUANTITIES: [(DofResponse, &str); 4] = [
     (DofResponse::Displacement, "displacement"),
     (DofResponse::Velocity, "velocity"),
@@ -122,16 +128,16 @@ impl PartialEq for Kinematics {
     fn eq(&self, other: &Self) -> bool {
         RESPONSE_QUANTITIES
             .into_iter()
-            .all(|(which, _)| self.dofs(which) == other.dofs(which))
+            .all(|(quantity, _)| self.dofs(quantity) == other.dofs(quantity))
     }
 }
 
 impl std::fmt::Debug for Kinematics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut shown = f.debug_struct("Kinematics");
-        for (which, name) in RESPONSE_QUANTITIES {
-            shown.field(name, &self.dofs(which));
+        let mut debug_struct = f.debug_struct("Kinematics");
+        for (quantity, name) in RESPONSE_QUANTITIES {
+            debug_struct.field(name, &self.dofs(quantity));
         }
-        shown.finish()
+        debug_struct.finish()
     }
 }

@@ -1,4 +1,4 @@
-//! External loads: a row of degrees of freedom times a function of time.
+//! External loads: a weighted sum of degrees of freedom times a function of time.
 
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::error::{Error, Result, at_least, finite, positive, same_length};
@@ -6,19 +6,19 @@ use crate::motion::Record;
 use crate::structure::DofCombination;
 use std::fmt;
 
-/// A force that acts on a structure from outside: wind, machinery, blast, impact.
+/// External force on a structure: wind, machinery, blast, impact.
 ///
-/// The force on every degree of freedom is its weight in `row` times the load's value. The load thus does the work
-/// value × Δ(row): for the [`DofCombination`] of a displacement the value is a force (N per metre of thickness),
-/// for a rotation a moment. The value at t = 0 belongs to the static state, as if it had grown slowly after the weight
-/// ([`GravityStage`](crate::coupled::GravityStage)); a sudden load is zero at t = 0.
+/// The force on each degree of freedom is its weight in `row` times the load's value. The work of the load is therefore
+/// value × Δ(row). For the [`DofCombination`] of a displacement the value is a force (N, in the plane N/m), for a
+/// rotation a moment. The value at t = 0 belongs to the static state, as if it had grown slowly after the weight
+/// ([`GravityStage`](crate::coupled::GravityStage)). A sudden load is zero at t = 0.
 ///
 /// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once,
 /// at the time at which the scheme writes the equation of motion: t + Δt/2 for
 /// [`Midpoint`](crate::coupled::Midpoint) and [`DissipativeMidpoint`](crate::coupled::DissipativeMidpoint), t + Δt
-/// for [`Newmark`](crate::coupled::Newmark). The iterations of a nonlinear structure use this one value; a step
-/// that failed and is tried again evaluates the load again. A force that follows from the state, for example of a
-/// controller, is [set](crate::Simulation::set_load) between the steps.
+/// for [`Newmark`](crate::coupled::Newmark). All iterations of a nonlinear structure use this value. If a failed step is
+/// tried again, the load is evaluated again. Between the steps, [`set_load`](crate::Simulation::set_load) sets a force
+/// that depends on the state, for example the force of a controller.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -30,7 +30,7 @@ use std::fmt;
 ///
 /// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
 /// let roof = block.horizontal_at(9.0);
-/// // 100 kN/m at the roof, let go at t = 0.
+/// // A force of 100 kN/m at the roof is released at t = 0.
 /// let mut simulation = Simulation::builder(0.005)
 ///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
 ///     .structure(block)
@@ -40,7 +40,7 @@ use std::fmt;
 ///     .build()?;
 /// assert!((simulation.state().base_shear - 100.0e3).abs() < 1.0);
 /// let run = simulation.run(400, |_| {})?;
-/// // It swings back.
+/// // The block swings to the other side.
 /// assert!(run.probes[0].extremes.lowest.value < -5e-3);
 /// assert!(run.whole.base_shear.lowest.value < 0.0 && run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
@@ -48,7 +48,7 @@ use std::fmt;
 pub struct Load {
     row: DofCombination,
     value: Box<dyn Fn(f64) -> f64 + Send>,
-    /// Whether it comes on with the weight.
+    /// Whether the load is applied with the weight.
     is_weight: bool,
 }
 
@@ -63,10 +63,11 @@ impl Load {
         Self { row: row.into(), value: Box::new(value), is_weight: false }
     }
 
-    /// Constant `force` that comes on with the weight, as the [gravity stage](crate::coupled::GravityStage) defines.
+    /// Constant `force` that is applied with the weight.
     ///
-    /// For dead loads whose mass the structure does not have: equipment, fill, a fixed tank. Other loads at t = 0 come
-    /// on after the weight, with the interface law.
+    /// The [gravity stage](crate::coupled::GravityStage) defines how the weight is applied. Use it for dead loads without
+    /// mass in the structure: equipment, fill, a fixed tank. Other loads at t = 0 are applied after the weight, with the
+    /// interface law.
     ///
     /// ```
     /// use basemat::bem::ElasticGround;
@@ -84,7 +85,7 @@ impl Load {
     ///     .interface(Coulomb::new(0.5)?)
     ///     .load(Load::weight(up, -400.0e3))
     ///     .build()?;
-    /// // The base is placed without friction: it carries no shear. A constant load would leave 0.3 of the pressure.
+    /// // The base is placed without friction and has no shear. A constant load would cause a shear of 0.3 of the pressure.
     /// assert!(simulation.state().contact.iter().all(|element| element.shear.abs() < 1.0));
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -92,22 +93,22 @@ impl Load {
         Self { is_weight: true, ..Self::constant(row, force) }
     }
 
-    /// Load of constant `force`, in the static state too.
+    /// Constant `force`, which also acts in the static state.
     pub fn constant(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |_| force)
     }
 
-    /// A `force` of the static state that is zero from the first step on (snap-back).
+    /// A `force` of the static state that is released at t = 0 (snap-back test).
     ///
     /// Without a static state (no gravity, or [`GravityStage::Unloaded`](crate::coupled::GravityStage::Unloaded))
-    /// it never acts.
+    /// the force never acts.
     pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }
 
     /// `force` times the samples of a record, linear between them and zero beyond its ends.
     ///
-    /// The samples count in m/s², whatever their meaning.
+    /// The factor of each sample is its value in m/s².
     pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
         Self::new(row, move |time| force * record.at(time).acceleration)
@@ -131,12 +132,12 @@ impl Load {
         let times = times.to_vec();
         let forces = forces.to_vec();
         Ok(Self::new(row, move |time| {
-            let next = times.partition_point(|t| *t <= time);
-            match (next.checked_sub(1), times.get(next)) {
-                (Some(k), Some(end)) => {
-                    let fraction = (time - times[k]) / (end - times[k]);
-                    // Not by the difference, which may overflow.
-                    (1.0 - fraction) * forces[k] + fraction * forces[next]
+            let upper_index = times.partition_point(|t| *t <= time);
+            match (upper_index.checked_sub(1), times.get(upper_index)) {
+                (Some(k), Some(upper_time)) => {
+                    let fraction = (time - times[k]) / (upper_time - times[k]);
+                    // The difference of the forces may overflow.
+                    (1.0 - fraction) * forces[k] + fraction * forces[upper_index]
                 }
                 (Some(k), None) if time <= times[k] => forces[k],
                 _ => 0.0,
@@ -144,12 +145,12 @@ impl Load {
         }))
     }
 
-    /// Whether the load comes on with the weight.
+    /// Whether the load is applied with the weight.
     pub(crate) fn is_weight(&self) -> bool {
         self.is_weight
     }
 
-    /// Row of the degrees of freedom on which the load acts.
+    /// Weighted sum of degrees of freedom on which the load acts.
     pub(crate) fn row(&self) -> &DofCombination {
         &self.row
     }
@@ -159,10 +160,9 @@ impl Load {
         (self.value)(time)
     }
 
-    /// Error for a row with degrees of freedom that the structure lacks, and for a value at t = 0 that is not
-    /// finite.
+    /// Error for degrees of freedom that the structure lacks, and for a value at t = 0 that is not finite.
     ///
-    /// `index`: the load's number.
+    /// `index` is the load's number in errors.
     pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
         self.row.check("degree of freedom of a load", dofs)?;
         let quantity = "external load at t = 0";
@@ -184,35 +184,37 @@ impl fmt::Debug for Load {
 /// A load in stepping coordinates.
 pub(crate) struct SteppedLoad {
     load: Load,
-    row: Weights,
+    weights: Weights,
     /// Force in the static state.
-    at_start: f64,
+    static_force: f64,
     /// Force that replaces the value of the load's function.
-    set: Option<f64>,
+    set_force: Option<f64>,
 }
 
 impl SteppedLoad {
     pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
-        let row = transformation.row(&load.row);
-        let at_start = if is_static { load.value(0.0) } else { 0.0 };
-        Self { load, row, at_start, set: None }
+        let weights = transformation.weights(&load.row);
+        let static_force = if is_static { load.value(0.0) } else { 0.0 };
+        Self { load, weights, static_force, set_force: None }
     }
 
-    /// Sets the force from now on; `None` returns to the load's function.
-    pub(crate) fn set(&mut self, value: Option<f64>) {
-        self.set = value;
+    /// Sets the force of further steps; `None` restores the load's function.
+    pub(crate) fn set(&mut self, force: Option<f64>) {
+        self.set_force = force;
     }
 
-    /// Force that replaces the load's own; `None` if none was set.
-    pub(crate) fn set_value(&self) -> Option<f64> {
-        self.set
+    /// Force that replaces the load's function; `None` if none was set.
+    pub(crate) fn set_force(&self) -> Option<f64> {
+        self.set_force
     }
 
-    /// Adds the force at `time`, minus the force in the static state, to `force`; returns its value.
+    /// Adds the load at `time`, minus its static force, to the generalised `force`.
+    ///
+    /// Returns the difference of the load and its static force.
     pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
-        let value = self.set.unwrap_or_else(|| self.load.value(time)) - self.at_start;
+        let value = self.set_force.unwrap_or_else(|| self.load.value(time)) - self.static_force;
         if value != 0.0 {
-            self.row.add(value, force);
+            self.weights.add_scaled(value, force);
         }
         value
     }

@@ -20,34 +20,35 @@ use std::sync::Arc;
 
 /// Matrices, influence vectors and coordinates of a structure.
 pub(crate) struct Model {
-    /// Degrees of freedom of the structure, and number of stepping coordinates.
+    /// Number of degrees of freedom of the structure.
     pub(crate) dofs: usize,
+    /// Number of stepping coordinates.
     pub(crate) coordinates: usize,
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
-    pub(crate) linear: bool,
+    pub(crate) is_linear: bool,
     /// Whether any damping coefficient is not zero.
-    pub(crate) damped: bool,
+    pub(crate) is_damped: bool,
     /// Influence vectors in stepping coordinates.
     pub(crate) influence: Arc<Influence>,
     pub(crate) transformation: Transformation,
-    /// Order in which factors in degrees of freedom are eliminated.
+    /// Elimination order for factors in degrees of freedom.
     pub(crate) elimination: Elimination,
 }
 
 impl Model {
     /// The structure in its degrees of freedom.
     pub(crate) fn new(assembled: &Assembled) -> Self {
-        let [mass, damping, stiffness] = assembled.shared().map(Matrix::Sparse);
+        let [mass, damping, stiffness] = assembled.shared_matrices().map(Matrix::Sparse);
         Self {
             dofs: assembled.dofs(),
             coordinates: assembled.dofs(),
             mass,
-            damped: !damping.is_empty(),
+            is_damped: !damping.is_empty(),
             damping,
             stiffness,
-            linear: assembled.linear,
+            is_linear: assembled.is_linear,
             influence: assembled.influence.clone(),
             transformation: Transformation::Identity,
             elimination: assembled.elimination.clone(),
@@ -56,19 +57,20 @@ impl Model {
 
     /// This structure in modal coordinates.
     pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
-        let influence =
-            assembled.influence.converted(|vector| modes.translation(vector, &assembled.mass));
-        let count = modes.count();
+        let influence = assembled
+            .influence
+            .converted(|vector| modes.rigid_translation(vector, &assembled.mass));
+        let mode_count = modes.count();
         let damping = if modes.coupled_damping.is_empty() {
             Matrix::Diagonal(modes.damping.clone())
         } else {
             let coupled = modes.coupled_damping.clone();
-            Matrix::Sparse(Arc::new(SparseMatrix::from_dense(count, coupled)))
+            Matrix::Sparse(Arc::new(SparseMatrix::from_dense(mode_count, coupled)))
         };
         Self {
-            coordinates: count,
-            mass: Matrix::Diagonal(vec![1.0; count]),
-            damped: !damping.is_empty(),
+            coordinates: mode_count,
+            mass: Matrix::Diagonal(vec![1.0; mode_count]),
+            is_damped: !damping.is_empty(),
             damping,
             stiffness: Matrix::Diagonal(modes.stiffness.clone()),
             influence: Arc::new(influence),
@@ -82,36 +84,36 @@ impl Model {
     pub(crate) fn diagonals(&self) -> Option<Diagonals<'_>> {
         match (&self.mass, &self.damping, &self.stiffness) {
             (Matrix::Diagonal(mass), Matrix::Diagonal(damping), Matrix::Diagonal(stiffness)) => {
-                let damping = self.damped.then_some(damping.as_slice());
+                let damping = self.is_damped.then_some(damping.as_slice());
                 Some(Diagonals { mass, damping, stiffness })
             }
             _ => None,
         }
     }
 
-    /// Adds the external load at `time`, without weight, minus `at_start`, to `load`.
+    /// Adds the structure's load at `time` minus its `static_load` to `load`, in stepping coordinates.
     ///
-    /// Returns whether there is any load. `scratch` has an entry for every degree of freedom. An error comes from
-    /// the structure.
-    pub(crate) fn load(
+    /// Returns whether this difference has any entry. `scratch` has an entry for each degree of freedom and is
+    /// overwritten. Errors come from [`Structure::load`].
+    pub(crate) fn add_load(
         &self,
         structure: &dyn Structure,
         time: f64,
-        at_start: &[f64],
+        static_load: &[f64],
         scratch: &mut [f64],
         load: &mut [f64],
     ) -> Result<bool> {
         scratch.fill(0.0);
         structure.load(time, scratch)?;
-        let mut differs = false;
-        for (now, at_start) in scratch.iter_mut().zip(at_start) {
-            *now -= at_start;
-            // Without a branch, for the vector units; NaN differs.
-            differs |= *now != 0.0;
+        let mut has_load = false;
+        for (force, static_force) in scratch.iter_mut().zip(static_load) {
+            *force -= static_force;
+            // Without a branch, so that the loop is vectorized. NaN counts as a load.
+            has_load |= *force != 0.0;
         }
-        if differs {
+        if has_load {
             self.transformation.add_forces(scratch, load);
         }
-        Ok(differs)
+        Ok(has_load)
     }
 }

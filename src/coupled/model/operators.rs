@@ -1,4 +1,4 @@
-//! Precomputed operators of a step, valid while the structure's tangent is unchanged.
+//! Precomputed operators of a step, valid while the structure's tangent does not change.
 
 use super::Model;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_mul
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
 pub(crate) struct Operators {
-    /// ∂f/∂u.
+    /// Tangent ∂f/∂u of the nonlinear force.
     pub(crate) tangent: SparseMatrix,
     factor: Factor,
     /// Columns of K_eff⁻¹BᵀA, one after the other.
@@ -22,34 +22,37 @@ pub(crate) struct Operators {
     pub(crate) delassus: Delassus,
 }
 
-/// K_eff⁻¹.
+/// K_eff, ready for solutions.
 pub(crate) enum Factor {
     Sparse(Box<SparseFactor>),
     /// Reciprocals of the diagonal, in modal coordinates.
     Diagonal(Vec<f64>),
 }
 
+/// Name of K_eff in errors.
 pub(crate) const EFFECTIVE_STIFFNESS_NAME: &str = "effective stiffness matrix";
 
 impl Operators {
-    /// Condenses the factored K_eff with this tangent.
+    /// Computes W from the factored K_eff with this tangent.
     ///
-    /// Returns an error for more elements than the entries of W allow.
+    /// Returns an error if the entries of W do not fit into memory.
     pub(crate) fn new(
         model: &Model,
         base: &PlacedBase,
-        soil: &Arc<CompressedMatrix>,
+        step_compliance: &Arc<CompressedMatrix>,
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Result<Self> {
         let (columns, delassus) =
-            condense(|rhs| factor.solve_many(rhs), base, soil, model.coordinates)?;
+            condense(|rhs| factor.solve_many(rhs), base, step_compliance, model.coordinates)?;
         let delassus =
-            delassus.with_parts(soil, &columns, |u: &[f64], out: &mut [f64]| base.means(u, out));
+            delassus.with_parts(step_compliance, &columns, |u: &[f64], out: &mut [f64]| {
+                base.means(u, out);
+            });
         Ok(Self { tangent, factor, columns, delassus })
     }
 
-    /// Reciprocals of K_eff in modal coordinates; empty in degrees of freedom.
+    /// Reciprocals of the diagonal K_eff in modal coordinates; empty in degrees of freedom.
     pub(crate) fn reciprocals(&self) -> &[f64] {
         match &self.factor {
             Factor::Diagonal(values) => values,
@@ -61,7 +64,9 @@ impl Operators {
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
         match &mut self.factor {
             Factor::Sparse(factor) => factor.solve(rhs),
-            Factor::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
+            Factor::Diagonal(reciprocals) => {
+                rhs.iter_mut().zip(reciprocals).for_each(|(x, reciprocal)| *x *= *reciprocal);
+            }
         }
     }
 
@@ -75,15 +80,15 @@ impl Operators {
         }
     }
 
-    /// Diagonal of K_eff without its inertia.
+    /// Diagonal of K_eff without the inertia term.
     pub(crate) fn stiffness_diagonal(&self, model: &Model, c: &SchemeCoefficients) -> Vec<f64> {
-        let massless = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
-        let matrix = effective_stiffness(model, &massless, &self.tangent);
+        let coefficients_without_inertia = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
+        let matrix = effective_stiffness(model, &coefficients_without_inertia, &self.tangent);
         matrix.map_or_else(|_| Vec::new(), |matrix| matrix.diagonal())
     }
 }
 
-/// K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
+/// K_eff: the sum of M, C and K + ∂f/∂u, each times the scheme's coefficient of Δu.
 fn effective_stiffness(
     model: &Model,
     c: &SchemeCoefficients,
@@ -102,7 +107,7 @@ fn effective_stiffness(
 }
 
 impl Factor {
-    /// Factors K_eff of degrees of freedom.
+    /// Factors K_eff in degrees of freedom.
     pub(crate) fn of_dofs(
         model: &Model,
         coefficients: &SchemeCoefficients,
@@ -113,18 +118,18 @@ impl Factor {
             .map(Box::new)
     }
 
-    /// Inverts K_eff of modes, or factors it if the damping couples them.
+    /// Inverts K_eff in modal coordinates, or factors it if the damping couples the modes.
     pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
         let tangent = SparseMatrix::default();
         if model.diagonals().is_none() {
             return Self::of_dofs(model, coefficients, &tangent).map(Self::Sparse);
         }
-        let mut inverse = effective_stiffness(model, coefficients, &tangent)?.diagonal();
-        for k in &mut inverse {
-            *k = 1.0 / *k;
+        let mut reciprocals = effective_stiffness(model, coefficients, &tangent)?.diagonal();
+        for entry in &mut reciprocals {
+            *entry = 1.0 / *entry;
         }
-        if inverse.iter().all(|x| x.is_finite()) {
-            return Ok(Self::Diagonal(inverse));
+        if reciprocals.iter().all(|entry| entry.is_finite()) {
+            return Ok(Self::Diagonal(reciprocals));
         }
         Err(Error::Singular { matrix: EFFECTIVE_STIFFNESS_NAME, order: model.coordinates })
     }
@@ -133,57 +138,66 @@ impl Factor {
     fn solve_many(&self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
-            Self::Diagonal(inverse) => {
-                for rhs in rhs.chunks_exact_mut(inverse.len()) {
-                    rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d);
+            Self::Diagonal(reciprocals) => {
+                for column in rhs.chunks_exact_mut(reciprocals.len()) {
+                    column
+                        .iter_mut()
+                        .zip(reciprocals)
+                        .for_each(|(x, reciprocal)| *x *= *reciprocal);
                 }
             }
         }
     }
 }
 
-/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+/// Columns of K⁻¹BᵀA and the Delassus operator G + B K⁻¹BᵀA, for the compliance G of the ground.
 ///
-/// `solve` overwrites many right-hand sides, one after the other. The entries of the operator are not stored for a soil that
-/// is a diagonal, and a structure that moves it in few ways. Otherwise the function returns an error if they do not fit into
-/// memory.
+/// `solve` overwrites many right-hand sides, one after the other. For a diagonal G and a structure of small rank the
+/// entries of the operator are not stored. Otherwise the function returns an error if they do not fit into memory.
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &PlacedBase,
-    soil: &CompressedMatrix,
+    ground_compliance: &CompressedMatrix,
     dofs: usize,
 ) -> Result<(Vec<f64>, Delassus)> {
-    let size = base.layout().len();
-    let mut columns = vec![0.0; size * dofs];
-    let mut unit = vec![0.0; size];
-    let mut means = vec![0.0; size];
+    let order = base.layout().len();
+    let mut columns = vec![0.0; order * dofs];
+    let mut unit_traction = vec![0.0; order];
+    let mut means = vec![0.0; order];
     for (i, column) in columns.chunks_exact_mut(dofs.max(1)).enumerate() {
-        unit[i] = 1.0;
-        base.add_forces(1.0, &unit, column);
-        unit[i] = 0.0;
+        unit_traction[i] = 1.0;
+        base.add_forces(1.0, &unit_traction, column);
+        unit_traction[i] = 0.0;
     }
     solve(&mut columns);
-    if let Some(diagonal) = soil.as_diagonal() {
-        if let Some(on_bed) = on_bed(&columns, base, diagonal, dofs) {
-            return Ok((columns, on_bed.into()));
+    if let Some(diagonal) = ground_compliance.as_diagonal() {
+        if let Some(operator) = operator_on_bed(&columns, base, diagonal, dofs) {
+            return Ok((columns, operator.into()));
         }
         check_count(base.elements().len(), base.layout().components())?;
     }
-    let mut delassus = soil.filled(size);
+    let mut delassus = ground_compliance.filled(order);
     for (i, column) in columns.chunks_exact(dofs.max(1)).enumerate() {
         base.means(column, &mut means);
         for (row, mean) in means.iter().enumerate() {
-            delassus[row * size + i] += mean;
+            delassus[row * order + i] += mean;
         }
     }
     Ok((columns, delassus.into()))
 }
 
-/// The operator for the diagonal of a soil and these columns of K⁻¹BᵀA; `None` if the structure moves it in many ways.
-fn on_bed(columns: &[f64], base: &PlacedBase, soil: &[f64], dofs: usize) -> Option<OnBed> {
+/// Delassus operator on a bed, from the bed's diagonal compliance and the columns of K⁻¹BᵀA.
+///
+/// `None` if the rank of the structure's part is not small.
+fn operator_on_bed(
+    columns: &[f64],
+    base: &PlacedBase,
+    bed_diagonal: &[f64],
+    dofs: usize,
+) -> Option<OnBed> {
     let column = |i: usize| &columns[i * dofs..][..dofs];
     let structure = StructurePart {
-        diagonal: (0..soil.len()).map(|i| base.component_mean(i, column(i))).collect(),
+        diagonal: (0..bed_diagonal.len()).map(|i| base.component_mean(i, column(i))).collect(),
         column: |i: usize, out: &mut [f64]| base.means(column(i), out),
         product: |traction: &[f64], out: &mut [f64]| {
             let mut displacement = vec![0.0; dofs];
@@ -191,6 +205,6 @@ fn on_bed(columns: &[f64], base: &PlacedBase, soil: &[f64], dofs: usize) -> Opti
             base.means(&displacement, out);
         },
     };
-    let areas = (0..soil.len()).map(|i| base.area(i)).collect();
-    OnBed::new(soil, areas, MAX_STRUCTURE_RANK, structure)
+    let areas = (0..bed_diagonal.len()).map(|i| base.area(i)).collect();
+    OnBed::new(bed_diagonal, areas, MAX_STRUCTURE_RANK, structure)
 }

@@ -1,24 +1,24 @@
-//! Check that a symmetric stiffness is not negative with the base held.
+//! Check that a symmetric stiffness is positive semi-definite with a fixed base.
 
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result};
 use crate::linalg::{Elimination, SparseMatrix, indefinite_row};
 use crate::structure::{HeldBase, Triplets, stiffest};
 
-/// Stiffness of springs that hold the base and of constraints, relative to the largest stiffness.
+/// Stiffness of the springs that fix the base and replace constraints, relative to the largest stiffness.
 ///
-/// So large that base and constraints do not move.
+/// With this factor the displacements of the springs are negligible.
 pub(crate) const FIRM_SPRING_FACTOR: f64 = 1e6;
-/// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
+/// Rounding of a zero pivot, relative to the diagonal and to the largest stiffness.
 const SIGN_ROUNDING_TOLERANCE: f64 = 1e-12;
 
-/// Error for a symmetric K that is not positive semi-definite with the base held.
+/// Error for a symmetric K that is not positive semi-definite with a fixed base.
 pub(crate) fn check_signs(
     base: &PlacedBase,
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
-    let tie = stiffest(stiffness);
-    let springs = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * tie);
+    let max_stiffness = stiffest(stiffness);
+    let springs = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * max_stiffness);
     let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &springs.matrix)?;
     if matrix.asymmetry() > SIGN_ROUNDING_TOLERANCE {
         return Ok(());
@@ -27,7 +27,7 @@ pub(crate) fn check_signs(
     match indefinite_row(
         &constrained,
         SIGN_ROUNDING_TOLERANCE,
-        SIGN_ROUNDING_TOLERANCE * tie,
+        SIGN_ROUNDING_TOLERANCE * max_stiffness,
         &Elimination::default(),
     ) {
         Some(row) => {
@@ -38,53 +38,56 @@ pub(crate) fn check_signs(
     }
 }
 
-/// A symmetric matrix in which a spring of stiffness `penalty` replaces each Lagrange multiplier of a structure.
+/// Replaces each Lagrange multiplier of a structure in a symmetric matrix by a spring.
+///
+/// `penalty` is the stiffness of the springs.
 pub(crate) fn with_constraints(
     matrix: SparseMatrix,
     [mass, damping, stiffness]: [&SparseMatrix; 3],
     penalty: f64,
 ) -> Result<SparseMatrix> {
-    let multipliers = multipliers(stiffness, [mass, damping]);
-    if multipliers.contains(&true) {
-        constrain(&matrix, &multipliers, penalty)
+    let is_multiplier = multipliers(stiffness, [mass, damping]);
+    if is_multiplier.contains(&true) {
+        constrain(&matrix, &is_multiplier, penalty)
     } else {
         Ok(matrix)
     }
 }
 
-/// Marks the degrees of freedom that are Lagrange multipliers.
+/// Whether each degree of freedom is a Lagrange multiplier.
 ///
-/// Multipliers are forces in others' equations, and their own equation is a constraint. Zeros are exact: a
-/// multiplier with the smallest mass m, on a coupling c with a mass M, grows at the rate √(c / √(m M)).
-fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool> {
-    let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
-    for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {
+/// A multiplier is a force in the equations of other degrees of freedom, and its row is a constraint. Its diagonal
+/// stiffness, its mass and its damping are exactly zero. With the smallest mass m, coupled by c to a mass M, it would grow
+/// at the rate √(c / √(m M)).
+fn multipliers(stiffness: &SparseMatrix, mass_and_damping: [&SparseMatrix; 2]) -> Vec<bool> {
+    let mut is_multiplier: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
+    for (row, column, value) in mass_and_damping.into_iter().flat_map(SparseMatrix::entries) {
         if value != 0.0 {
-            multipliers[row] = false;
-            multipliers[column] = false;
+            is_multiplier[row] = false;
+            is_multiplier[column] = false;
         }
     }
-    multipliers
+    is_multiplier
 }
 
-/// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier.
+/// Replaces each Lagrange multiplier of a symmetric matrix by a spring of stiffness `penalty`.
 ///
-/// The spring acts on the sum of degrees of freedom that the multiplier keeps at zero.
-fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Result<SparseMatrix> {
+/// The spring acts on the weighted sum of degrees of freedom that the multiplier constrains to zero.
+fn constrain(matrix: &SparseMatrix, is_multiplier: &[bool], penalty: f64) -> Result<SparseMatrix> {
     let mut constrained = Triplets::new(matrix.order());
     let mut constraints = vec![Vec::new(); matrix.order()];
     for (row, column, value) in matrix.entries() {
-        match (multipliers[row], multipliers[column]) {
+        match (is_multiplier[row], is_multiplier[column]) {
             (false, false) => constrained.add(row, column, value),
             (true, false) => constraints[row].push((column, value)),
             _ => {}
         }
     }
     for mut constraint in constraints {
-        let largest = constraint.iter().fold(0.0, |m: f64, (_, c)| m.max(c.abs()));
-        if largest > 0.0 {
-            for (_, c) in &mut constraint {
-                *c /= largest;
+        let max_weight = constraint.iter().fold(0.0, |max: f64, (_, weight)| max.max(weight.abs()));
+        if max_weight > 0.0 {
+            for (_, weight) in &mut constraint {
+                *weight /= max_weight;
             }
             constrained.add_outer(&constraint, penalty);
         }

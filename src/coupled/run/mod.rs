@@ -37,8 +37,8 @@ pub use uplift::Uplift;
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::serviceability::Serviceability;
-use crate::coupled::state::Context;
-use crate::coupled::state::sequence::Sequence;
+use crate::coupled::state::ResultContext;
+use crate::coupled::state::sequence::StateSequence;
 use crate::coupled::{EnergyBalance, Mistake, State, Warning};
 use crate::error::Result;
 use crate::motion::FreeField;
@@ -135,8 +135,8 @@ pub struct Run {
     pub in_plan: bool,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
-    #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
-    sequence: Sequence,
+    #[cfg_attr(feature = "serde", serde(skip, default = "StateSequence::closed"))]
+    sequence: StateSequence,
     /// Whether the run made all its steps and the expected ones.
     ///
     /// `false` if an observer ended it, or the caller's own loop made it.
@@ -163,7 +163,7 @@ impl Run {
     /// Run before its first step, at `state`; `limits`: its limits of serviceability.
     pub(crate) fn start(state: &State, limits: &Serviceability, resolution: Resolution) -> Self {
         let time = state.time;
-        let Context { elements, probes, .. } = state.context.as_ref();
+        let ResultContext { elements, probes, .. } = state.context.as_ref();
         let mut probe_extremes = Vec::with_capacity(probes.len());
         for (probe, value) in probes.iter().zip(&state.probes) {
             probe_extremes.push(ProbeExtremes {
@@ -197,7 +197,7 @@ impl Run {
             wall: Duration::ZERO,
             in_plan: elements.is_plan(),
             elements: elements.to_vec(),
-            sequence: Sequence::new(state),
+            sequence: StateSequence::new(state),
             ends_by_steps: false,
             last_responses: [Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)); 2],
             resolution,
@@ -210,7 +210,7 @@ impl Run {
     ///
     /// States of another simulation, and states that are not later than the last one, are ignored.
     pub fn record(&mut self, state: &State) {
-        if !self.sequence.takes(state) {
+        if !self.sequence.accept(state) {
             return;
         }
         let begin = self.end;

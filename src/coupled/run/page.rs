@@ -277,7 +277,7 @@ impl Run {
     }
 
     fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.energy_balance.is_left_out() {
+        if self.energy_balance.is_omitted() {
             return write!(f, "\n{}", self.energy_balance);
         }
         let input = 1e-3 * self.energy_balance.input;

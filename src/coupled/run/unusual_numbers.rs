@@ -71,7 +71,7 @@ pub(crate) struct Weight {
 
 impl Weight {
     pub(crate) fn new(gravity: f64, assembled: &Assembled) -> Self {
-        let translations = assembled.influence.of_all(assembled.dofs());
+        let translations = assembled.influence.whole_vectors(assembled.dofs());
         let masses: Vec<f64> =
             translations.iter().map(|moved| assembled.mass.form(moved, moved)).collect();
         let pressure =

@@ -3,7 +3,7 @@
 use crate::coupled::Warning;
 use crate::coupled::run::envelope::ElementEnvelope;
 use crate::coupled::scene::Scene;
-use crate::coupled::statics::strength::Strength;
+use crate::coupled::statics::strength::InterfaceStrength;
 use crate::geometry::ContactElement;
 use crate::interface::LawForm;
 
@@ -25,7 +25,7 @@ pub(crate) fn pressures_above(scene: &Scene, masses: &[f64], gravity: f64) -> Ve
     for (element, mass) in masses.iter().enumerate() {
         let law = scene.law(element);
         let is_unlimited_wall = !elements[element].faces_down()
-            && !Strength::at_pressure(law, gravity * mass, LawForm::Modes, false)
+            && !InterfaceStrength::at_pressure(law, gravity * mass, LawForm::Modes, false)
                 .bearing_pressure
                 .is_finite();
         pressures.push(if is_unlimited_wall { gravity * mass } else { f64::INFINITY });

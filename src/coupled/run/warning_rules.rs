@@ -187,7 +187,7 @@ impl Warning {
         }
         let residual = energy_balance.residual();
         if residual > Self::ENERGY_ERROR_LIMIT
-            || (residual.is_nan() && !energy_balance.is_left_out())
+            || (residual.is_nan() && !energy_balance.is_omitted())
         {
             warnings.push(Self::EnergyBalance { residual });
         }

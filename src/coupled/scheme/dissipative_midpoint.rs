@@ -1,6 +1,6 @@
 //! Midpoint rule with algorithmic damping of high frequencies.
 
-use super::newmark::end_of_step;
+use super::newmark::{EndMotion, end_of_step};
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{Result, require};
 
@@ -14,9 +14,9 @@ use crate::error::{Result, require};
 /// Δu = Δt (v₀ + v₁)/2 + Δt² (β − γ/2) Δa,      Δv = Δt (a₀ + γ Δa)
 /// ```
 ///
-/// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do the work on
-/// the structure that they take from the soil, for any step. The scheme itself only dissipates energy, Δt² (β −
-/// γ/2)(γ − ½) Δa·M Δa in a step, and stores ½ Δt² (β − γ/2) a·M a. Both together are
+/// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. For any step the work of the
+/// tractions on the structure equals the work that the soil loses. The scheme itself only dissipates energy,
+/// Δt² (β − γ/2)(γ − ½) Δa·M Δa in a step, and stores ½ Δt² (β − γ/2) a·M a. The sum of both is
 /// [`EnergyBalance::algorithmic`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`, section 8). γ = ½ is
 /// [`Midpoint`].
 ///
@@ -71,12 +71,13 @@ impl Default for DissipativeMidpoint {
 
 impl TimeScheme for DissipativeMidpoint {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
-        // For γ = ½ accelerations at the ends of steps are not needed, and would alternate undamped.
+        // For γ = ½ the accelerations at the ends of steps are not needed. They would alternate without damping.
         if self.gamma == 0.5 {
             return Midpoint.coefficients(time_step);
         }
         let beta = 0.25 * (self.gamma + 0.5).powi(2);
-        let (new_acceleration, new_velocity) = end_of_step(self.gamma, beta, time_step);
+        let EndMotion { acceleration: new_acceleration, velocity: new_velocity } =
+            end_of_step(self.gamma, beta, time_step);
         SchemeCoefficients {
             displacement: [0.5, 0.0, 0.0],
             velocity: [1.0 / time_step, 0.0, 0.0],

@@ -1,18 +1,19 @@
 //! Method of Hilber, Hughes & Taylor.
 
-use super::newmark::end_of_step;
+use super::newmark::{EndMotion, end_of_step};
 use crate::coupled::scheme::{SchemeCoefficients, TimeScheme};
 use crate::error::{Result, require};
 
 /// HHT-α (Hilber, Hughes & Taylor 1977), for comparison with papers.
 ///
-/// Second order; it damps high frequencies of the structure alone. For other purposes use
+/// It is of second order and damps high frequencies of the structure alone. For other purposes use
 /// [`DissipativeMidpoint`](super::DissipativeMidpoint), which is passive together with the soil.
 ///
-/// Newmark's method with γ = ½ − α and β = (1−α)²/4, with damping and stiffness forces and loads at t₁ + α Δt and
-/// inertia at t₁. Contact tractions are constant over the step and act in full: the coupling creates energy as in
-/// [`Newmark`](super::Newmark), reduced by the dissipation of α. α = 0 is average acceleration; α = −⅓ damps most:
-/// the spectral radius tends to (1+α)/(1−α) for steps much longer than the period, ½ at α = −⅓.
+/// It is Newmark's method with γ = ½ − α and β = (1−α)²/4. Damping forces, stiffness forces and loads are those at
+/// t₁ + α Δt, inertia is that at t₁. Contact tractions are constant over the step and act with their full value. The
+/// coupling creates energy as in [`Newmark`](super::Newmark), reduced by the dissipation of α. α = 0 is average
+/// acceleration, and α = −⅓ has the largest damping. For steps much longer than the period the spectral radius tends to
+/// (1+α)/(1−α), which is ½ at α = −⅓.
 ///
 /// ```
 /// use basemat::coupled::HhtAlpha;
@@ -44,21 +45,21 @@ impl HhtAlpha {
 
 impl TimeScheme for HhtAlpha {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
-        let new_fraction = 1.0 + self.alpha;
+        let end_fraction = 1.0 + self.alpha;
         let gamma = 0.5 - self.alpha;
         let beta = 0.25 * (1.0 - self.alpha).powi(2);
-        let (acceleration, velocity) = end_of_step(gamma, beta, time_step);
+        let EndMotion { acceleration, velocity } = end_of_step(gamma, beta, time_step);
         SchemeCoefficients {
-            displacement: [new_fraction, 0.0, 0.0],
+            displacement: [end_fraction, 0.0, 0.0],
             velocity: [
-                new_fraction * velocity[0],
-                new_fraction * velocity[1] - self.alpha,
-                new_fraction * velocity[2],
+                end_fraction * velocity[0],
+                end_fraction * velocity[1] - self.alpha,
+                end_fraction * velocity[2],
             ],
             acceleration,
             new_velocity: velocity,
             new_acceleration: acceleration,
-            load_fraction: new_fraction,
+            load_fraction: end_fraction,
         }
     }
 }

@@ -10,35 +10,37 @@ pub use crate::coupled::scheme::newmark::Newmark;
 
 use crate::error::{Result, finite, require};
 
+/// Relative difference of two coefficients that counts as rounding.
+const COEFFICIENT_ROUNDING_TOLERANCE: f64 = 1e-12;
+
 /// Coefficients of a time scheme.
 ///
-/// They define the place of the equation of motion in the step, and the motion at its end.
+/// They define the time of the equation of motion in the step, and the motion at the end of the step.
 ///
-/// Each array holds the coefficients of (Δu, v₀, a₀): the displacement increment of the step and
-/// the velocity and acceleration at its start. The equation of motion
-/// `M a* + C v* + K u* + f(u*) + BᵀA τ = p(t*)` is written with
-/// `u* = u₀ + displacement·(Δu, v₀, a₀)` and so on; contact tractions τ are constant over the step.
+/// Each array has the coefficients of (Δu, v₀, a₀): the displacement increment of the step, and the velocity and
+/// acceleration at its start. The equation of motion `M a* + C v* + K u* + f(u*) + BᵀA τ = p(t*)` has
+/// `u* = u₀ + displacement·(Δu, v₀, a₀)`, and so on. Contact tractions τ are constant over the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SchemeCoefficients {
-    /// u* − u₀.
+    /// Displacement u* − u₀.
     pub displacement: [f64; 3],
-    /// v*.
+    /// Velocity v*.
     pub velocity: [f64; 3],
-    /// a*.
+    /// Acceleration a*.
     pub acceleration: [f64; 3],
-    /// v₁, the velocity at the end.
+    /// Velocity v₁ at the end of the step.
     pub new_velocity: [f64; 3],
-    /// a₁, the acceleration at the end.
+    /// Acceleration a₁ at the end of the step.
     pub new_acceleration: [f64; 3],
-    /// (t* − t₀)/Δt, the time of the external load.
+    /// Time (t* − t₀)/Δt of the external load.
     pub load_fraction: f64,
 }
 
 /// Time stepping of the structure's equation of motion.
 ///
-/// Contact and soil do not depend on the scheme: they use displacements at the ends of steps and tractions
-/// constant within steps. Tractions do on the structure the work τ·Δu that they take from the soil. A scheme in
-/// which Δu·(M a* + K u*) is not energy change plus loss adds energy to the run.
+/// Contact and soil do not depend on the scheme. They use displacements at the ends of steps and tractions that are constant
+/// within steps. The work τ·Δu of the tractions on the structure equals the work that the soil loses. A scheme in which
+/// Δu·(M a* + K u*) is not the change of energy plus a loss adds energy to the run.
 ///
 /// | scheme | order | energy with the soil | use |
 /// |---|---|---|---|
@@ -54,8 +56,8 @@ pub trait TimeScheme: Send {
 
 /// Implicit midpoint rule (the default): second order, conserves energy exactly, also with soil.
 ///
-/// It is Newmark's average acceleration with the traction of the step itself. If impacts excite frequencies in
-/// accelerations that the step does not resolve, [`DissipativeMidpoint`] damps these.
+/// It is Newmark's average acceleration with the traction of the step itself. If impacts excite frequencies that the time
+/// step does not resolve, [`DissipativeMidpoint`] damps these frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Midpoint;
@@ -68,7 +70,8 @@ impl TimeScheme for Midpoint {
 
 /// θ-method: dissipative at high frequencies for θ > ½, and passive together with the soil.
 ///
-/// For θ = ½ it is the midpoint rule. For θ > ½ it has first order; [`DissipativeMidpoint`] damps at second order.
+/// For θ = ½ it is the midpoint rule. For θ > ½ it is of first order. [`DissipativeMidpoint`] is dissipative and of second
+/// order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ThetaForm"))]
@@ -98,7 +101,7 @@ impl TimeScheme for Theta {
     }
 }
 
-/// u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), with the equation of motion at the same weights.
+/// Coefficients of u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), with the same weights in the equation of motion.
 fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
     let acceleration = [1.0 / (theta * time_step * time_step), -1.0 / (theta * time_step), 0.0];
     SchemeCoefficients {
@@ -114,10 +117,11 @@ fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
 impl SchemeCoefficients {
     /// Error for coefficients that are not finite.
     pub(crate) fn check(&self) -> Result<()> {
-        let rows = [self.displacement, self.velocity, self.acceleration];
-        let ends = [self.new_velocity, self.new_acceleration, [self.load_fraction; 3]];
-        rows.into_iter()
-            .chain(ends)
+        let motion = [self.displacement, self.velocity, self.acceleration];
+        let end_motion = [self.new_velocity, self.new_acceleration, [self.load_fraction; 3]];
+        motion
+            .into_iter()
+            .chain(end_motion)
             .flatten()
             .try_for_each(|value| finite("coefficient of the time scheme", value).map(|_| ()))
     }
@@ -127,20 +131,22 @@ impl SchemeCoefficients {
     /// It does if Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
     pub(crate) fn conserves_energy(&self, time_step: f64) -> bool {
         let h = time_step;
-        let new = self.new_velocity;
-        let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
-        let inertia = [new[0] / h, (new[1] - 1.0) / h, new[2] / h];
-        let mean = [0.5 * h * new[0], 0.5 * h * (new[1] + 1.0), 0.5 * h * new[2]];
-        let units = [1.0, h, h * h];
+        let v1 = self.new_velocity;
+        let is_equal =
+            |a: f64, b: f64, scale: f64| (a - b).abs() <= COEFFICIENT_ROUNDING_TOLERANCE * scale;
+        let mean_acceleration = [v1[0] / h, (v1[1] - 1.0) / h, v1[2] / h];
+        let mean_velocity_increment = [0.5 * h * v1[0], 0.5 * h * (v1[1] + 1.0), 0.5 * h * v1[2]];
+        // Scales of Δu, v₀ and a₀ in a displacement.
+        let scales = [1.0, h, h * h];
         (0..3).all(|k| {
-            let increment_part = if k == 0 { 1.0 } else { 0.0 };
-            same(self.acceleration[k], inertia[k], units[k] / (h * h))
-                && same(mean[k], increment_part, units[k])
-                && same(self.displacement[k], 0.5 * increment_part, units[k])
+            let increment = if k == 0 { 1.0 } else { 0.0 };
+            is_equal(self.acceleration[k], mean_acceleration[k], scales[k] / (h * h))
+                && is_equal(mean_velocity_increment[k], increment, scales[k])
+                && is_equal(self.displacement[k], 0.5 * increment, scales[k])
         })
     }
 
-    /// Σ coefficientsₖ (Δu, v₀, a₀)ₖ.
+    /// Sum of the coefficients times (Δu, v₀, a₀).
     pub(crate) fn apply(
         coefficients: [f64; 3],
         increment: f64,
@@ -150,7 +156,7 @@ impl SchemeCoefficients {
         coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
     }
 
-    /// Writes the same sums of vectors to `out`.
+    /// Writes the sums of the coefficients times the vectors (Δu, v₀, a₀) to `out`.
     pub(crate) fn combine(
         coefficients: [f64; 3],
         increment: &[f64],
@@ -158,9 +164,9 @@ impl SchemeCoefficients {
         acceleration: &[f64],
         out: &mut [f64],
     ) {
-        let parts = increment.iter().zip(velocity).zip(acceleration);
-        for (out, ((du, v), a)) in out.iter_mut().zip(parts) {
-            *out = Self::apply(coefficients, *du, *v, *a);
+        let terms = increment.iter().zip(velocity).zip(acceleration);
+        for (sum, ((du, v), a)) in out.iter_mut().zip(terms) {
+            *sum = Self::apply(coefficients, *du, *v, *a);
         }
     }
 }
@@ -169,7 +175,7 @@ impl SchemeCoefficients {
 mod tests {
     use super::*;
 
-    /// Free vibration of u'' = −ω² u over one period.
+    /// Error of the free vibration u'' = −ω² u after one period.
     fn error_after_a_period(scheme: &dyn TimeScheme, steps: usize) -> f64 {
         let omega = 3.0_f64;
         let time_step = std::f64::consts::TAU / omega / steps as f64;
@@ -179,12 +185,12 @@ mod tests {
         let mut a = -omega * omega;
         for _ in 0..steps {
             let stiffness = c.acceleration[0] + omega * omega * c.displacement[0];
-            let known = SchemeCoefficients::apply(c.acceleration, 0.0, v, a)
+            let residual = SchemeCoefficients::apply(c.acceleration, 0.0, v, a)
                 + omega * omega * (u + SchemeCoefficients::apply(c.displacement, 0.0, v, a));
-            let du = -known / stiffness;
-            let next = SchemeCoefficients::apply(c.new_velocity, du, v, a);
+            let du = -residual / stiffness;
+            let next_velocity = SchemeCoefficients::apply(c.new_velocity, du, v, a);
             a = SchemeCoefficients::apply(c.new_acceleration, du, v, a);
-            v = next;
+            v = next_velocity;
             u += du;
         }
         ((u - 1.0).powi(2) + (v / omega).powi(2)).sqrt()
@@ -206,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_theta_is_refused() {
+    fn theta_out_of_range_is_an_error() {
         for theta in [0.49, 1.01, f64::NAN] {
             assert!(Theta::new(theta).is_err());
         }

@@ -8,11 +8,11 @@ use crate::text::readable_number::{number, of_body};
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// Left-hand side of the balance: stored, or still available.
+    /// Left-hand side of the balance: stored or recoverable energy.
     Balance,
-    /// Left-hand side: energy that the structure has lost to heat or to the ground.
+    /// Left-hand side: energy that the structure has lost as heat or to the ground.
     Lost,
-    /// Right-hand side.
+    /// Right-hand side of the balance.
     Input,
     /// Not part of the balance.
     Beside,
@@ -28,6 +28,7 @@ macro_rules! energies {
             $($(#[$doc])* $variant,)+
         }
 
+        /// Field, side and name of each term.
         const ENERGY_TERM_ROWS: &[(&str, Side, &str)] = &[$((stringify!($field), Side::$side, $name)),+];
 
         impl EnergyTerm {
@@ -41,10 +42,10 @@ macro_rules! energies {
         /// kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
         /// ```
         ///
-        /// holds exactly for the discrete equations. Every term is computed from its own definition and none as
-        /// the remainder, so [`EnergyBalance::residual`] checks the whole step. It does not check the energies
-        /// that a nonlinear structure returns as stored and dissipated. The difference between them and the work
-        /// of its force is in `algorithmic`, and falls with the square of the step.
+        /// holds exactly for the discrete equations. Every term is computed from its own definition and none as a
+        /// remainder, so that [`EnergyBalance::residual`] checks the whole step. It does not check the stored and
+        /// dissipated energies that a nonlinear structure returns. The difference between the work of its force and
+        /// these energies is in `algorithmic`, and decreases with the square of the time step.
         #[derive(Debug, Clone, Copy, Default)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -58,8 +59,8 @@ macro_rules! energies {
         }
 
         impl EnergyBalance {
-            /// The energy balance of a simulation without one: every term is NaN.
-            pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
+            /// Energy balance of a simulation that omits it: every term is NaN.
+            pub(crate) const ALL_NAN: Self = Self { $($field: f64::NAN),+ };
 
             /// All terms, in the order of [`EnergyTerm::ALL_TERMS`].
             pub(crate) fn terms(&self) -> [f64; ENERGY_TERM_ROWS.len()] {
@@ -79,9 +80,9 @@ energies! {
     Kinetic kinetic, Balance, "kinetic and strain";
     /// Strain energy ½ u·K u, plus the stored energy of the nonlinear internal force.
     ///
-    /// If the structure does not separate stored from dissipated energy, the work of that force since t = 0.
+    /// If the structure does not separate stored from dissipated energy, it contains the work of that force since t = 0.
     Strain strain, Balance, "kinetic and strain";
-    /// Heat of hysteretic parts of the structure; it never falls.
+    /// Heat of hysteretic parts of the structure; it never decreases.
     ///
     /// See [`NonlinearForce::energy`](crate::structure::NonlinearForce::energy).
     Hysteresis hysteresis, Lost, "hysteresis";
@@ -89,9 +90,10 @@ energies! {
     Damping damping, Lost, "damping";
     /// Loss by the time scheme, in the structure and in compliant interfaces.
     ///
-    /// In the structure it is zero for the midpoint rule. In compliant interfaces the traction at the end of the
-    /// step acts throughout the step. With a nonlinear force of known energies, it includes the difference between
-    /// its work in the discrete equation and these energies: the error of one point in a step, of either sign.
+    /// In the structure it is zero for the midpoint rule. In compliant interfaces the traction at the end of the step acts
+    /// throughout the step. With a nonlinear force that returns its energies, the term includes the difference between the
+    /// force's work in the discrete equation and these energies. This is the error of one integration point in a step, of
+    /// either sign.
     Algorithmic algorithmic, Balance, "time scheme";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
@@ -121,35 +123,38 @@ energies! {
     SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
     /// Largest energy since the start, to which residuals are relative.
     ///
-    /// Magnitude of any term of the balance at the end of any step, ½ M v² of the whole structure moving with the
-    /// ground, and the energy of the static state in compliant interfaces and nonlinear parts.
+    /// It is the largest of: the magnitude of any term of the balance at the end of any step, the kinetic energy of the
+    /// whole structure moving with the ground, and the energy of the static state in compliant interfaces and nonlinear
+    /// parts.
     Largest largest, Beside, "largest energy";
 }
 
 impl EnergyTerm {
-    /// Name of the term in tables and pictures; terms with one name are shown as their sum.
+    /// Name of the term in tables and pictures, which show terms of the same name as their sum.
     pub(crate) fn name(self) -> &'static str {
         ENERGY_TERM_ROWS[self as usize].2
     }
 
     /// Column of the term in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
     pub(crate) fn column(self, in_plan: bool) -> String {
-        let word = ENERGY_TERM_ROWS[self as usize].0;
-        let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
+        let field = ENERGY_TERM_ROWS[self as usize].0;
+        let name =
+            if field.contains("bound") { field.to_owned() } else { format!("{field} energy") };
         column(&name, of_body("J/m", in_plan))
     }
 
-    /// Whether the structure has lost the term's energy to heat or to the ground.
+    /// Whether the structure has lost the term's energy as heat or to the ground.
     pub(crate) fn is_lost(self) -> bool {
         self.side() == Side::Lost
     }
 
+    /// Side of the balance on which the term stands.
     fn side(self) -> Side {
         ENERGY_TERM_ROWS[self as usize].1
     }
 }
 
-/// Prints the word of its field, `soil`.
+/// Prints the name of the term's field, such as `soil`.
 impl fmt::Display for EnergyTerm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(ENERGY_TERM_ROWS[*self as usize].0)
@@ -162,16 +167,16 @@ impl EnergyBalance {
         self.terms()[term as usize]
     }
 
-    /// Terms of the left-hand side.
-    fn balance(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
-        let all = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
-        all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
+    /// Terms of the left-hand side of the balance.
+    fn left_hand_side(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
+        let terms = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
+        terms.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
     }
 
-    /// Parts of the input energy, J, in the plane J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    /// Left-hand side of the balance, J, in the plane J/m, as sums of terms of the same [name](EnergyTerm::name).
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
-        for (term, energy) in self.balance() {
+        for (term, energy) in self.left_hand_side() {
             match parts.iter_mut().find(|(name, _)| *name == term.name()) {
                 Some((_, sum)) => *sum += energy,
                 None => parts.push((term.name(), energy)),
@@ -180,7 +185,7 @@ impl EnergyBalance {
         parts
     }
 
-    /// The parts relative to the input; `None` if the input is not positive.
+    /// Terms of the left-hand side relative to the input, by name; `None` if the input is not positive.
     pub fn fractions(&self) -> Option<Vec<(&'static str, f64)>> {
         if self.input <= 0.0 || self.input.is_nan() {
             return None;
@@ -196,25 +201,26 @@ impl EnergyBalance {
 
     /// Largest energy so far, the present terms included.
     pub(crate) fn scale(&self) -> f64 {
-        let terms = self.balance().map(|(_, energy)| energy).chain([self.input]);
-        terms.fold(self.largest, |m, term| m.max(term.abs()))
+        let terms = self.left_hand_side().map(|(_, energy)| energy).chain([self.input]);
+        terms.fold(self.largest, |max, term| max.max(term.abs()))
     }
 
-    /// Whether there is no energy balance: every term is then NaN.
-    pub(crate) fn is_left_out(&self) -> bool {
+    /// Whether the energy balance is omitted, so that every term is NaN.
+    pub(crate) fn is_omitted(&self) -> bool {
         self.input.is_nan()
     }
 
     /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far.
     ///
-    /// NaN without an energy balance.
+    /// The residual is NaN if the energy balance is omitted.
     pub fn residual(&self) -> f64 {
-        if self.is_left_out() {
+        if self.is_omitted() {
             return f64::NAN;
         }
-        let open = (self.balance().map(|(_, energy)| energy).sum::<f64>() - self.input).abs();
+        let imbalance =
+            (self.left_hand_side().map(|(_, energy)| energy).sum::<f64>() - self.input).abs();
         // `max` ignores NaN, but the sum does not.
-        if open == 0.0 { 0.0 } else { open / self.scale() }
+        if imbalance == 0.0 { 0.0 } else { imbalance / self.scale() }
     }
 }
 
@@ -229,18 +235,19 @@ impl PartialEq for EnergyBalance {
 /// Prints energies in kJ; in the plane per metre of thickness.
 impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_left_out() {
-            return write!(f, "energy balance left out");
+        if self.is_omitted() {
+            return write!(f, "energy balance omitted");
         }
-        let shown = |energy: f64| number(1e-3 * energy);
-        writeln!(f, "energy, kJ (in the plane kJ/m): input {}", shown(self.input))?;
+        let in_kilojoules = |energy: f64| number(1e-3 * energy);
+        writeln!(f, "energy, kJ (in the plane kJ/m): input {}", in_kilojoules(self.input))?;
         for pair in self.parts().chunks(2) {
-            let cell = |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", shown(*energy));
+            let cell =
+                |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", in_kilojoules(*energy));
             writeln!(f, "  {}", pair.iter().map(cell).collect::<Vec<_>>().join("    "))?;
         }
         write!(f, "  {:<24}{:>12.1e}", "residual", self.residual())?;
         if self.soil_error_bound > 0.0 {
-            let bound = shown(self.soil_error_bound);
+            let bound = in_kilojoules(self.soil_error_bound);
             write!(f, "\n  {:<24}{bound:>12}", EnergyTerm::SoilErrorBound.name())?;
         }
         Ok(())
@@ -284,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_by_one_rule() {
+    fn columns_have_the_name_and_the_unit() {
         let columns = EnergyTerm::ALL_TERMS.map(|term| term.column(false));
         assert_eq!(columns[0], "kinetic_energy_j_per_m");
         assert!(columns.contains(&"relative_input_energy_j_per_m".to_owned()));

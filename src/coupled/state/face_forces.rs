@@ -1,6 +1,6 @@
-//! Forces between soil and each face of a structure in the ground.
+//! Forces between the soil and each face of a structure in the ground.
 
-use crate::coupled::state::{Context, State};
+use crate::coupled::state::{ResultContext, State};
 use crate::geometry::{ContactElement, middle};
 use crate::interface::{ContactState, Mode};
 
@@ -29,16 +29,19 @@ pub struct FaceForces {
     ///
     /// Positive down the left wall, to the right along the base, up the right wall.
     pub shear: f64,
-    /// Point where the thrust acts, m: height above the base; for the base, distance to the right of its middle.
+    /// Point of action of the thrust, m.
     ///
-    /// Pressure on each element of a wall is distributed as at rest; NaN without thrust.
+    /// For a wall it is the height above the base, for the base the distance to the right of its middle. On each element of
+    /// a wall the pressure is distributed as at rest. The place is NaN without thrust.
     pub place: f64,
     /// Length of open elements over the length of the face.
     pub open_fraction: f64,
 }
 
 impl State {
-    /// Forces on a face; all zero and its place NaN for a wall of a base without walls.
+    /// Forces on a face.
+    ///
+    /// For a wall of a base without walls all forces are zero, and the place is NaN.
     ///
     /// ```
     /// # use basemat::prelude::*;
@@ -62,15 +65,15 @@ impl State {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn face(&self, face: Face) -> FaceForces {
-        let Context { elements, pressure_depths, .. } = &*self.context;
+        let ResultContext { elements, pressure_depths, .. } = &*self.context;
         FaceForces::on(face, elements, pressure_depths, &self.contact, &self.modes)
     }
 }
 
 impl FaceForces {
-    /// Forces on a face, from state and mode of each of the `elements` of a ground.
+    /// Forces on a face, from contact and mode of each element of a ground.
     ///
-    /// `pressure_depths`: distances of the resultant pressure below the middle of each element; empty for none.
+    /// `pressure_depths` are distances of the resultant pressure below the middle of each element, m; empty for none.
     pub(crate) fn on(
         face: Face,
         elements: &[ContactElement],
@@ -80,32 +83,32 @@ impl FaceForces {
     ) -> Self {
         let faces = ContactElement::faces(elements).in_order();
         let floor = &elements[faces[Face::Base as usize].clone()];
-        let bottom = floor.first().map_or(0.0, |element| element.center()[2]);
+        let floor_height = floor.first().map_or(0.0, |element| element.center()[2]);
         let ends =
             [floor.first().map(ContactElement::left), floor.last().map(ContactElement::right)];
         let middle = middle(ends.map(Option::unwrap_or_default));
         let mut thrust = 0.0;
         let mut shear = 0.0;
         let mut moment = 0.0;
-        let mut open = 0.0;
-        let mut length = 0.0;
+        let mut open_length = 0.0;
+        let mut face_length = 0.0;
         for e in faces[face as usize].clone() {
             let element = &elements[e];
             let state = &contact[e];
             let area = element.area();
             let center = element.center();
-            let below_middle = pressure_depths.get(e).copied().unwrap_or(0.0);
-            let height = center[2] - below_middle - bottom;
+            let pressure_depth = pressure_depths.get(e).copied().unwrap_or(0.0);
+            let height = center[2] - pressure_depth - floor_height;
             let arm = if face == Face::Base { center[0] - middle } else { height };
             thrust += area * state.pressure;
             shear += area * state.shear;
             moment += area * state.pressure * arm;
-            length += area;
+            face_length += area;
             if !modes[e].is_closed() {
-                open += area;
+                open_length += area;
             }
         }
-        let open_fraction = if length > 0.0 { open / length } else { 0.0 };
+        let open_fraction = if face_length > 0.0 { open_length / face_length } else { 0.0 };
         Self { thrust, shear, place: moment / thrust, open_fraction }
     }
 }

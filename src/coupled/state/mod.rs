@@ -1,4 +1,4 @@
-//! The state after a step, and a sequence of states.
+//! The state after a step, and sequences of states.
 
 pub(crate) mod energy_balance;
 #[cfg(feature = "embedded")]
@@ -20,21 +20,21 @@ use crate::interface::{ContactState, Mode, PreviousContacts};
 use crate::structure::Probe;
 use crate::structure::probe_index;
 
-/// A change of contact mode.
+/// Change of an element's contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Transition {
-    /// Step in which it happened, from 1.
+    /// Number of the step of the change, from 1.
     pub step: usize,
     /// Time at the end of that step, s.
     pub time: f64,
-    /// Element, from the left, from 0.
+    /// Index of the element from the left, from 0.
     pub element: usize,
-    /// Mode before.
+    /// Mode before the change.
     pub from: Mode,
-    /// Mode after.
+    /// Mode after the change.
     pub to: Mode,
 }
 
@@ -50,48 +50,43 @@ impl Transition {
     }
 }
 
-/// Number of the simulation that a state belongs to.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Origin(u64);
+/// Identity of the simulation to which a state belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct SimulationId(u64);
 
-impl Origin {
+impl SimulationId {
     /// Identity of a new simulation.
     pub(crate) fn new() -> Self {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
-        Self(NEXT.fetch_add(1, Ordering::Relaxed))
-    }
-
-    /// Whether both identities belong to one simulation.
-    pub(crate) fn is(self, other: Self) -> bool {
-        self.0 == other.0
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT_ID.fetch_add(1, Ordering::Relaxed))
     }
 }
 
-/// Shared data for computing results.
+/// Constant data that results of all states share.
 #[derive(Debug)]
-pub(crate) struct Context {
+pub(crate) struct ResultContext {
     pub(crate) probes: Vec<Probe>,
     pub(crate) elements: Patch,
-    /// Distance of the resultant pressure below the middle of each element, m; empty where it is the middle.
+    /// Distance of the resultant pressure below the middle of each element, m; empty if it acts at the middle.
     pub(crate) pressure_depths: Vec<f64>,
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    /// Friction coefficients for the factor of safety against sliding: one for all elements, one for each, or none.
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.
     pub(crate) footings: Vec<Footing>,
 }
 
-/// The simulation at the end of an accepted step.
+/// Results of a simulation at the end of an accepted step.
 ///
-/// Displacements are changes from the static state, relative to the free field's translation unless stated
-/// otherwise. Forces act from the structure **on the soil**, per metre of thickness or, on a ground in plan, in
-/// all. Tractions of the step act at its middle.
+/// Displacements are changes from the static state, relative to the free field's translation unless stated otherwise.
+/// Forces act from the structure **on the soil**. In the plane they are per metre of thickness, in plan total forces.
+/// Tractions of the step act at its middle.
 ///
-/// Equal states may belong to different simulations.
+/// States of different simulations may be equal.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct State {
-    /// Steps made.
+    /// Number of steps so far.
     pub step: usize,
     /// Time, s.
     pub time: f64,
@@ -99,7 +94,7 @@ pub struct State {
     pub contact: Vec<ContactState>,
     /// Mode of each element.
     pub modes: Vec<Mode>,
-    /// Changes of mode in this step.
+    /// Changes of modes in this step.
     pub transitions: Vec<Transition>,
     /// Values of the probes, in the order of the builder.
     pub probes: Vec<f64>,
@@ -107,49 +102,49 @@ pub struct State {
     pub base_shear: f64,
     /// Moment on the soil, counter-clockwise, N·m/m.
     ///
-    /// About the middle of the base, or the builder's moment center. In plan about the axis along y there, by the
-    /// right-hand rule, N·m.
+    /// It refers to the middle of the base, or to the builder's moment center. In plan it is about the axis along y through
+    /// this point, by the right-hand rule, N·m.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
     /// Length of open elements over the length of the base.
     pub uplifted_fraction: f64,
-    /// Slip averaged over the length of the base, m; positive if the structure moved to the right.
+    /// Slip averaged over the length of the base, m; positive if the structure has moved to the right.
     pub mean_slip: f64,
-    /// Rotation of the base's chord, counter-clockwise, rad; of several foundations the largest.
+    /// Rotation of the base's chord, counter-clockwise, rad; with several foundations the largest.
     ///
-    /// In plan about the axis along y by the right-hand rule.
+    /// In plan it is about the axis along y by the right-hand rule.
     pub base_rotation: f64,
-    /// Each foundation, from left to right, in plan in the order of the structure's faces.
+    /// Results of each foundation, from left to right; in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field at the base and its walls, m.
     pub free_field: [f64; 2],
     /// In plan: mean displacement of the free field along y, m; zero in the plane.
     pub free_field_across: f64,
-    /// The energy balance; every term is NaN if it is omitted.
+    /// The energy balance; every term is NaN if the balance is omitted.
     pub energy_balance: EnergyBalance,
     /// Number of linear solutions of the mode search.
     pub trials: usize,
-    /// Method that found the modes; in a nonlinear step, the last method used in any iteration.
+    /// Method that solved the contact problem; for a nonlinear structure the slowest method of all iterations.
     pub method: SearchMethod,
     /// Factors of safety and slip of each foundation; they follow from the other fields.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) checks: Vec<FoundationChecks>,
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) origin: Origin,
+    pub(crate) simulation: SimulationId,
     /// Shared by all states of a simulation.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) context: Arc<Context>,
+    pub(crate) context: Arc<ResultContext>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) kinematics: Kinematics,
-    /// Start of the next step for the laws, per element.
+    /// Contact of each element at the start of the next step, for the laws.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: PreviousContacts,
 }
 
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
-        // Named one by one, so that a new field is compared or left out on purpose.
+        // The pattern names all fields, so that a new field is compared or omitted on purpose.
         let Self {
             step,
             time,
@@ -170,7 +165,7 @@ impl PartialEq for State {
             trials,
             method,
             checks: _,
-            origin: _,
+            simulation: _,
             context: _,
             kinematics,
             start,
@@ -201,33 +196,35 @@ impl PartialEq for State {
 impl State {
     /// Displacements of the structure's degrees of freedom (m, rad) relative to the free field.
     ///
-    /// For each connected part, its displacement since t = 0 minus the mean translation of the ground under it.
+    /// For each connected part it is the displacement since t = 0 minus the mean translation of the ground under the part.
     ///
-    /// These four are computed at their first use in a step. A structure in modal coordinates takes n² operations
-    /// for them; without use they cost nothing. Absolute displacements are computed in every step that uses them.
-    /// To record a few quantities at every step, a [`Probe`](super::Probe) takes less time.
+    /// Displacement, absolute displacement, velocity and acceleration are computed at their first use in a step. A structure
+    /// of n degrees of freedom in modal coordinates needs n² operations for each. To record a few quantities at every
+    /// step, a [`Probe`](super::Probe) takes less time.
     pub fn displacement(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::Displacement)
     }
 
-    /// Displacement plus the translation of the free field.
+    /// Displacement of the degrees of freedom plus the translation of the free field, m and rad.
     pub fn absolute_displacement(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::AbsoluteDisplacement)
     }
 
-    /// Total (not relative) rates of the degrees of freedom at the end of the step.
+    /// Total (not relative) velocities of the degrees of freedom at the end of the step, m/s and rad/s.
     pub fn velocity(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::Velocity)
     }
 
-    /// Total accelerations of the degrees of freedom; for the midpoint and θ rules their mean over the step.
+    /// Total accelerations of the degrees of freedom, m/s² and rad/s².
+    ///
+    /// For the midpoint and θ rules they are means over the step.
     pub fn acceleration(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::Acceleration)
     }
 
     /// The value of the probe called `name`.
     ///
-    /// Every call searches for the name; [`State::probes`] gives the value by its index at once.
+    /// Every call searches for the name; [`State::probes`] has the value by its index without a search.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -254,21 +251,21 @@ impl State {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe has this name.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        // The list of values is public: it may have been shortened.
-        let known = &self.context.probes;
-        let known = &known[..known.len().min(self.probes.len())];
-        probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
+        // A user may have shortened the public list of values.
+        let probe_count = self.context.probes.len().min(self.probes.len());
+        let probes = &self.context.probes[..probe_count];
+        probe_index(probes, name, |probe| &probe.name).map(|index| self.probes[index])
     }
 
     /// Largest rotation of a foundation about a horizontal axis, rad.
     pub(crate) fn tilt(&self) -> f64 {
-        let tilts = self.foundations.iter();
-        let tilts = tilts.map(|foundation| {
+        let tilts = self.foundations.iter().map(|foundation| {
             resultant(foundation.base_rotation, foundation.rotation_across).abs()
         });
         tilts.fold(0.0, f64::max)
     }
 
+    /// Whether the ground is in plan.
     pub(crate) fn is_plan(&self) -> bool {
         self.context.elements.is_plan()
     }

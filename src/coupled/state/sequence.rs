@@ -1,31 +1,33 @@
-//! States that follow one another.
+//! Sequence of states of one simulation.
 
-use super::{Origin, State};
+use super::{SimulationId, State};
 use std::ops::Range;
 
-/// Checks that states belong to one simulation and that time increases.
+/// Check that states belong to one simulation and that their time increases.
 #[derive(Debug, Clone)]
-pub(crate) struct Sequence {
-    origin: Origin,
-    elements: usize,
-    probes: usize,
+pub(crate) struct StateSequence {
+    simulation: SimulationId,
+    element_count: usize,
+    probe_count: usize,
+    /// Elements of each foundation.
     foundations: Vec<Range<usize>>,
-    end: f64,
+    /// Time of the last state, s.
+    last_time: f64,
 }
 
-impl Sequence {
+impl StateSequence {
     /// Sequence of states that begins with `state`.
     pub(crate) fn new(state: &State) -> Self {
         Self {
-            origin: state.origin,
-            elements: state.contact.len(),
-            probes: state.probes.len(),
+            simulation: state.simulation,
+            element_count: state.contact.len(),
+            probe_count: state.probes.len(),
             foundations: state
                 .foundations
                 .iter()
                 .map(|foundation| foundation.elements.clone())
                 .collect(),
-            end: state.time,
+            last_time: state.time,
         }
     }
 
@@ -35,13 +37,16 @@ impl Sequence {
         Self::ended(f64::INFINITY)
     }
 
-    /// Sequence that accepts no state; its last state was at `end`, s.
+    /// Sequence that accepts no state, with the time of its last state, s.
     #[cfg(feature = "serde")]
-    pub(crate) fn ended(end: f64) -> Self {
-        let elements = 0;
-        let probes = 0;
-        let foundations = Vec::new();
-        Self { origin: Origin::new(), elements, probes, foundations, end }
+    pub(crate) fn ended(last_time: f64) -> Self {
+        Self {
+            simulation: SimulationId::new(),
+            element_count: 0,
+            probe_count: 0,
+            foundations: Vec::new(),
+            last_time,
+        }
     }
 
     /// Writes only the time of the last state.
@@ -50,31 +55,31 @@ impl Sequence {
         &self,
         to: S,
     ) -> std::result::Result<S::Ok, S::Error> {
-        to.serialize_f64(self.end)
+        to.serialize_f64(self.last_time)
     }
 
     /// Whether `state` belongs to the same simulation and is later than the last one.
     pub(crate) fn is_next(&self, state: &State) -> bool {
-        // The fields of a state are public and may have been changed.
-        state.origin.is(self.origin)
-            && state.contact.len() == self.elements
-            && state.modes.len() == self.elements
-            && state.probes.len() == self.probes
+        // A user may have changed the public fields of a state.
+        state.simulation == self.simulation
+            && state.contact.len() == self.element_count
+            && state.modes.len() == self.element_count
+            && state.probes.len() == self.probe_count
             && state.foundations.iter().map(|foundation| &foundation.elements).eq(&self.foundations)
-            && state.time > self.end
+            && state.time > self.last_time
     }
 
-    /// Whether `state` is the next one; if so, stores its time as the last.
-    pub(crate) fn takes(&mut self, state: &State) -> bool {
-        let takes = self.is_next(state);
-        if takes {
-            self.end = state.time;
+    /// Stores the time of `state` if it is the next one; returns whether it is.
+    pub(crate) fn accept(&mut self, state: &State) -> bool {
+        let is_next = self.is_next(state);
+        if is_next {
+            self.last_time = state.time;
         }
-        takes
+        is_next
     }
 
     /// Time of the last state, s.
     pub(crate) fn end(&self) -> f64 {
-        self.end
+        self.last_time
     }
 }

@@ -6,7 +6,7 @@
 //! | B, A | means of the base displacement over the elements in contact, and areas of these elements |
 //! | S | static compliance of the ground and of the interface under these elements |
 //!
-//! The structure stands if K + BᵀA S⁻¹ B is positive definite.
+//! The structure is stable if K + BᵀA S⁻¹ B is positive definite.
 
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::assembled::LoadedStiffness;
@@ -20,18 +20,20 @@ use crate::linalg::{
 };
 use crate::structure::{Structure, Tangent, stiffest};
 
+/// Name of K + BᵀA S⁻¹ B in errors.
 const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
+/// Name of S in errors.
 const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
-/// Common settlement or translation under a force, relative to the largest that the compliance may give.
-const DATUM_SHIFT: f64 = 10.0;
+/// Uniform compliance that is added to one without a datum, relative to its largest entry.
+const UNIFORM_COMPLIANCE_FACTOR: f64 = 10.0;
 
 /// A structure on the static compliance of its ground.
 #[derive(Clone, Copy)]
-pub(crate) struct Grounded<'a> {
+pub(crate) struct GroundedStructure<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground under all elements.
-    pub(crate) soil: &'a CompressedMatrix,
+    pub(crate) ground_compliance: &'a CompressedMatrix,
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
 }
 
@@ -49,15 +51,16 @@ pub(crate) fn has_p_delta(structure: &dyn Structure) -> bool {
 
 /// Error for a structure with P–Δ whose static state is an unstable equilibrium.
 ///
-/// Elements that are closed at rest are bonded to the ground. The load factor is the one with all elements bonded, if it is
-/// below 1. `condensed`: the structure condensed on its base, if it was, whose matrix is much cheaper to factor.
+/// Elements that are closed at rest count as bonded to the ground. The error has the load factor with all elements bonded
+/// if this factor is below 1. `condensed` is the structure condensed on its base, if it exists. Its matrix takes much less
+/// time to factor.
 pub(crate) fn check(
-    grounded: Grounded<'_>,
+    grounded: GroundedStructure<'_>,
     condensed: Option<&Assembled>,
     at_rest: &StaticState,
 ) -> Result<()> {
-    let Grounded { assembled, structure, .. } = grounded;
-    // The stiffness of follower forces has no energy, whose smallest value would be the stable state.
+    let GroundedStructure { assembled, structure, .. } = grounded;
+    // Follower forces have no potential energy, so that this criterion does not apply.
     if structure.has_active_stiffness() {
         return Ok(());
     }
@@ -65,79 +68,79 @@ pub(crate) fn check(
         return Ok(());
     };
     let is_closed = |element: usize| at_rest.modes[element].is_closed();
-    let on_base = condensed.unwrap_or(assembled);
-    let ground_of_base =
-        GroundStiffness::new(Grounded { assembled: on_base, ..grounded }, is_closed);
-    if ground_of_base.is_none_or(|ground| ground.is_fixed_base(on_base.stiffness_at_rest())) {
+    let smaller = condensed.unwrap_or(assembled);
+    let smaller_ground =
+        GroundStiffness::new(GroundedStructure { assembled: smaller, ..grounded }, is_closed);
+    if smaller_ground.is_none_or(|ground| ground.is_stable_with(smaller.stiffness_at_rest())) {
         return Ok(());
     }
     let Some(ground) = GroundStiffness::new(grounded, is_closed) else {
         return Ok(());
     };
-    // Without a factor between 0 and 1 the cause is not P–Δ, such as a mechanism, which has its own error.
+    // Without a factor between 0 and 1, P–Δ is not the cause. A mechanism, for example, has its own error.
     let factor_on = |ground: &GroundStiffness<'_>| {
-        loaded.factor(1.0, |stiffness| ground.is_fixed_base(stiffness))
+        loaded.critical_factor(1.0, |stiffness| ground.is_stable_with(stiffness))
     };
     let bonded = GroundStiffness::new(grounded, |_| true);
     let factor = bonded.as_ref().and_then(factor_on).or_else(|| factor_on(&ground));
     let Some(factor) = factor else { return Ok(()) };
-    if !assembled.linear && stands_with_tangent(grounded, &ground, at_rest) {
+    if !assembled.is_linear && is_stable_with_tangent(grounded, &ground, at_rest) {
         return Ok(());
     }
     Err(Error::Stability(Box::new(StabilityError::Buckling { factor })))
 }
 
-/// Whether a nonlinear structure stands with the tangent of its force at its displacement at rest.
-fn stands_with_tangent(
-    grounded: Grounded<'_>,
+/// Whether a nonlinear structure is stable with the tangent of its force at rest.
+fn is_stable_with_tangent(
+    grounded: GroundedStructure<'_>,
     ground: &GroundStiffness<'_>,
     at_rest: &StaticState,
 ) -> bool {
-    let Grounded { assembled, structure, .. } = grounded;
+    let GroundedStructure { assembled, structure, .. } = grounded;
     Tangent::at(structure, &at_rest.displacement)
         .and_then(|tangent| {
             let terms = [(1.0, &*assembled.stiffness), (1.0, &tangent.matrix)];
             SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, assembled.dofs(), &terms)
         })
-        .is_ok_and(|stiffness| ground.is_fixed_base(&stiffness))
+        .is_ok_and(|stiffness| ground.is_stable_with(&stiffness))
 }
 
-/// Load factor up to 1 at which a structure with P–Δ buckles or falls over, with all elements bonded to the ground.
+/// Load factor up to 1 at which a structure with P–Δ becomes unstable, with all elements bonded to the ground.
 ///
-/// `None` if it stands, and without P–Δ.
-pub(super) fn load_factor(grounded: Grounded<'_>) -> Option<f64> {
-    let Grounded { assembled, structure, .. } = grounded;
+/// `None` for a stable structure, and without P–Δ.
+pub(super) fn load_factor(grounded: GroundedStructure<'_>) -> Option<f64> {
+    let GroundedStructure { assembled, structure, .. } = grounded;
     // A structure condensed on its base has other degrees of freedom.
     if structure.has_active_stiffness() || structure.dofs() != assembled.dofs() {
         return None;
     }
     let loaded = LoadedStiffness::new(structure, assembled.stiffness_at_rest())?;
     let ground = GroundStiffness::new(grounded, |_| true)?;
-    loaded.factor(1.0, |stiffness| ground.is_fixed_base(stiffness))
+    loaded.critical_factor(1.0, |stiffness| ground.is_stable_with(stiffness))
 }
 
 impl<'a> GroundStiffness<'a> {
     /// Stiffness of the ground under the closed elements; `None` unless its compliance is positive definite.
-    fn new(grounded: Grounded<'a>, is_closed: impl Fn(usize) -> bool) -> Option<Self> {
+    fn new(grounded: GroundedStructure<'a>, is_closed: impl Fn(usize) -> bool) -> Option<Self> {
         let assembled = grounded.assembled;
         let base = &assembled.base;
         let layout = base.layout();
-        let places: Vec<usize> =
-            (0..layout.len()).filter(|place| is_closed(layout.origin(*place)[1])).collect();
-        let factor = factored_compliance(grounded, &places)?;
+        let contact_indices: Vec<usize> =
+            (0..layout.len()).filter(|index| is_closed(layout.origin(*index)[1])).collect();
+        let factor = factored_compliance(grounded, &contact_indices)?;
         let dofs = base.dofs();
         // Rows of Bᵀ.
-        let size = places.len();
-        let mut columns = vec![0.0; dofs.len() * size];
-        for (column, place) in places.iter().enumerate() {
-            for &(dof, weight) in &base.mean_row(*place) {
+        let contact_count = contact_indices.len();
+        let mut columns = vec![0.0; dofs.len() * contact_count];
+        for (column, index) in contact_indices.iter().enumerate() {
+            for &(dof, weight) in &base.mean_row(*index) {
                 let row = dofs.binary_search(&dof).ok()?;
-                columns[row * size + column] += weight;
+                columns[row * contact_count + column] += weight;
             }
         }
         let mut forces = columns.clone();
         factor.solve_many(&mut forces);
-        let products = row_products(&columns, &forces, size.max(1));
+        let products = row_products(&columns, &forces, contact_count.max(1));
         let mut matrix = Triplets::new(assembled.dofs());
         for (i, row) in dofs.iter().enumerate() {
             for (j, column) in dofs.iter().enumerate() {
@@ -149,8 +152,8 @@ impl<'a> GroundStiffness<'a> {
         Some(Self { assembled, matrix })
     }
 
-    /// Whether a structure of this stiffness stands on the ground.
-    fn is_fixed_base(&self, stiffness: &SparseMatrix) -> bool {
+    /// Whether a structure of this stiffness is stable on the ground.
+    fn is_stable_with(&self, stiffness: &SparseMatrix) -> bool {
         let terms = [(1.0, stiffness), (1.0, &self.matrix)];
         let matrices = self.assembled.matrices();
         let penalty = FIRM_SPRING_FACTOR * stiffest(stiffness);
@@ -161,32 +164,35 @@ impl<'a> GroundStiffness<'a> {
     }
 }
 
-/// Factored compliance of the elements at these places of a contact vector, by forces.
+/// Factored compliance for forces on some components of a contact vector.
 ///
-/// The compliance of a half-plane in the plane has an arbitrary common settlement. A structure that begins to buckle does
-/// not change the sum of its forces on the ground, so that a softer common settlement changes no load factor. It is added
-/// where the compliance is not positive definite without.
-fn factored_compliance(grounded: Grounded<'_>, places: &[usize]) -> Option<SparseFactor> {
-    let Grounded { assembled, soil, laws, .. } = grounded;
+/// The static compliance of a half-plane is defined up to a uniform settlement. A structure that begins to buckle does not
+/// change the sum of its forces on the ground. A uniform compliance therefore does not change the load factor. It is added
+/// if the compliance is not positive definite otherwise.
+fn factored_compliance(
+    grounded: GroundedStructure<'_>,
+    contact_indices: &[usize],
+) -> Option<SparseFactor> {
+    let GroundedStructure { assembled, ground_compliance, laws, .. } = grounded;
     let base = &assembled.base;
     let layout = base.layout();
-    let by_force = |i: usize, j: usize| {
-        let entry = match soil.as_diagonal() {
+    let force_compliance = |i: usize, j: usize| {
+        let entry = match ground_compliance.as_diagonal() {
             Some(diagonal) => diagonal[i],
-            None => soil[i * layout.len() + j],
+            None => ground_compliance[i * layout.len() + j],
         };
         entry / base.area(j)
     };
-    let mut compliance = Triplets::new(places.len());
-    for (row, &i) in places.iter().enumerate() {
+    let mut compliance = Triplets::new(contact_indices.len());
+    for (row, &i) in contact_indices.iter().enumerate() {
         let [component, element] = layout.origin(i);
         let law_compliance = compliance_at_rest(law_of(laws, element))[component.min(1)];
         compliance.add(row, row, law_compliance / base.area(i));
-        // All columns, or the one of a diagonal.
-        let columns = if soil.as_diagonal().is_some() { row..row + 1 } else { 0..places.len() };
+        let has_diagonal = ground_compliance.as_diagonal().is_some();
+        let columns = if has_diagonal { row..row + 1 } else { 0..contact_indices.len() };
         for column in columns {
-            let j = places[column];
-            let mean = 0.5 * (by_force(i, j) + by_force(j, i));
+            let j = contact_indices[column];
+            let mean = 0.5 * (force_compliance(i, j) + force_compliance(j, i));
             if mean != 0.0 {
                 compliance.add(row, column, mean);
             }
@@ -198,18 +204,18 @@ fn factored_compliance(grounded: Grounded<'_>, places: &[usize]) -> Option<Spars
     let entries = compliance.entries().iter();
     let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
     let mut means = vec![0.0; layout.len()];
-    for translation in assembled.influence.of_all(assembled.dofs()) {
+    for translation in assembled.influence.whole_vectors(assembled.dofs()) {
         base.means(&translation, &mut means);
-        let displacement: Vec<f64> = places.iter().map(|place| means[*place]).collect();
+        let displacement: Vec<f64> = contact_indices.iter().map(|index| means[*index]).collect();
         if largest(&displacement) > 0.0 {
             let row: Vec<(usize, f64)> = displacement.into_iter().enumerate().collect();
-            compliance.add_outer(&row, DATUM_SHIFT * max_entry);
+            compliance.add_outer(&row, UNIFORM_COMPLIANCE_FACTOR * max_entry);
         }
     }
     positive_definite(&compliance)
 }
 
-/// Factors of a compliance; `None` unless it is positive definite.
+/// Factors a compliance; `None` unless it is positive definite.
 fn positive_definite(compliance: &Triplets) -> Option<SparseFactor> {
     let matrix = SparseMatrix::new(GROUND_COMPLIANCE_NAME, compliance).ok()?;
     SparseFactor::positive_definite(GROUND_COMPLIANCE_NAME, &matrix).ok()

@@ -12,40 +12,44 @@ use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
 use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
 
+/// Name of K + D + εM in errors.
 pub(super) const STATIC_STIFFNESS_NAME: &str = "static stiffness matrix";
-/// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
+/// Initial stiffness of the fictitious springs, as a fraction of the foundation's stiffness.
 pub(super) const PROXIMAL_SPRING_FRACTION: f64 = 1e-4;
 
-/// Factored K + D + εM.
-pub(crate) struct Floating {
-    /// ε.
-    pub(crate) springs: f64,
+/// Factored K + D + εM: stiffness, tangent of the nonlinear force, and fictitious springs.
+pub(crate) struct ShiftedStiffnessFactor {
+    /// Shift ε: stiffness of the springs per mass, 1/s².
+    pub(crate) shift: f64,
     matrix: Arc<SparseMatrix>,
     pub(crate) factor: SparseFactor,
 }
 
-/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
+/// Static compliance of structure and ground on the contact elements.
 pub(crate) struct Compliance {
-    pub(crate) floating: Rc<Floating>,
+    /// Factored K + D + εM.
+    pub(crate) factor: Rc<ShiftedStiffnessFactor>,
+    /// Displacements of the structure under unit tractions, one column after the other.
     pub(crate) columns: Vec<f64>,
+    /// Delassus operator of structure and ground.
     pub(crate) delassus: Delassus,
 }
 
-impl Floating {
-    /// Factors the matrix for springs of stiffness `springs` per mass.
-    pub(crate) fn new(assembled: &Assembled, tangent: &SparseMatrix, springs: f64) -> Result<Self> {
+impl ShiftedStiffnessFactor {
+    /// Factors K + D + εM with the shift ε.
+    pub(crate) fn new(assembled: &Assembled, tangent: &SparseMatrix, shift: f64) -> Result<Self> {
         let Assembled { stiffness, mass, .. } = assembled;
-        let terms = [(1.0, &**stiffness), (1.0, tangent), (springs, mass)];
+        let terms = [(1.0, &**stiffness), (1.0, tangent), (shift, mass)];
         let matrix = SparseMatrix::sum(STATIC_STIFFNESS_NAME, assembled.dofs(), &terms)?;
         let factor =
             SparseFactor::with_elimination(STATIC_STIFFNESS_NAME, &matrix, &assembled.elimination)?;
-        Ok(Self { springs, matrix: matrix.into(), factor })
+        Ok(Self { shift, matrix: matrix.into(), factor })
     }
 
-    /// The whole of a condensed structure, on the springs at its base only.
-    pub(crate) fn of_whole(&self, whole: &Assembled, condensed: Condensed) -> Option<Self> {
-        let factor = condensed.on_springs(&self.matrix)?;
-        Some(Self { springs: self.springs, matrix: Arc::clone(&whole.stiffness), factor })
+    /// Expands the factor of a condensed structure to the whole structure, with springs at its base.
+    pub(crate) fn expanded(&self, whole: &Assembled, condensed: Condensed) -> Option<Self> {
+        let factor = condensed.shifted_factor(&self.matrix)?;
+        Some(Self { shift: self.shift, matrix: Arc::clone(&whole.stiffness), factor })
     }
 
     /// The matrix, if it is positive definite.
@@ -60,49 +64,55 @@ impl Floating {
 }
 
 impl Compliance {
-    /// Compliance on a base, over a soil of this static compliance.
+    /// Compliance of a structure on a base, on a ground of this static compliance.
     ///
-    /// Returns an error for more elements than the entries of W allow.
+    /// Returns an error if the entries of the Delassus operator do not fit into memory.
     pub(crate) fn new(
-        floating: Rc<Floating>,
+        factor: Rc<ShiftedStiffnessFactor>,
         base: &PlacedBase,
-        soil: &CompressedMatrix,
+        ground_compliance: &CompressedMatrix,
     ) -> Result<Self> {
-        let order = floating.matrix.order();
+        let order = factor.matrix.order();
         let (columns, delassus) =
-            condense(|rhs| floating.factor.solve_many(rhs), base, soil, order)?;
-        Ok(Self { floating, columns, delassus })
+            condense(|rhs| factor.factor.solve_many(rhs), base, ground_compliance, order)?;
+        Ok(Self { factor, columns, delassus })
     }
 }
 
-/// Initial stiffness of the fictitious springs per mass, ε.
-pub(crate) fn springs(assembled: &Assembled, soil: &CompressedMatrix) -> Result<f64> {
-    let foundation = vertical_stiffness(soil, &assembled.base);
-    let stiffness = PROXIMAL_SPRING_FRACTION * foundation / total_mass(assembled);
-    if stiffness.is_finite() {
-        return Ok(stiffness);
+/// Initial shift ε: stiffness of the fictitious springs per mass, 1/s².
+pub(crate) fn initial_shift(
+    assembled: &Assembled,
+    ground_compliance: &CompressedMatrix,
+) -> Result<f64> {
+    let foundation_stiffness = vertical_stiffness(ground_compliance, &assembled.base);
+    let shift = PROXIMAL_SPRING_FRACTION * foundation_stiffness / vertical_mass(assembled);
+    if shift.is_finite() {
+        return Ok(shift);
     }
     Err(Error::Singular { matrix: STATIC_STIFFNESS_NAME, order: assembled.dofs() })
 }
 
-/// Mass that moves in a vertical translation.
-fn total_mass(assembled: &Assembled) -> f64 {
-    let up = assembled.influence.of(UPWARD_DIRECTION, assembled.dofs());
+/// Mass in a vertical translation, kg.
+fn vertical_mass(assembled: &Assembled) -> f64 {
+    let up = assembled.influence.whole_vector(UPWARD_DIRECTION, assembled.dofs());
     assembled.mass.form(&up, &up)
 }
 
-/// Vertical force per settlement of the soil under a uniform pressure.
-fn vertical_stiffness(soil: &CompressedMatrix, base: &PlacedBase) -> f64 {
+/// Vertical force of a uniform pressure per settlement of the ground, N/m.
+fn vertical_stiffness(ground_compliance: &CompressedMatrix, base: &PlacedBase) -> f64 {
     let areas = base.areas();
-    let size = base.layout().len();
-    let count = areas.len();
-    let area = areas.iter().sum::<f64>();
+    let order = base.layout().len();
+    let element_count = areas.len();
+    let total_area = areas.iter().sum::<f64>();
     // Integral of the settlement under a unit pressure.
-    let settled_volume: f64 = match soil.as_diagonal() {
+    let settled_volume: f64 = match ground_compliance.as_diagonal() {
         Some(diagonal) => areas.iter().zip(diagonal).map(|(area, entry)| area * entry).sum(),
-        None => (0..count)
-            .map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
+        None => (0..element_count)
+            .map(|p| {
+                let row = &ground_compliance[p * order..][..element_count];
+                areas[p] * row.iter().sum::<f64>()
+            })
             .sum(),
     };
-    area * area / settled_volume
+    total_area * total_area / settled_volume
 }

@@ -1,4 +1,4 @@
-//! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
+//! Static equilibrium with contact conditions, by proximal point iteration.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -6,9 +6,12 @@ use std::rc::Rc;
 use crate::contact::{ContactInput, ContactSearch, ContactSolver};
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::statics::compliance::{
-    Compliance, Floating, PROXIMAL_SPRING_FRACTION, STATIC_STIFFNESS_NAME, springs,
+    Compliance, PROXIMAL_SPRING_FRACTION, STATIC_STIFFNESS_NAME, ShiftedStiffnessFactor,
+    initial_shift,
 };
-use crate::coupled::statics::convergence::{Measure, extrapolation, has_converged, rounding};
+use crate::coupled::statics::convergence::{
+    RelativeForceNorm, extrapolation_factor, has_converged, spring_force_rounding,
+};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
@@ -17,40 +20,48 @@ use crate::structure::{Structure, Tangent, nonlinear_state};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
 const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
-/// Condition beyond which rounding of K u exceeds that force (`tests/coupled/conditioning.rs`).
+/// Condition beyond which rounding of K u exceeds the tolerance of the force balance.
+///
+/// The value is from `tests/coupled/conditioning.rs`.
 const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 /// Largest number of proximal iterations.
 const MAX_PROXIMAL_ITERATIONS: usize = 500;
-/// Softest springs, as a fraction of their initial stiffness.
+/// Smallest stiffness of the springs, as a fraction of their initial stiffness.
 const MIN_SPRING_FRACTION: f64 = 1e-9;
-/// Decrease of their force in an iteration above which they are softened tenfold while it exceeds `SPRING_FORCE_ROUNDING`:
-/// a structure far softer than the ground deforms only slowly against springs that are stiffer than itself.
+/// Ratio of successive spring forces above which the springs are softened tenfold.
+///
+/// A structure far softer than the ground converges only slowly with springs that are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
-/// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
+/// Largest factor by which the springs are stiffened for a structure that is unstable (P–Δ) without the ground.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
-/// Iterations on springs that must stay stiff (P–Δ) from one extrapolation to the next.
+/// Number of iterations between two extrapolations, for springs that must stay stiff (P–Δ).
 const EXTRAPOLATION_INTERVAL: usize = 20;
-/// A structure on a soil at rest.
-pub(crate) struct Standing<'a> {
+/// Factor between two trial stiffnesses of the springs.
+const SPRING_STIFFENING_FACTOR: f64 = 10.0;
+/// Factor by which the springs are softened.
+const SPRING_SOFTENING_FACTOR: f64 = 0.1;
+
+/// Static problem of a structure on its ground.
+pub(crate) struct StaticProblem<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground.
-    pub(crate) soil: &'a CompressedMatrix,
-    /// Whether the laws act without friction and cohesion, in plan.
-    pub(crate) frictionless: bool,
-    /// Jumps in addition to those by displacements and tractions; empty for none.
-    pub(crate) offset: &'a [f64],
-    /// Compliance of a linear structure on its initial springs, which stages share.
-    pub(crate) shared: &'a RefCell<Option<Compliance>>,
+    pub(crate) ground_compliance: &'a CompressedMatrix,
+    /// Whether the laws act without friction and cohesion; only in plan.
+    pub(crate) is_frictionless: bool,
+    /// Jumps in addition to the jumps of displacements and tractions, m; empty for none.
+    pub(crate) jump_offset: &'a [f64],
+    /// Compliance of a linear structure on its initial springs, which the stages share.
+    pub(crate) shared_compliance: &'a RefCell<Option<Compliance>>,
 }
 
-impl Standing<'_> {
-    /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
+impl StaticProblem<'_> {
+    /// Computes u and τ with K u + f(u) + BᵀA τ = `load` and the static contact conditions.
     ///
-    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum. Springs ε M to the
-    /// last iterate make each iteration regular, and their forces vanish at convergence (proximal point method); f
-    /// is linearised at each iterate (Newton). Starts from `state`, the end of the previous stage, to which the
-    /// laws' `start` belongs. Also returns the states of the elements.
+    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum. Springs ε M to the last
+    /// iterate make each iteration regular, and their forces vanish at convergence (proximal point method). f is linearised
+    /// at each iterate (Newton's method). The search starts from `state`, the end of the previous stage. `start` has the
+    /// contact of this state for the laws. The result also contains the contact state of each element.
     pub(crate) fn equilibrium(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
@@ -61,42 +72,43 @@ impl Standing<'_> {
         let assembled = self.assembled;
         let base = &assembled.base;
         let mut springs = self.springs()?;
-        let initial_stiffness = springs.stiffness;
+        let initial_shift = springs.shift;
         let mut solver =
             ContactSolver::new(base.layout(), base.areas(), false, ContactSearch::Robust);
-        let measure = Measure::new(assembled, load);
+        let relative_norm = RelativeForceNorm::new(assembled, load);
         let mut tangent = Tangent::new(assembled.dofs());
-        let mut compliance = None::<Compliance>;
+        let mut stored_compliance = None::<Compliance>;
         let mut change = f64::INFINITY;
         let mut iterations = 0;
         let mut last_step = Vec::new();
         while iterations < MAX_PROXIMAL_ITERATIONS {
             iterations += 1;
             tangent.refill(self.structure, &state.displacement)?;
-            let current = match compliance.take() {
-                Some(current) if assembled.linear => current,
+            let compliance = match stored_compliance.take() {
+                Some(compliance) if assembled.is_linear => compliance,
                 _ => {
                     solver.invalidate();
-                    self.stiffened(&mut springs, &tangent.matrix, initial_stiffness)?
+                    self.stiffened_compliance(&mut springs, &tangent.matrix, initial_shift)?
                 }
             };
-            let current = compliance.insert(current);
-            let next = self.next(current, &mut solver, (laws, start), load, &mut state)?;
+            let compliance = stored_compliance.insert(compliance);
+            let next =
+                self.next_iterate(compliance, &mut solver, (laws, start), load, &mut state)?;
             let Some(displacement) = next else { break };
             let spring_force = springs.force(assembled, &displacement, &state.displacement);
-            let previous = std::mem::replace(&mut change, measure.norm(&spring_force));
+            let previous_change = std::mem::replace(&mut change, relative_norm.of(&spring_force));
             let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.response().traction);
-            if has_converged(previous, change, iterations, current) {
-                // The springs may have no force without an equilibrium, if K u is only rounding.
+            if has_converged(previous_change, change, iterations, compliance) {
+                // If K u is only rounding, the springs may have no force without an equilibrium.
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
-                    self.share(compliance, initial_stiffness);
+                    self.share(stored_compliance, initial_shift);
                     state.substituted_friction =
                         solver.substituted_friction().or(state.substituted_friction);
                     let states = &solver.response().states;
-                    state.close_gaps(laws, start, states)?;
+                    state.set_gaps(laws, start, states)?;
                     return Ok((state, states.clone()));
                 }
                 change = residual;
@@ -105,40 +117,43 @@ impl Standing<'_> {
             if !change.is_finite() {
                 break;
             }
-            let rounding = rounding(iterations, current);
-            if change > rounding.max(SLOW_DECREASE_RATIO * previous) && springs.soften() {
-                compliance = None;
+            let rounding = spring_force_rounding(iterations, compliance);
+            let decreases_slowly = change > rounding.max(SLOW_DECREASE_RATIO * previous_change);
+            if decreases_slowly && springs.soften() {
+                stored_compliance = None;
                 solver.invalidate();
-            } else if springs.stay_stiff() && iterations.is_multiple_of(EXTRAPOLATION_INTERVAL) {
+            } else if springs.must_stay_stiff() && iterations.is_multiple_of(EXTRAPOLATION_INTERVAL)
+            {
                 // Close to buckling, one shape converges slowly.
-                let factor = extrapolation(&assembled.mass, &last_step, &step);
+                let factor = extrapolation_factor(&assembled.mass, &last_step, &step);
                 state.displacement.iter_mut().zip(&step).for_each(|(u, d)| *u += factor * d);
             }
             last_step = step;
         }
-        Err(self.failure(&tangent.matrix, initial_stiffness, iterations, change))
+        Err(self.failure(&tangent.matrix, initial_shift, iterations, change))
     }
 
-    /// Shares the compliance of a linear structure on its initial springs with other searches.
-    fn share(&self, compliance: Option<Compliance>, initial_stiffness: f64) {
-        let is_shared = |compliance: &Compliance| {
-            self.assembled.linear && compliance.floating.springs == initial_stiffness
+    /// Shares the compliance of a linear structure on its initial springs with later searches.
+    fn share(&self, compliance: Option<Compliance>, initial_shift: f64) {
+        let can_share = |compliance: &Compliance| {
+            self.assembled.is_linear && compliance.factor.shift == initial_shift
         };
-        self.shared.replace(compliance.filter(is_shared));
+        self.shared_compliance.replace(compliance.filter(can_share));
     }
 
-    /// Error for iterations without an equilibrium, with the condition of the matrix on the initial springs.
+    /// Error for a search without an equilibrium.
     ///
-    /// Softened springs leave a matrix of rounding, which has no condition.
+    /// It has the condition number of the matrix with the initial springs. With soft springs the matrix contains only
+    /// rounding in rigid motions.
     fn failure(
         &self,
         tangent: &SparseMatrix,
-        initial_stiffness: f64,
+        initial_shift: f64,
         iterations: usize,
         change: f64,
     ) -> Error {
-        let initial = Floating::new(self.assembled, tangent, initial_stiffness);
-        let condition = initial.map_or(1.0, |floating| floating.condition());
+        let initial_factor = ShiftedStiffnessFactor::new(self.assembled, tangent, initial_shift);
+        let condition = initial_factor.map_or(1.0, |factor| factor.condition());
         if condition <= MAX_ACCEPTED_CONDITION {
             return Error::Preload { iterations, residual: change };
         }
@@ -151,24 +166,24 @@ impl Standing<'_> {
         }
     }
 
-    /// Displacements of the next iterate; `None` if its contact problem has no solution.
+    /// Displacement of the next iterate; `None` if its contact problem has no solution.
     ///
-    /// The tractions are in `solver`.
-    fn next(
+    /// The tractions are stored in `solver`.
+    fn next_iterate(
         &self,
-        current: &Compliance,
+        compliance: &Compliance,
         solver: &mut ContactSolver,
         (laws, start): (&[Box<dyn InterfaceLaw>], &PreviousContacts),
         load: &[f64],
         state: &mut StaticState,
     ) -> Result<Option<Vec<f64>>> {
-        let mut displacement = self.without_traction(current, load, state)?;
+        let mut displacement = self.displacement_without_traction(compliance, load, state)?;
         let mut means = vec![0.0; solver.response().traction.len()];
         self.assembled.base.means(&displacement, &mut means);
         let mut free_jump: Vec<f64> = means.iter().map(|mean| -mean).collect();
-        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
+        free_jump.iter_mut().zip(self.jump_offset).for_each(|(jump, offset)| *jump += offset);
         let input = ContactInput {
-            delassus: &current.delassus,
+            delassus: &compliance.delassus,
             free_jump: &free_jump,
             static_traction: &vec![0.0; free_jump.len()],
             start,
@@ -176,7 +191,7 @@ impl Standing<'_> {
             length_scale: largest(&free_jump),
             bonds: &[],
             trial_settlements: &[],
-            frictionless: self.frictionless,
+            frictionless: self.is_frictionless,
         };
         match solver.solve(&input, &mut state.modes) {
             Ok(_) => {}
@@ -184,134 +199,136 @@ impl Standing<'_> {
             Err(_) => return Ok(None),
         }
         let traction = &solver.response().traction;
-        transposed_multiply_add(&current.columns, -1.0, traction, &mut displacement);
+        transposed_multiply_add(&compliance.columns, -1.0, traction, &mut displacement);
         Ok(Some(displacement))
     }
 
-    /// Displacements of the next iterate before its tractions act.
+    /// Displacement of the next iterate without the response to its tractions τ₁.
     ///
-    /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle by
-    /// 1/`PROXIMAL_SPRING_FRACTION` settlements. The columns that subtract the response to τ₁ therefore add the response to τ₀,
-    /// and the system is solved only for the unbalanced force.
-    fn without_traction(
+    /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle
+    /// 1/`PROXIMAL_SPRING_FRACTION` times as much as on the ground. The system is therefore solved for the unbalanced force
+    /// only, and the response to the last tractions τ₀ is added with the columns of the compliance.
+    fn displacement_without_traction(
         &self,
-        current: &Compliance,
+        compliance: &Compliance,
         load: &[f64],
         state: &StaticState,
     ) -> Result<Vec<f64>> {
-        let mut displacement = out_of_balance(self.assembled, self.structure, load, state)?;
-        current.floating.factor.solve_many(&mut displacement);
+        let mut displacement = unbalanced_force(self.assembled, self.structure, load, state)?;
+        compliance.factor.factor.solve_many(&mut displacement);
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
         }
-        transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+        transposed_multiply_add(&compliance.columns, 1.0, &state.traction, &mut displacement);
         Ok(displacement)
     }
 
-    /// The springs of the shared compliance, or the initial ones.
+    /// The springs of the shared compliance, or the initial springs without one.
     fn springs(&self) -> Result<FictitiousSprings> {
-        let stiffness = match &*self.shared.borrow() {
-            Some(compliance) if self.assembled.linear => compliance.floating.springs,
-            _ => springs(self.assembled, self.soil)?,
+        let shift = match &*self.shared_compliance.borrow() {
+            Some(compliance) if self.assembled.is_linear => compliance.factor.shift,
+            _ => initial_shift(self.assembled, self.ground_compliance)?,
         };
-        Ok(FictitiousSprings { stiffness, softest: MIN_SPRING_FRACTION * stiffness })
+        Ok(FictitiousSprings { shift, min_shift: MIN_SPRING_FRACTION * shift })
     }
 
-    /// Compliance with springs stiff enough to hold a structure that leans without the ground.
+    /// Compliance with springs stiff enough for a structure that is unstable without the ground.
     ///
-    /// Each iteration then finds the smallest energy. With softer springs it may find a structure on the verge of a
-    /// fall, on a corner. If springs of [`MAX_STIFFENING_FACTOR`] times `initial_stiffness` do not help (Lagrange
-    /// multipliers), or rounding is the cause, they stay unchanged.
-    fn stiffened(
+    /// Each iteration then minimises the energy. With softer springs it may end at an unstable equilibrium, for
+    /// example of a block on its corner. The springs stay unchanged if a factor of [`MAX_STIFFENING_FACTOR`] is not sufficient
+    /// (Lagrange multipliers), or if rounding is the cause.
+    fn stiffened_compliance(
         &self,
         springs: &mut FictitiousSprings,
         tangent: &SparseMatrix,
-        initial_stiffness: f64,
+        initial_shift: f64,
     ) -> Result<Compliance> {
-        let mut shared = self.shared.borrow_mut();
-        if self.assembled.linear
-            && let Some(compliance) =
-                shared.take_if(|shared| shared.floating.springs == springs.stiffness)
+        let mut shared = self.shared_compliance.borrow_mut();
+        if self.assembled.is_linear
+            && let Some(compliance) = shared.take_if(|shared| shared.factor.shift == springs.shift)
         {
             return Ok(compliance);
         }
         drop(shared);
-        let initial = self.compliance(tangent, springs.stiffness)?;
-        if initial.floating.factor.is_positive_definite()
-            || initial.floating.condition() > MAX_ACCEPTED_CONDITION
+        let compliance = self.compliance(tangent, springs.shift)?;
+        if compliance.factor.factor.is_positive_definite()
+            || compliance.factor.condition() > MAX_ACCEPTED_CONDITION
         {
-            return Ok(initial);
+            return Ok(compliance);
         }
-        let mut stiffness = 10.0 * springs.stiffness;
-        while stiffness <= MAX_STIFFENING_FACTOR * initial_stiffness {
-            let stiffer = self.compliance(tangent, stiffness)?;
-            if stiffer.floating.factor.is_positive_definite() {
-                *springs = FictitiousSprings { stiffness, softest: stiffness };
-                return Ok(stiffer);
+        let mut shift = SPRING_STIFFENING_FACTOR * springs.shift;
+        while shift <= MAX_STIFFENING_FACTOR * initial_shift {
+            let stiffer_compliance = self.compliance(tangent, shift)?;
+            if stiffer_compliance.factor.factor.is_positive_definite() {
+                *springs = FictitiousSprings { shift, min_shift: shift };
+                return Ok(stiffer_compliance);
             }
-            stiffness *= 10.0;
+            shift *= SPRING_STIFFENING_FACTOR;
         }
-        Ok(initial)
+        Ok(compliance)
     }
 
-    /// Compliance with springs of this stiffness per mass.
-    fn compliance(&self, tangent: &SparseMatrix, stiffness: f64) -> Result<Compliance> {
-        let floating = Rc::new(Floating::new(self.assembled, tangent, stiffness)?);
-        Compliance::new(floating, &self.assembled.base, self.soil)
+    /// Compliance with springs of stiffness `shift` per mass.
+    fn compliance(&self, tangent: &SparseMatrix, shift: f64) -> Result<Compliance> {
+        let factor = Rc::new(ShiftedStiffnessFactor::new(self.assembled, tangent, shift)?);
+        Compliance::new(factor, &self.assembled.base, self.ground_compliance)
     }
 }
 
 /// Fictitious springs ε M between two iterates.
 struct FictitiousSprings {
-    /// ε.
-    stiffness: f64,
-    /// ε down to which the springs are softened.
-    softest: f64,
+    /// Shift ε: stiffness per mass, 1/s².
+    shift: f64,
+    /// Smallest shift to which the springs may be softened, 1/s².
+    min_shift: f64,
 }
 
 impl FictitiousSprings {
     /// Force of the springs between two displacements.
     fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
-        let moved = difference(to, from);
-        let mut force = vec![0.0; moved.len()];
-        assembled.mass.multiply_add(self.stiffness, &moved, &mut force);
+        let step = difference(to, from);
+        let mut force = vec![0.0; step.len()];
+        assembled.mass.multiply_add(self.shift, &step, &mut force);
         force
     }
 
-    /// Whether softer springs would not hold the structure.
-    fn stay_stiff(&self) -> bool {
-        self.softest == self.stiffness
+    /// Whether the structure would be unstable on softer springs.
+    fn must_stay_stiff(&self) -> bool {
+        self.min_shift == self.shift
     }
 
-    /// Softens the springs tenfold; `false` if they are as soft as allowed.
+    /// Softens the springs tenfold; returns `false` at their smallest stiffness.
     fn soften(&mut self) -> bool {
-        let can_soften = self.stiffness > self.softest;
+        let can_soften = self.shift > self.min_shift;
         if can_soften {
-            self.stiffness *= 0.1;
+            self.shift *= SPRING_SOFTENING_FACTOR;
         }
         can_soften
     }
 }
 
+/// Difference of two displacements.
 fn difference(to: &[f64], from: &[f64]) -> Vec<f64> {
     to.iter().zip(from).map(|(a, b)| a - b).collect()
 }
 
-/// Relative force imbalance: K resists no translation, so tractions alone must carry the resultants of the load.
+/// Unbalanced resultant force, relative to the load.
+///
+/// K does not resist translations. The tractions alone must balance the resultants of the load.
 fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
     let mut residual = load.to_vec();
     assembled.base.add_forces(-1.0, traction, &mut residual);
     let mut max_resultant = 0.0_f64;
     let mut scale = 0.0_f64;
-    for vector in &assembled.influence.of_all(load.len()) {
+    for vector in &assembled.influence.whole_vectors(load.len()) {
         max_resultant = max_resultant.max(dot(vector, &residual).abs());
         scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
     }
     max_resultant / scale.max(f64::MIN_POSITIVE)
 }
 
-/// load − K u − f(u) − BᵀAτ.
-fn out_of_balance(
+/// Unbalanced force: load − K u − f(u) − BᵀAτ.
+fn unbalanced_force(
     assembled: &Assembled,
     structure: &dyn Structure,
     load: &[f64],

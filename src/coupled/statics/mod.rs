@@ -1,4 +1,4 @@
-//! The static state: equilibrium on the ground, and reasons for its absence.
+//! The static state: equilibrium on the ground, and causes of its absence.
 
 pub(crate) mod buckling;
 pub(crate) mod compliance;

@@ -1,25 +1,25 @@
-//! Reasons why a structure cannot stand: resultants beyond the strength of its base, or a mechanism.
+//! Causes of a missing equilibrium: mechanisms, buckling, or loads beyond the strength of the base.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | N, n | displacements of the contact nodes, and their values in a rigid motion of the base |
-//! | r | displacements when the contact nodes follow that motion and all else follows them |
+//! | r | displacements of the structure in that motion of its contact nodes |
 
 use crate::coupled::base::faces::hull;
-use crate::coupled::model::mechanism::{Regular, unresisted};
+use crate::coupled::model::mechanism::{RegularisedStiffness, unresisted};
 use crate::coupled::model::signs::FIRM_SPRING_FACTOR;
-use crate::coupled::statics::buckling::{Grounded, load_factor};
-use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::buckling::{GroundedStructure, load_factor};
+use crate::coupled::statics::equilibrium::StaticProblem;
 use crate::coupled::statics::loaded_part::LoadedPart;
-use crate::coupled::statics::strength::Strength;
+use crate::coupled::statics::strength::InterfaceStrength;
 use crate::error::{Error, StabilityError};
 use crate::geometry::{Edge, middle, resultant, span};
 use crate::interface::{InterfaceLaw, LawForm, law_of};
 use crate::linalg::{SparseFactor, dot};
 
-/// The cause of `error`, that there is no equilibrium under `load`; `error` itself if it is unknown.
+/// Replaces the `error` of a missing equilibrium under `load` by its cause, if there is one.
 pub(crate) fn cause(
-    stage: &Standing<'_>,
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
     error: Error,
@@ -28,51 +28,55 @@ pub(crate) fn cause(
     if !matches!(error, Preload { .. } | IllConditioned { .. } | Singular { .. }) {
         return error;
     }
-    let Standing { assembled, structure, soil, .. } = *stage;
-    let grounded = Grounded { assembled, structure, soil, laws };
-    let at_rest = assembled.at_rest(structure);
+    let StaticProblem { assembled, structure, ground_compliance, .. } = *problem;
+    let grounded = GroundedStructure { assembled, structure, ground_compliance, laws };
+    let at_rest = assembled.structure_at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
-    let others = [&*assembled.damping, &assembled.mass];
+    let mass_and_damping = [&*assembled.damping, &assembled.mass];
     at_rest
         .mechanism()
-        .or_else(
-            || {
-                if is_singular { unresisted(structure, at_rest.stiffness, others) } else { None }
-            },
-        )
+        .or_else(|| {
+            if is_singular {
+                unresisted(structure, at_rest.stiffness, mass_and_damping)
+            } else {
+                None
+            }
+        })
         .or_else(|| load_factor(grounded).map(|factor| StabilityError::Buckling { factor }))
-        .or_else(|| resultants(stage, laws, load))
+        .or_else(|| base_failure(problem, laws, load))
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// Failure of the first part that its load lifts, overturns, pushes off or presses in.
-fn resultants(
-    stage: &Standing<'_>,
+/// Failure of the first connected part whose base does not resist its load.
+fn base_failure(
+    problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
 ) -> Option<StabilityError> {
-    let assembled = stage.assembled;
+    let assembled = problem.assembled;
     let base = &assembled.base;
-    // On springs as stiff as itself, a structure with P–Δ rotates further than the springs are displaced.
-    let (springs, regular) =
-        Regular::on_springs(&assembled.at_rest(stage.structure), FIRM_SPRING_FACTOR);
-    let mut factor = regular.factor()?;
+    // A structure with P–Δ needs firm springs. On springs as stiff as itself it rotates more than the springs.
+    let at_rest = assembled.structure_at_rest(problem.structure);
+    let (springs, regularised) = RegularisedStiffness::on_springs(&at_rest, FIRM_SPRING_FACTOR);
+    let mut factor = regularised.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
-        let [along, upward, away] = part.resultants(load);
+        let [right, upward, away] = part.resultants(load);
         let nodes = part.nodes(base);
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
+        // A moment is the work of the load on a unit rotation.
         let mut moments = [0.0; 3];
-        let turns = springs.turns(nodes.iter().copied(), bounds.map(middle));
-        for (moment, turn) in moments.iter_mut().zip(turns) {
-            *moment = work(&mut factor, turn, load);
+        let rotation_forces = springs.turns(nodes.iter().copied(), bounds.map(middle));
+        for (moment, forces) in moments.iter_mut().zip(rotation_forces) {
+            *moment = work(&mut factor, forces, load);
         }
+        let [moment_x, moment_y, torque] = moments;
         let elements: Vec<_> = part.elements().iter().map(|&e| (e, base.areas()[e])).collect();
         let layout = base.layout();
         let normal = -upward;
         let pressure = normal / elements.iter().map(|(_, area)| area).sum::<f64>();
         let form = LawForm::of(layout);
         let strengths = elements.iter().map(|&(e, _)| {
-            Strength::at_pressure(law_of(laws, e), pressure, form, stage.frictionless)
+            InterfaceStrength::at_pressure(law_of(laws, e), pressure, form, problem.is_frictionless)
         });
         // In the plane a base has two ends.
         let outline = if layout.axes().len() > 1 { hull(nodes.iter().copied()) } else { vec![] };
@@ -85,17 +89,19 @@ fn resultants(
                 .iter()
                 .map(|&(e, area)| (base.elements()[e].center(), area))
                 .collect(),
-            horizontal: resultant(along, away),
+            horizontal: resultant(right, away),
             normal,
-            moments,
+            moments: [moment_x, moment_y],
+            torque,
             pressure,
         };
         part.failure()
     })
 }
 
-/// Work of a load on the displacements that these forces cause.
-fn work(factor: &mut SparseFactor, mut force: Vec<f64>, load: &[f64]) -> f64 {
-    factor.solve(&mut force);
-    dot(&force, load)
+/// Work of a load on the displacements due to other forces.
+fn work(factor: &mut SparseFactor, forces: Vec<f64>, load: &[f64]) -> f64 {
+    let mut displacements = forces;
+    factor.solve(&mut displacements);
+    dot(&displacements, load)
 }

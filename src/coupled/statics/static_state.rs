@@ -5,28 +5,31 @@ use crate::geometry::ContactLayout;
 use crate::interface::{ContactState, InterfaceLaw, LawForm, Mode, PreviousContacts, law_of};
 use crate::structure::InternalEnergy;
 
-/// Static state under weight and loads at t = 0, contact conditions included.
+/// Static state under weight and loads at t = 0, with its contact.
 #[derive(Debug, Clone)]
 pub(crate) struct StaticState {
     layout: ContactLayout,
+    /// Tractions of all contact components, Pa.
     pub(crate) traction: Vec<f64>,
-    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
+    /// Gap of each element, m: positive if uplifted, negative for a compressed layer, zero in hard contact.
     pub(crate) gap: Vec<f64>,
+    /// Displacement of the degrees of freedom, m and rad.
     pub(crate) displacement: Vec<f64>,
     pub(crate) modes: Vec<Mode>,
-    /// Load that the structure brings at t = 0.
+    /// Load that the structure defines at t = 0, N.
     pub(crate) load: Vec<f64>,
-    /// State variables of each element's law where it acted; empty where the law starts anew.
+    /// State variables of each element's law; empty where the law starts with its initial ones.
     pub(crate) state_variables: Vec<Vec<f64>>,
-    /// f(u) of a nonlinear structure, and its energies if it returns them.
+    /// Nonlinear force f(u), N; empty for a linear structure.
     pub(crate) force: Vec<f64>,
+    /// Energies of the nonlinear force, if the structure returns them.
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient used instead of a larger one where an element slides; `None` if there was none.
+    /// Friction coefficient that replaced a larger one on a sliding element; `None` if none was replaced.
     pub(crate) substituted_friction: Option<f64>,
 }
 
 impl StaticState {
-    /// State without weight: all elements touch, without pressure.
+    /// State without weight: all elements are closed, without pressure.
     pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
         let elements = layout.elements();
         Self {
@@ -43,7 +46,7 @@ impl StaticState {
         }
     }
 
-    /// Modes with which a base continues under `laws`: closed elements stick, whatever placed them.
+    /// Modes at the start of the next stage or run: closed elements stick.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
@@ -59,8 +62,8 @@ impl StaticState {
         modes.collect()
     }
 
-    /// Sets gaps from the states of the contact solver, exactly where a law prescribes them.
-    pub(crate) fn close_gaps(
+    /// Sets the gaps: exactly as a law prescribes them, otherwise as the contact solver computed them.
+    pub(crate) fn set_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
         start: &PreviousContacts,
@@ -69,17 +72,17 @@ impl StaticState {
         let form = LawForm::of(self.layout);
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let law = law_of(laws, e);
-            let start = start.element(e);
+            let previous = start.element(e);
             let mode = self.modes[e];
             let pressure = self.traction[e];
             let prescribed = match form {
                 LawForm::Modes => {
-                    let conditions = law.conditions(mode, &start);
+                    let conditions = law.conditions(mode, &previous);
                     conditions.iter().find_map(|condition| condition.gap_at(pressure))
                 }
                 LawForm::Limits if mode.is_closed() && !mode.is_yield() => {
-                    let compliance = law.compliance(Mode::Stick, &start)[0];
-                    Some(law.limits(&start)?.gap_offset - compliance * pressure)
+                    let compliance = law.compliance(Mode::Stick, &previous)[0];
+                    Some(law.limits(&previous)?.gap_offset - compliance * pressure)
                 }
                 LawForm::Limits => None,
             };

@@ -1,35 +1,39 @@
-//! Strength of an interface law under static loads, by its modes or by its limits.
+//! Strength of an interface law under static loads, from its modes or its limits.
 
 use crate::interface::{
     ContactState, InterfaceLaw, LawForm, Limits, Mode, PreviousContact, Tolerance,
 };
 
-/// Traction that counts as zero, relative to the pressure.
-const ZERO_TRACTION_FRACTION: f64 = 1e-6;
-/// Ratio of shear traction to pressure that counts as infinite.
+/// Small trial traction for tension and cohesion, relative to the pressure.
+const TRIAL_TRACTION_FRACTION: f64 = 1e-6;
+/// Ratio of shear traction to pressure that counts as an infinite friction coefficient.
 const INFINITE_FRICTION_RATIO: f64 = 1e6;
-/// Pressure at which cohesion is negligible, Pa.
+/// Number of bisections of a friction coefficient: enough for all digits of double precision.
+const FRICTION_BISECTION_COUNT: usize = 100;
+/// Time step of the trial contact, s; static strengths do not depend on it.
+const TRIAL_TIME_STEP: f64 = 1.0;
+/// Pressure at which cohesion is negligible, Pa: far above the strength of soils.
 const NEGLIGIBLE_COHESION_PRESSURE: f64 = 1e9;
 /// Settlement that no foundation reaches, at which hardening soil has its whole strength, m.
 const UNLIMITED_SETTLEMENT: f64 = 1e12;
 
-/// Strength of a law on an element that has not moved so far.
-pub(crate) struct Strength {
+/// Strength of a law on an element that has not moved.
+pub(crate) struct InterfaceStrength {
     /// Whether the element can open.
-    pub(crate) opens: bool,
-    /// Whether a bond bears tension.
-    pub(crate) pulls: bool,
-    /// Whether a bond bears shear without pressure.
-    pub(crate) coheres: bool,
-    /// Friction coefficient, or the ratio of shear traction to pressure at which the element slides.
+    pub(crate) can_open: bool,
+    /// Whether a bond resists tension.
+    pub(crate) resists_tension: bool,
+    /// Whether a bond resists shear without pressure.
+    pub(crate) has_cohesion: bool,
+    /// Friction coefficient, or ratio of shear traction to pressure at which the element slides.
     ///
-    /// Infinite if it does not slide.
+    /// It is infinite for an element that does not slide.
     pub(crate) friction: f64,
     /// Largest pressure, Pa; infinite for a law without a limit.
     pub(crate) bearing_pressure: f64,
 }
 
-impl Strength {
+impl InterfaceStrength {
     /// Strength of an element under this mean pressure (Pa).
     ///
     /// `frictionless` omits friction and cohesion from limits.
@@ -40,34 +44,40 @@ impl Strength {
         frictionless: bool,
     ) -> Self {
         match form {
-            LawForm::Modes => Self::by_modes(law, pressure),
-            LawForm::Limits => Self::by_limits(law, pressure, frictionless),
+            LawForm::Modes => Self::from_modes(law, pressure),
+            LawForm::Limits => Self::from_limits(law, pressure, frictionless),
         }
     }
 
-    fn by_modes(law: &dyn InterfaceLaw, pressure: f64) -> Self {
-        let traction = ZERO_TRACTION_FRACTION * pressure.abs().max(1.0);
+    fn from_modes(law: &dyn InterfaceLaw, pressure: f64) -> Self {
+        let trial_traction = TRIAL_TRACTION_FRACTION * pressure.abs().max(1.0);
         Self {
-            opens: law.modes().contains(&Mode::Open),
-            pulls: sticks_at(law, ContactState { pressure: -traction, ..ContactState::default() }),
-            coheres: sticks_at(law, ContactState { shear: traction, ..ContactState::default() }),
-            friction: friction(law, pressure),
+            can_open: law.modes().contains(&Mode::Open),
+            resists_tension: sticks_at(
+                law,
+                ContactState { pressure: -trial_traction, ..ContactState::default() },
+            ),
+            has_cohesion: sticks_at(
+                law,
+                ContactState { shear: trial_traction, ..ContactState::default() },
+            ),
+            friction: sliding_ratio(law, pressure),
             bearing_pressure: bearing_pressure(law),
         }
     }
 
-    fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
+    fn from_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
         let limits = limits_at_rest(law, pressure.max(0.0));
         let limits = if frictionless { limits.frictionless() } else { limits };
         let friction_coefficient = law.friction_coefficient().filter(|_| !frictionless);
         let attraction_friction = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
         let cohesion = limits.shear_strength + attraction_friction * limits.attraction;
-        let ratio = limits.friction + cohesion / pressure.max(f64::MIN_POSITIVE);
-        let friction = friction_coefficient.unwrap_or(ratio);
+        let sliding_ratio = limits.friction + cohesion / pressure.max(f64::MIN_POSITIVE);
+        let friction = friction_coefficient.unwrap_or(sliding_ratio);
         Self {
-            opens: !limits.bonded,
-            pulls: !limits.bonded && limits.tension > 0.0,
-            coheres: !limits.bonded && cohesion > 0.0,
+            can_open: !limits.bonded,
+            resists_tension: !limits.bonded && limits.tension > 0.0,
+            has_cohesion: !limits.bonded && cohesion > 0.0,
             friction: if limits.bonded { f64::INFINITY } else { friction },
             bearing_pressure: if limits.hardening > 0.0 {
                 hardened_pressure(law)
@@ -80,10 +90,11 @@ impl Strength {
 
 /// Friction coefficient of a law on an element at rest, without cohesion.
 ///
-/// As the law states it; else by its limits, or by the tractions at which the element slides.
+/// It is the coefficient that the law states. Otherwise it follows from the law's limits, or from the tractions at which
+/// the element slides.
 pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     match form {
-        LawForm::Modes => friction(law, NEGLIGIBLE_COHESION_PRESSURE),
+        LawForm::Modes => sliding_ratio(law, NEGLIGIBLE_COHESION_PRESSURE),
         LawForm::Limits => law.friction_coefficient().unwrap_or_else(|| {
             let limits = limits_at_rest(law, NEGLIGIBLE_COHESION_PRESSURE);
             if limits.bonded { 0.0 } else { limits.friction }
@@ -91,62 +102,63 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     }
 }
 
-/// Smallest strength of a bond of a law on an element at rest under this mean pressure (Pa); `None` without bonds.
+/// Smaller one of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
 ///
-/// Of tensile and shear strength, Pa. Laws that state no limits have none.
+/// `pressure` is the mean pressure, Pa. A law without limits has no bond strength.
 pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64> {
     let limits = limits_at_rest(law, pressure.max(0.0));
     let strengths = [limits.tension, limits.shear_strength];
     strengths.into_iter().filter(|strength| *strength > 0.0).reduce(f64::min)
 }
 
-/// Elastic opening and slip per traction of a law on an element that has not moved so far, m/Pa.
+/// Normal and shear compliance of a law on an element that has not moved, m/Pa.
 pub(crate) fn compliance_at_rest(law: &dyn InterfaceLaw) -> [f64; 2] {
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, TRIAL_TIME_STEP);
     let state_variables = start.first_state_variables(law);
     let compliance = law.compliance(Mode::Stick, &start.with_state_variables(&state_variables));
     compliance.map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 })
 }
 
-/// Limits of a law on an element that has not moved so far.
+/// Limits of a law on an element that has not moved.
 ///
-/// Default limits for a law without any, which the build has reported before.
+/// A law without limits has the default ones. The build has reported such a law before, where it is an error.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
-    let pressed = ContactState { pressure, ..ContactState::default() };
-    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+    let under_pressure = ContactState { pressure, ..ContactState::default() };
+    let start = PreviousContact::new(under_pressure, Mode::Stick, TRIAL_TIME_STEP);
     let state_variables = start.first_state_variables(law);
     law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default()
 }
 
-/// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides.
+/// Friction coefficient of a law, or ratio of shear traction to pressure at which an element slides.
 ///
-/// Infinite if it does not slide.
-fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
+/// It is infinite for an element that does not slide. `pressure` is in Pa.
+fn sliding_ratio(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
     if let Some(coefficient) = law.friction_coefficient() {
         return coefficient;
     }
-    let sticks = |ratio: f64| {
+    let sticks_at_ratio = |ratio: f64| {
         sticks_at(
             law,
             ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
         )
     };
-    if law.modes().len() == 1 || sticks(INFINITE_FRICTION_RATIO) {
+    if law.modes().len() == 1 || sticks_at_ratio(INFINITE_FRICTION_RATIO) {
         return f64::INFINITY;
     }
     let mut low = 0.0;
     let mut high = INFINITE_FRICTION_RATIO;
-    for _ in 0..100 {
+    for _ in 0..FRICTION_BISECTION_COUNT {
         let middle = 0.5 * (low + high);
-        if sticks(middle) { low = middle } else { high = middle }
+        if sticks_at_ratio(middle) { low = middle } else { high = middle }
     }
     high
 }
 
-/// Whether a law holds an element that has not moved so far at these tractions, without sliding or opening.
+/// Whether an element that has not moved sticks under the tractions of `trial`.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
-    let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
-    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+    let under_pressure =
+        ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
+    let start = PreviousContact::new(under_pressure, Mode::Stick, TRIAL_TIME_STEP);
     let state_variables = start.first_state_variables(law);
     let start = start.with_state_variables(&state_variables);
     let tolerance = Tolerance::new(0.0, 0.0);
@@ -154,11 +166,11 @@ fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
 }
 
-/// The largest pressure of a law; infinite if it has no mode of yielding.
+/// Bearing pressure of a law, Pa; infinite if it has no mode of yielding.
 fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
-    let yielding = law.modes().iter().filter(|mode| mode.is_yield());
-    let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, TRIAL_TIME_STEP);
+    let yield_modes = law.modes().iter().filter(|mode| mode.is_yield());
+    let conditions = yield_modes.flat_map(|&mode| law.conditions(mode, &start));
     let mut max_pressure = None::<f64>;
     for condition in conditions {
         let pressure = if condition.gap == 0.0 {
@@ -173,7 +185,7 @@ fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
 
 /// Pressure of a law after a settlement without limit, Pa; infinite for a law without limits.
 fn hardened_pressure(law: &dyn InterfaceLaw) -> f64 {
-    let mut start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    let mut start = PreviousContact::new(ContactState::default(), Mode::Stick, TRIAL_TIME_STEP);
     start.trial_settlement = UNLIMITED_SETTLEMENT;
     let state_variables = start.first_state_variables(law);
     law.limits(&start.with_state_variables(&state_variables))

@@ -1,52 +1,54 @@
-//! Advance of the state to the end of an accepted step.
+//! The state at rest, its advance to the end of a step, and its resultants.
 
 use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::{Foundation, FoundationChecks, Sums};
-use crate::coupled::state::{Context, Origin, State, Transition};
+use crate::coupled::state::{ResultContext, SimulationId, State, Transition};
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
 use crate::error::Result;
 use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 
 impl State {
-    /// The static state.
+    /// The state before the first step: the static state.
     pub(crate) fn at_rest(scene: &Scene) -> Result<Self> {
         let model = &scene.model;
-        let count = scene.count();
-        let at = &scene.static_state;
-        let contact: Vec<_> = (0..count)
+        let element_count = scene.element_count();
+        let static_state = &scene.static_state;
+        let contact: Vec<_> = (0..element_count)
             .map(|e| {
                 ContactState::from_components(
-                    |component| if component == 0 { at.gap[e] } else { -0.0 },
-                    |component| at.traction[scene.layout().place(component, e)],
+                    |component| if component == 0 { static_state.gap[e] } else { -0.0 },
+                    |component| static_state.traction[scene.layout().place(component, e)],
                     scene.layout().is_plan(),
                 )
             })
             .collect();
-        let modes = at.modes_with(&scene.laws);
-        let start: Vec<_> = (0..count)
+        let modes = static_state.modes_with(&scene.laws);
+        let previous_contacts: Vec<_> = (0..element_count)
             .map(|e| {
-                let start = PreviousContact::new(contact[e], modes[e], scene.time_step);
-                start.with_state_variables(at.state_variables.get(e).map_or(&[], Vec::as_slice))
+                let previous = PreviousContact::new(contact[e], modes[e], scene.time_step);
+                let variables = static_state.state_variables.get(e);
+                previous.with_state_variables(variables.map_or(&[], Vec::as_slice))
             })
             .collect();
-        let start = PreviousContacts::new(&scene.laws, &start)?;
-        let foundations = scene.base.foundations();
-        let foundations =
-            foundations.map(|(_, elements)| Foundation { elements, ..Foundation::default() });
+        let start = PreviousContacts::new(&scene.laws, &previous_contacts)?;
+        let mut foundations = Vec::new();
+        for (_, elements) in scene.base.foundations() {
+            foundations.push(Foundation { elements, ..Foundation::default() });
+        }
         let mut state = Self {
             step: 0,
             time: 0.0,
             checks: vec![FoundationChecks::default(); scene.context.footings.len()],
-            origin: Origin::new(),
+            simulation: SimulationId::new(),
             context: scene.context.clone(),
             kinematics: Kinematics::new(model),
             contact,
             modes,
-            transitions: Vec::with_capacity(count),
+            transitions: Vec::with_capacity(element_count),
             probes: vec![0.0; scene.context.probes.len()],
             base_shear: 0.0,
             base_moment: 0.0,
@@ -54,7 +56,7 @@ impl State {
             uplifted_fraction: 0.0,
             mean_slip: 0.0,
             base_rotation: 0.0,
-            foundations: foundations.collect(),
+            foundations,
             free_field: [0.0; 2],
             free_field_across: 0.0,
             energy_balance: EnergyBalance::default(),
@@ -68,17 +70,17 @@ impl State {
 
     /// Advances to the end of the step that `increment` solved.
     ///
-    /// Buffers of displacements, velocities and accelerations are swapped with the buffers of `increment`.
+    /// The buffers of displacement, velocity and acceleration are swapped with the buffers of `increment`.
     pub(crate) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
         self.step += 1;
         self.time = self.step as f64 * scene.time_step;
         let kinematics = &mut self.kinematics;
-        std::mem::swap(&mut kinematics.displacement, &mut increment.end);
-        std::mem::swap(&mut kinematics.velocity, &mut increment.velocity);
-        std::mem::swap(&mut kinematics.acceleration, &mut increment.acceleration);
+        std::mem::swap(&mut kinematics.displacement, &mut increment.end_displacement);
+        std::mem::swap(&mut kinematics.velocity, &mut increment.end_velocity);
+        std::mem::swap(&mut kinematics.acceleration, &mut increment.end_acceleration);
         kinematics.translations.copy_from_slice(&forcing.translations);
-        kinematics.changed();
-        let free_field = scene.base.mean(&forcing.free_field);
+        kinematics.clear_dof_cache();
+        let free_field = scene.base.mean_displacement(&forcing.free_field);
         self.free_field = [free_field[0], free_field[1]];
         self.free_field_across = free_field[2];
         self.contact.copy_from_slice(&increment.contact);
@@ -100,36 +102,35 @@ impl State {
         }
     }
 
-    /// Computes resultants and probes from the present state.
+    /// Computes the resultants, rotations and probes of the present state.
     pub(crate) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
         let Kinematics { displacement, velocity, acceleration, .. } = &state.kinematics;
-        let mut total = [0.0; 3];
+        // Base shear, normal force and base moment.
+        let mut resultants = [0.0; 3];
         let mut sums = Sums::default();
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
-            let Context { elements, friction, footings, .. } = &*state.context;
+            let ResultContext { elements, friction, footings, .. } = &*state.context;
             let footing = &footings[k];
             let (foundation_sums, checks) =
                 foundation.update(footing, elements, friction, &state.contact, &state.modes);
             sums.area += foundation_sums.area;
             sums.open += foundation_sums.open;
             sums.slip += foundation_sums.slip;
-            let lever = foundation.normal_force * footing.center[0];
-            let moment = foundation.base_moment + footing.rotation_sign * lever;
+            let eccentric_moment = foundation.normal_force * footing.center[0];
+            let moment = foundation.base_moment + footing.rotation_sign * eccentric_moment;
             let forces = [foundation.base_shear, foundation.normal_force, moment];
-            for (sum, force) in total.iter_mut().zip(forces) {
+            for (sum, force) in resultants.iter_mut().zip(forces) {
                 *sum += force;
             }
-            let components = [
+            let fields = [
                 &mut foundation.base_rotation,
                 &mut foundation.rotation_across,
                 &mut foundation.twist,
             ];
-            for (component, rotation) in
-                components.into_iter().zip(scene.base.rotations(k, displacement))
-            {
-                *component = rotation;
+            for (field, rotation) in fields.into_iter().zip(scene.base.rotations(k, displacement)) {
+                *field = rotation;
             }
             foundation.settlement = scene.base.settlement(k, displacement);
             state.checks[k] = checks;
@@ -137,18 +138,22 @@ impl State {
                 state.base_rotation = foundation.base_rotation;
             }
         }
-        [state.base_shear, state.normal_force, state.base_moment] = total;
+        [state.base_shear, state.normal_force, state.base_moment] = resultants;
         state.uplifted_fraction = sums.open / sums.area;
         state.mean_slip = sums.slip / sums.area;
         let translations = &state.kinematics.translations;
-        for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
-            let [u, v, a] = &probe.rows;
-            let carried = probe.carried.iter().zip(translations).map(|(r, translation)| {
+        for (value, probe) in state.probes.iter_mut().zip(&scene.stepped_probes) {
+            let [u, v, a] = &probe.weights;
+            let pairs = probe.rigid_displacements.iter().zip(translations);
+            let terms = pairs.map(|(r, translation)| {
                 let y = translation.displacement;
                 r[0] * y[0] + r[1] * y[1] + r[2] * y[2]
             });
-            let carried: f64 = carried.sum();
-            *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
+            let rigid_displacement: f64 = terms.sum();
+            *value = u.value(displacement)
+                + v.value(velocity)
+                + a.value(acceleration)
+                + rigid_displacement;
         }
     }
 }

@@ -1,10 +1,10 @@
-//! Adds an accepted step to the energy balance, each term from its own definition.
+//! Accumulation of the energy balance: adds each accepted step, each term from its own definition.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | Δu, v, a | increment, velocity and acceleration of the structure, all total |
 //! | τ | change of contact traction against the static state |
-//! | s, `s_ff` | soil displacement by tractions; free field |
+//! | s, `s_ff` | soil displacement due to tractions; free field |
 //! | τ_ff | tractions of the free field on faces below the surface |
 //! | y, R | translation of the free field under a part; influence vectors |
 
@@ -20,32 +20,38 @@ use crate::coupled::step::increment::Increment;
 use crate::error::LawError;
 use crate::linalg::matrix::spread;
 use crate::linalg::{LatticeScratch, dot};
-use crate::structure::Structure;
+use crate::structure::{InternalEnergy, Structure};
 
-/// The energy balance so far, and data of the last step that the next one needs.
+/// The energy balance so far, and the data of the last step that the next step needs.
 #[derive(Clone)]
 pub(crate) struct EnergyAccumulator {
     pub(crate) energy_balance: EnergyBalance,
-    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q or 3Q each.
+    /// Free field at the end of the last step, m, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
+    /// Soil displacement due to tractions at the end of the last step, m, 2Q or 3Q.
     pub(crate) soil_displacement: Vec<f64>,
+    /// Jump at the end of the last step, m, 2Q or 3Q.
     pub(crate) jump: Vec<f64>,
-    /// Compliance of each element at the end of the last step; empty if all laws are hard.
+    /// Normal and shear compliance of each element at the end of the last step, m/Pa.
+    ///
+    /// Empty without compliant laws.
     pub(crate) compliance: Vec<[f64; 2]>,
-    /// Work of the nonlinear internal force so far; its stored energy, if that is known.
-    pub(crate) nonlinear_work: f64,
-    /// Per part: Rᵀ M Δu of the last step, and its Δy.
+    /// Stored energy of the nonlinear force; its work so far if the stored energy is unknown.
+    pub(crate) nonlinear_energy: f64,
+    /// Rᵀ M Δu of the last step, for each part.
     pub(crate) momentum: Vec<[f64; 3]>,
-    pub(crate) translation: Vec<[f64; 3]>,
-    /// Per part: M R, and its mass Rᵀ M R.
+    /// Δy of the last step, for each part.
+    pub(crate) translation_increment: Vec<[f64; 3]>,
+    /// M R, for each part.
     inertia: Vec<[Terms; 3]>,
+    /// Mass Rᵀ M R of each part, in each direction.
     mass: Vec<[f64; 3]>,
-    scratch: Scratch,
+    scratch: EnergyScratch,
 }
 
-/// Scratch of a step; its contents do not outlive the step.
+/// Buffers of a step; the next step overwrites them.
 #[derive(Clone)]
-struct Scratch {
+struct EnergyScratch {
     vector: Vec<f64>,
     product: Vec<f64>,
     means: Vec<f64>,
@@ -53,26 +59,26 @@ struct Scratch {
 }
 
 impl EnergyAccumulator {
-    /// Accumulator at the beginning of a run; the energy of an initial motion counts as input.
+    /// Accumulator at the start of a run; the energy of an initial motion counts as input.
     ///
-    /// `compliant`: whether any law stores energy in its elements.
+    /// `is_compliant` states whether any law stores elastic energy.
     pub(crate) fn new(
         scene: &Scene,
         structure: &dyn Structure,
         state: &State,
-        compliant: bool,
+        is_compliant: bool,
     ) -> Result<Self, LawError> {
-        let n = scene.model.coordinates;
-        let size = scene.layout().len();
+        let coordinates = scene.model.coordinates;
+        let component_count = scene.layout().len();
         let mut jump = scene.static_state.gap.clone();
-        jump.resize(size, 0.0);
-        let mut means = vec![0.0; size];
+        jump.resize(component_count, 0.0);
+        let mut means = vec![0.0; component_count];
         scene.base.means(&state.kinematics.displacement, &mut means);
         for (jump, displacement) in jump.iter_mut().zip(&means) {
             *jump -= displacement;
         }
         let mut compliance = Vec::new();
-        if compliant {
+        if is_compliant {
             for (e, &mode) in state.modes.iter().enumerate() {
                 compliance.push(scene.compliance(e, mode, &state.start)?);
             }
@@ -82,10 +88,10 @@ impl EnergyAccumulator {
         let mut mass = Vec::new();
         for part in parts {
             let products = part.vectors.each_ref().map(|vector| {
-                let vector = spread(vector, n);
-                let mut product = vec![0.0; n];
-                scene.model.mass.multiply_add(1.0, &vector, &mut product);
-                (dot(&vector, &product), product)
+                let translation = spread(vector, coordinates);
+                let mut product = vec![0.0; coordinates];
+                scene.model.mass.multiply_add(1.0, &translation, &mut product);
+                (dot(&translation, &product), product)
             });
             mass.push(products.each_ref().map(|(mass, _)| *mass));
             inertia.push(products.map(|(_, product)| {
@@ -94,76 +100,82 @@ impl EnergyAccumulator {
         }
         let mut accumulator = Self {
             energy_balance: EnergyBalance::default(),
-            free_field: vec![0.0; size],
-            soil_displacement: vec![0.0; size],
+            free_field: vec![0.0; component_count],
+            soil_displacement: vec![0.0; component_count],
             jump,
             compliance,
-            nonlinear_work: 0.0,
+            nonlinear_energy: 0.0,
             momentum: vec![[0.0; 3]; parts.len()],
-            translation: vec![[0.0; 3]; parts.len()],
+            translation_increment: vec![[0.0; 3]; parts.len()],
             inertia,
             mass,
-            scratch: Scratch {
-                vector: vec![0.0; n],
-                product: vec![0.0; n],
+            scratch: EnergyScratch {
+                vector: vec![0.0; coordinates],
+                product: vec![0.0; coordinates],
                 means,
-                lattice: scene.soil.scratch(),
+                lattice: scene.step_compliance.scratch(),
             },
         };
-        accumulator.begin(scene, structure, state);
+        accumulator.add_initial_energy(scene, structure, state);
         Ok(accumulator)
     }
 
     /// Adds kinetic and strain energy of the motion at t = 0.
-    fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
+    fn add_initial_energy(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
         let Kinematics { displacement, velocity, .. } = &state.kinematics;
-        let at_rest = self.static_energy(scene);
+        let static_energy = self.static_energy(scene);
         let model = &scene.model;
         let energy_balance = &mut self.energy_balance;
         energy_balance.kinetic = 0.5 * model.mass.form(velocity, velocity);
-        if !model.linear {
+        if !model.is_linear {
             let force_displacement = scene.force_displacement_of(&state.kinematics);
-            if let Some((stored, dissipated)) = energies(scene, structure, &force_displacement) {
-                self.nonlinear_work = stored;
+            if let Some(InternalEnergy { stored, dissipated }) =
+                nonlinear_energies(scene, structure, &force_displacement)
+            {
+                self.nonlinear_energy = stored;
                 energy_balance.hysteresis = dissipated;
             }
         }
-        let Scratch { vector, means, .. } = &mut self.scratch;
+        let EnergyScratch { vector, means, .. } = &mut self.scratch;
         vector.copy_from_slice(displacement);
-        scene.subtract_base(vector, means);
-        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+        scene.subtract_base_translation(vector, means);
+        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_energy;
         energy_balance.input =
             energy_balance.kinetic + energy_balance.strain + energy_balance.hysteresis;
-        energy_balance.largest = energy_balance.scale().max(at_rest);
+        energy_balance.largest = energy_balance.scale().max(static_energy);
     }
 
-    /// Energy at rest of compliant interfaces, and of a nonlinear force with known energy.
+    /// Energy of the static state in compliant interfaces, and in a nonlinear force that returns its energy.
     ///
-    /// The balance counts these energies relative to the static state. Changes are rounded in proportion to it.
+    /// The balance counts these energies relative to the static state. The rounding of their changes is proportional to this
+    /// energy.
     fn static_energy(&self, scene: &Scene) -> f64 {
-        let at_rest = &scene.static_state;
+        let static_state = &scene.static_state;
         let layout = scene.layout();
-        let interfaces = at_rest.traction.iter().enumerate().map(|(i, traction)| {
+        let interface_energies = static_state.traction.iter().enumerate().map(|(i, traction)| {
             let [component, e] = layout.origin(i);
             let compliance = self.compliance.get(e).map_or(0.0, |c| c[component.min(1)]);
             0.5 * scene.base.area(i) * compliance * traction * traction
         });
-        interfaces.sum::<f64>() + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
+        interface_energies.sum::<f64>()
+            + static_state.energy.map_or(0.0, |energy| energy.stored.abs())
     }
 
-    /// All numbers that a step passes to the next, for `directions` directions, always in this order.
-    pub(crate) fn numbers(&mut self, directions: usize) -> Vec<&mut f64> {
-        let mut all = vec![&mut self.nonlinear_work];
-        all.extend(self.energy_balance.terms_mut());
+    /// All numbers that a step passes to the next, in a fixed order.
+    ///
+    /// `components`: number of displacement components, 2 in the plane, 3 in plan.
+    pub(crate) fn numbers(&mut self, components: usize) -> Vec<&mut f64> {
+        let mut numbers = vec![&mut self.nonlinear_energy];
+        numbers.extend(self.energy_balance.terms_mut());
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
-        all.extend(contact.into_iter().flatten());
-        all.extend(self.compliance.iter_mut().flatten());
-        let parts = [&mut self.momentum, &mut self.translation].into_iter().flatten();
-        all.extend(parts.flat_map(|values| values.iter_mut().take(directions)));
-        all
+        numbers.extend(contact.into_iter().flatten());
+        numbers.extend(self.compliance.iter_mut().flatten());
+        let parts = [&mut self.momentum, &mut self.translation_increment].into_iter().flatten();
+        numbers.extend(parts.flat_map(|values| values.iter_mut().take(components)));
+        numbers
     }
 
-    /// Adds the step that leads from its state to its end.
+    /// Adds the energies of a step to the balance.
     pub(crate) fn accumulate(
         &mut self,
         data: StepData<'_>,
@@ -171,11 +183,11 @@ impl EnergyAccumulator {
         increment: &Increment,
     ) {
         let StepData { scene, forcing, .. } = data;
-        if forcing.loaded {
-            self.energy_balance.input += dot(&forcing.load, &increment.total);
+        if forcing.has_load {
+            self.energy_balance.input += dot(&forcing.load, &increment.total_displacement);
             self.energy_balance.relative_input += dot(&forcing.load, &increment.displacement);
         }
-        if !scene.model.linear {
+        if !scene.model.is_linear {
             self.add_nonlinear_force(data, increment);
         }
         self.add_structure(data, increment);
@@ -184,30 +196,33 @@ impl EnergyAccumulator {
         self.update_largest(scene.time_step);
     }
 
-    /// Updates the largest energy, including the energy of a structure that moves with the ground.
+    /// Updates the largest energy.
     ///
-    /// The latter counts for a structure that the ground leaves behind, whose own energy is only rounding.
+    /// It includes the kinetic energy of the structure moving with the ground, since a structure at rest on a moving ground
+    /// has only rounding in its other energies.
     fn update_largest(&mut self, time_step: f64) {
-        let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
-            let energy = [0, 1, 2].map(|k| 0.5 * mass[k] * (increment[k] / time_step).powi(2));
-            energy[0] + energy[1] + energy[2]
-        });
-        self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
+        let kinetic_energies =
+            self.mass.iter().zip(&self.translation_increment).map(|(mass, increment)| {
+                let terms = [0, 1, 2].map(|k| 0.5 * mass[k] * (increment[k] / time_step).powi(2));
+                terms[0] + terms[1] + terms[2]
+            });
+        self.energy_balance.largest = self.energy_balance.scale().max(kinetic_energies.sum());
     }
 
-    /// Adds the energies of the nonlinear force: stored and dissipated, or its work if they are unknown.
+    /// Adds stored and dissipated energy of the nonlinear force, or its work if they are unknown.
     fn add_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
-        let work = dot(&increment.force, &increment.total);
-        let Some((stored, dissipated)) = energies(scene, structure, &increment.force_displacement)
+        let work = dot(&increment.nonlinear_force, &increment.total_displacement);
+        let Some(InternalEnergy { stored, dissipated }) =
+            nonlinear_energies(scene, structure, &increment.force_displacement)
         else {
-            self.nonlinear_work += work;
+            self.nonlinear_energy += work;
             return;
         };
         let energy_balance = &mut self.energy_balance;
         energy_balance.algorithmic +=
-            work - (stored - self.nonlinear_work) - (dissipated - energy_balance.hysteresis);
-        self.nonlinear_work = stored;
+            work - (stored - self.nonlinear_energy) - (dissipated - energy_balance.hysteresis);
+        self.nonlinear_energy = stored;
         energy_balance.hysteresis = dissipated;
     }
 
@@ -218,138 +233,148 @@ impl EnergyAccumulator {
         let model = &scene.model;
         let dt = scene.time_step;
         let Kinematics { velocity: v0, acceleration: a0, .. } = &state.kinematics;
-        let v1 = &increment.velocity;
+        let v1 = &increment.end_velocity;
         let energy_balance = &mut self.energy_balance;
-        let Scratch { vector, product, means, .. } = &mut self.scratch;
-        let du = &increment.total;
+        let EnergyScratch { vector, product, means, .. } = &mut self.scratch;
+        let du = &increment.total_displacement;
         energy_balance.kinetic = 0.5 * model.mass.form(v1, v1);
-        if model.damped {
+        if model.is_damped {
             SchemeCoefficients::combine(c.velocity, du, v0, a0, vector);
-            vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
+            vector.iter_mut().zip(&forcing.translation_velocity).for_each(|(v, y)| *v -= y);
             product.fill(0.0);
             model.damping.multiply_add(1.0, vector, product);
             let parts = model.influence.parts().iter().zip(&forcing.translations);
-            let dragged: f64 = parts
+            let translation_work: f64 = parts
                 .map(|(part, y)| {
                     let [right, up, away] = part.resultants(product);
                     y.increment[0] * right + y.increment[1] * up + y.increment[2] * away
                 })
                 .sum();
-            energy_balance.damping += dot(product, du) - dragged;
-            energy_balance.input -= dragged;
+            energy_balance.damping += dot(product, du) - translation_work;
+            energy_balance.input -= translation_work;
         }
         if !scene.conserves_energy {
-            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
-            let change = &mut *vector;
-            let rest = product;
+            // Residuals against the midpoint rule: Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u.
+            let acceleration = &mut *vector;
+            let residual = product;
             for i in 0..du.len() {
-                change[i] = (v1[i] - v0[i]) / dt;
-                rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
+                acceleration[i] = (v1[i] - v0[i]) / dt;
+                residual[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
             }
-            energy_balance.algorithmic += model.mass.form(rest, change);
+            energy_balance.algorithmic += model.mass.form(residual, acceleration);
             for i in 0..du.len() {
-                rest[i] =
-                    SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i];
+                residual[i] = SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i])
+                    - acceleration[i];
             }
-            energy_balance.algorithmic += model.mass.form(du, rest);
+            energy_balance.algorithmic += model.mass.form(du, residual);
             let du = &increment.displacement;
             for i in 0..du.len() {
-                let there = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
-                rest[i] = there - 0.5 * du[i];
+                let scheme_change = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
+                residual[i] = scheme_change - 0.5 * du[i];
             }
-            energy_balance.algorithmic += model.stiffness.form(du, rest);
+            energy_balance.algorithmic += model.stiffness.form(du, residual);
         }
-        vector.copy_from_slice(&increment.end);
-        scene.subtract_base(vector, means);
-        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+        vector.copy_from_slice(&increment.end_displacement);
+        scene.subtract_base_translation(vector, means);
+        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_energy;
     }
 
     /// Adds the work of −M R ÿ between the middles of the last two steps, and of the loads.
     ///
     /// ÿ = (Δy₁ − Δy₀)/Δt² at the time between the two steps.
     fn add_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
-        let square = scene.time_step * scene.time_step;
+        let squared_step = scene.time_step * scene.time_step;
         for (k, inertia) in self.inertia.iter().enumerate() {
-            let next = forcing.translations[k].increment;
+            let translation_increment = forcing.translations[k].increment;
             for direction in 0..scene.layout().components() {
                 let terms = inertia[direction].iter();
                 let momentum: f64 = terms.map(|&(i, m)| m * increment.displacement[i]).sum();
-                let acceleration = (next[direction] - self.translation[k][direction]) / square;
-                let mean = 0.5 * (momentum + self.momentum[k][direction]);
-                self.energy_balance.relative_input -= acceleration * mean;
+                let acceleration = (translation_increment[direction]
+                    - self.translation_increment[k][direction])
+                    / squared_step;
+                let mean_momentum = 0.5 * (momentum + self.momentum[k][direction]);
+                self.energy_balance.relative_input -= acceleration * mean_momentum;
                 self.momentum[k][direction] = momentum;
             }
-            self.translation[k] = next;
+            self.translation_increment[k] = translation_increment;
         }
     }
 
     /// Adds energies of soil, contact, compliant interfaces and static contact.
     ///
-    /// The jump is taken from the contact problem: if the structure moved otherwise, its energies would not
-    /// balance the work of the tractions.
+    /// The jump comes from the contact problem. If the structure moved differently, its energies would not balance the work
+    /// of the tractions.
     fn add_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
-        let Scratch { means: soil, lattice, .. } = &mut self.scratch;
+        let EnergyScratch { means: soil_displacement, lattice, .. } = &mut self.scratch;
         let energy_balance = &mut self.energy_balance;
-        soil.copy_from_slice(&forcing.history);
-        scene.soil.multiply_add_with(lattice, &increment.traction, soil);
+        soil_displacement.copy_from_slice(&forcing.history);
+        scene
+            .step_compliance
+            .multiply_add_with(lattice, &increment.traction, soil_displacement);
         let layout = scene.layout();
         let error_bound = ground.increment_error_bound();
         for i in 0..layout.len() {
             let [k, e] = layout.origin(i);
             let area = scene.base.area(i);
             let change = increment.traction[i];
-            let at_rest = scene.static_state.traction[i];
+            let static_traction = scene.static_state.traction[i];
             let end = &increment.contact[e];
             let jump = end.jump()[k];
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
-            let free = forcing.free_traction.get(i).copied().unwrap_or(0.0);
-            let moved = soil[i] - self.soil_displacement[i];
-            energy_balance.soil += area * (change - free) * moved;
-            energy_balance.soil_error_bound += area * (change - free).abs() * error_bound;
-            let mut elastic = 0.0;
+            let free_traction = forcing.free_traction.get(i).copied().unwrap_or(0.0);
+            let soil_increment = soil_displacement[i] - self.soil_displacement[i];
+            energy_balance.soil += area * (change - free_traction) * soil_increment;
+            energy_balance.soil_error_bound += area * (change - free_traction).abs() * error_bound;
+            // Elastic increment of the jump.
+            let mut elastic_opening = 0.0;
             if !self.compliance.is_empty() {
                 let c0 = self.compliance[e][k.min(1)];
                 let c1 = increment.compliance[e][k.min(1)];
                 let t0 = state.start.state(e).traction()[k];
-                let t1 = at_rest + change;
-                elastic = c0 * t0 - c1 * t1;
+                let t1 = static_traction + change;
+                elastic_opening = c0 * t0 - c1 * t1;
                 energy_balance.interface += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
-                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) plus this: the dissipation of the step for a spring
-                // that stays, and the energy lost with a spring that is released.
-                let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
+                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) plus this loss: the algorithmic dissipation of a spring with
+                // constant compliance, otherwise the energy that is lost with a released spring.
+                let loss = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
                 if c0 == c1 {
-                    energy_balance.algorithmic += lag;
+                    energy_balance.algorithmic += loss;
                 } else {
-                    energy_balance.contact += lag;
+                    energy_balance.contact += loss;
                 }
             }
-            energy_balance.contact -= area * (at_rest + change) * (opening - elastic);
-            energy_balance.static_contact += area * at_rest * opening;
+            energy_balance.contact -=
+                area * (static_traction + change) * (opening - elastic_opening);
+            energy_balance.static_contact += area * static_traction * opening;
             energy_balance.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
-            if free != 0.0 {
-                energy_balance.input -= area * free * moved;
+            if free_traction != 0.0 {
+                energy_balance.input -= area * free_traction * soil_increment;
             }
         }
         self.free_field.copy_from_slice(&forcing.free_field);
         self.compliance.copy_from_slice(&increment.compliance);
-        std::mem::swap(&mut self.soil_displacement, soil);
+        std::mem::swap(&mut self.soil_displacement, soil_displacement);
     }
 }
 
-/// Stored energy and dissipation of the nonlinear force since the static state; `None` if unknown.
+/// Energies of the nonlinear force since the static state; `None` if they are unknown.
 ///
-/// Forces count from their static values, and so does the energy that they store.
-fn energies(
+/// The stored energy does not contain the work of the static forces.
+fn nonlinear_energies(
     scene: &Scene,
     structure: &dyn Structure,
     force_displacement: &[f64],
-) -> Option<(f64, f64)> {
-    let at_rest = &scene.static_state;
-    let start = at_rest.energy?;
+) -> Option<InternalEnergy> {
+    let static_state = &scene.static_state;
+    let static_energy = static_state.energy?;
     let energy = structure.nonlinear()?.energy(force_displacement)?;
-    let moved = force_displacement.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
-    let against: f64 = at_rest.force.iter().zip(moved).map(|(f, moved)| f * moved).sum();
-    Some((energy.stored - start.stored - against, energy.dissipated - start.dissipated))
+    let pairs = force_displacement.iter().zip(&static_state.displacement);
+    let displacements = pairs.map(|(u, static_u)| u - static_u);
+    let static_work: f64 = static_state.force.iter().zip(displacements).map(|(f, u)| f * u).sum();
+    Some(InternalEnergy {
+        stored: energy.stored - static_energy.stored - static_work,
+        dissipated: energy.dissipated - static_energy.dissipated,
+    })
 }

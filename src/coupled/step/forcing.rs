@@ -1,11 +1,11 @@
-//! Actions on structure and base during a step, known before its solution.
+//! Forcing of a step: loads, free field and history, which do not depend on its solution.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | `s_ff` | free field: motion of the soil without structure |
 //! | y | its mean translation under each connected part of the structure |
 //! | τ_ff | tractions of the free field on faces below the surface |
-//! | h | soil displacement by all earlier tractions, less the effect of tractions of the free field |
+//! | h | soil displacement due to all earlier tractions, without the effect of τ_ff |
 //! | R | influence vectors |
 
 use crate::bem::{Ground, free_field};
@@ -18,52 +18,54 @@ use crate::structure::Structure;
 
 /// External load, free field and convolution history of one step.
 pub(crate) struct Forcing {
-    /// External load at t*, minus the static load, in stepping coordinates.
+    /// External load at t* minus the static load, in stepping coordinates.
     pub(crate) load: Vec<f64>,
-    /// Whether there is any load.
-    pub(crate) loaded: bool,
-    /// Free field at the end of the step, minus its value at t = 0, 2Q or 3Q.
+    /// Whether the load may have an entry.
+    pub(crate) has_load: bool,
+    /// Displacement of the free field at the end of the step minus its value at t = 0, m, 2Q or 3Q.
     pub(crate) free_field: Vec<f64>,
-    /// Free field minus the translation y of the part above, 2Q or 3Q.
+    /// Free field minus its translation y under each part, m, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
-    /// Soil displacement minus free field, before the contact tractions of this step act, 2Q or 3Q.
+    /// Soil displacement minus free field without the contact tractions of this step, m, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
-    /// Mean tractions τ_ff of the free field in this step, 2Q; empty on the surface.
+    /// Mean tractions τ_ff of the free field in this step, Pa, 2Q; empty on the surface.
     pub(crate) free_traction: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
-    /// R Δy, in stepping coordinates.
-    pub(crate) carried: Vec<f64>,
-    /// R ẏ at v*, in stepping coordinates; zero without damping.
-    pub(crate) dragged: Vec<f64>,
-    dofs: Vec<f64>,
-    /// Time integral of the free field's tractions; empty on the surface.
+    /// Increment R Δy of the translation, in stepping coordinates.
+    pub(crate) translation_increment: Vec<f64>,
+    /// Velocity R ẏ of the translation at the time of v*, in stepping coordinates; zero without damping.
+    pub(crate) translation_velocity: Vec<f64>,
+    /// Load of the structure in degrees of freedom.
+    dof_load: Vec<f64>,
+    /// Time integral of the free field's tractions, Pa s; empty on the surface.
     impulse: Vec<f64>,
 }
 
 impl Forcing {
+    /// Buffers for the forcing of a scene's steps.
     pub(crate) fn new(scene: &Scene) -> Self {
         let contact_zeros = vec![0.0; scene.layout().len()];
         let structure_zeros = vec![0.0; scene.model.coordinates];
-        let walls =
+        let wall_zeros =
             if scene.base.elements().has_walls() { contact_zeros.clone() } else { Vec::new() };
         Self {
             load: structure_zeros.clone(),
-            loaded: false,
+            has_load: false,
             free_field: contact_zeros.clone(),
             distortion: contact_zeros.clone(),
             history: contact_zeros,
-            free_traction: walls.clone(),
-            impulse: walls,
+            free_traction: wall_zeros.clone(),
+            impulse: wall_zeros,
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
-            carried: structure_zeros.clone(),
-            dragged: structure_zeros,
-            dofs: vec![0.0; scene.model.dofs],
+            translation_increment: structure_zeros.clone(),
+            translation_velocity: structure_zeros,
+            dof_load: vec![0.0; scene.model.dofs],
         }
     }
 
-    /// Computes free field and history at `time`, the end of the step after `state`, and the load within it.
-    pub(crate) fn observe(
+    /// Computes the forcing of the step after `state`, which ends at `time` (s).
+    pub(crate) fn update(
         &mut self,
         scene: &Scene,
         state: &State,
@@ -72,9 +74,9 @@ impl Forcing {
         motion: &dyn FreeField,
         time: f64,
     ) -> Result<(), StepError> {
-        self.observe_free_field(scene, state, ground, motion, time);
-        for (value, start) in self.free_field.iter_mut().zip(&scene.start_motion) {
-            *value -= start;
+        self.update_free_field(scene, state, ground, motion, time);
+        for (value, initial) in self.free_field.iter_mut().zip(&scene.initial_free_field) {
+            *value -= initial;
         }
         // An error of the ground ends the step.
         ground.history(&mut self.history).map_err(StepError::part("history of the ground"))?;
@@ -86,34 +88,35 @@ impl Forcing {
         self.subtract_free_traction(scene)?;
         self.distortion.copy_from_slice(&self.free_field);
         let influence = &scene.model.influence;
-        let last = &state.kinematics.translations;
-        for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
-            let displacement = part.mean(&scene.base, &self.free_field);
-            *now = last.next(displacement, &scene.coefficients);
-            part.subtract(&scene.base, displacement, &mut self.distortion);
+        let previous_translations = &state.kinematics.translations;
+        let parts = influence.parts().iter().zip(&mut self.translations);
+        for ((part, translation), previous) in parts.zip(previous_translations) {
+            let displacement = part.mean_translation(&scene.base, &self.free_field);
+            *translation = previous.next(displacement, &scene.coefficients);
+            part.subtract_translation(&scene.base, displacement, &mut self.distortion);
         }
-        self.carried.fill(0.0);
+        self.translation_increment.fill(0.0);
         let increments = self.translations.iter().map(|translation| translation.increment);
-        influence.translate(1.0, increments, &mut self.carried);
-        if scene.model.damped {
-            self.dragged.fill(0.0);
+        influence.translate(1.0, increments, &mut self.translation_increment);
+        if scene.model.is_damped {
+            self.translation_velocity.fill(0.0);
             let velocities = self.translations.iter().map(|translation| translation.velocity);
-            influence.translate(1.0, velocities, &mut self.dragged);
+            influence.translate(1.0, velocities, &mut self.translation_velocity);
         }
-        if self.loaded {
+        if self.has_load {
             self.load.fill(0.0);
         }
-        let within = state.time + scene.coefficients.load_fraction * scene.time_step;
-        let at_start = &scene.static_state.load;
+        let load_time = state.time + scene.coefficients.load_fraction * scene.time_step;
+        let static_load = &scene.static_state.load;
         let has_structure_load = scene
             .model
-            .load(structure, within, at_start, &mut self.dofs, &mut self.load)
+            .add_load(structure, load_time, static_load, &mut self.dof_load, &mut self.load)
             .map_err(StepError::part("load of the structure"))?;
         if has_structure_load {
-            StepError::check_finite("load of the structure", &self.dofs)?;
+            StepError::check_finite("load of the structure", &self.dof_load)?;
         }
-        self.loaded = has_structure_load || scene.has_loads();
-        match scene.add_loads(within, &mut self.load) {
+        self.has_load = has_structure_load || scene.has_loads();
+        match scene.add_loads(load_time, &mut self.load) {
             None => Ok(()),
             Some((index, value)) => {
                 Err(StepError::NotFinite { quantity: "external load", index, value })
@@ -125,18 +128,19 @@ impl Forcing {
 impl Forcing {
     /// Subtracts the effect of the free field's tractions in this step from the history.
     fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
-        for (opposite, traction) in self.impulse.iter_mut().zip(&self.free_traction) {
-            *opposite = -traction;
+        // The buffer of the impulse holds −τ_ff.
+        for (negative, traction) in self.impulse.iter_mut().zip(&self.free_traction) {
+            *negative = -traction;
         }
         if !self.free_traction.is_empty() {
             StepError::check_finite("tractions of the free field", &self.free_traction)?;
-            scene.soil.multiply_add(&self.impulse, &mut self.history);
+            scene.step_compliance.multiply_add(&self.impulse, &mut self.history);
         }
         Ok(())
     }
 
-    /// Computes displacements of the free field at `time`, and its mean tractions since the last step.
-    fn observe_free_field(
+    /// Computes displacements of the free field at `time` (s), and its mean tractions since the last step.
+    fn update_free_field(
         &mut self,
         scene: &Scene,
         state: &State,
@@ -145,7 +149,7 @@ impl Forcing {
         time: f64,
     ) {
         let elements = scene.base.elements();
-        // The motion is known at the faces: the build has checked it.
+        // The build has checked that the motion is defined on the walls.
         if elements.has_walls() {
             let values = [&mut self.free_field[..], &mut self.free_traction];
             free_field(ground, motion, elements, state.time, values);
@@ -157,11 +161,12 @@ impl Forcing {
     }
 }
 
-/// Data from which a step after `state` is solved.
+/// Input of the solution of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct StepData<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) structure: &'a dyn Structure,
+    /// State at the start of the step.
     pub(crate) state: &'a State,
     pub(crate) forcing: &'a Forcing,
 }

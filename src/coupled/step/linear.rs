@@ -3,7 +3,7 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | Δu | increment of displacement relative to the free field's translation y |
-//! | u*, v*, a* | motion at the time at which the scheme writes the equation of motion |
+//! | u*, v*, a* | motion at the time of the scheme's equation of motion |
 //! | τ | change of contact traction against the static state |
 //! | B | element means of the base displacement |
 //! | R | influence vectors |
@@ -19,61 +19,64 @@ use crate::coupled::step::increment::Increment;
 use crate::error::StepError;
 use crate::linalg::transposed_multiply_add;
 
-/// Factored operators, the contact problem and the scratch of a step.
+/// Solver of a linear step: factored operators, contact problem and buffers.
 pub(crate) struct LinearStep {
-    /// Valid while the tangent is unchanged.
+    /// Operators, valid while the tangent does not change.
     pub(crate) operators: Operators,
     pub(crate) contact: ContactSolver,
     /// Right-hand side of K_eff Δu = …, without contact and nonlinear force.
-    pub(crate) right_side: Vec<f64>,
+    pub(crate) right_hand_side: Vec<f64>,
+    /// Jump between soil and base without the change of traction, m.
     free_jump: Vec<f64>,
-    pub(crate) means: Vec<f64>,
-    vector: Vec<f64>,
+    /// Mean displacements of the base over the elements, m.
+    pub(crate) base_means: Vec<f64>,
+    scratch: Vec<f64>,
 }
 
 impl LinearStep {
+    /// Solver for a scene's steps.
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
-        let n = scene.model.coordinates;
+        let coordinates = scene.model.coordinates;
         Self {
             operators,
             contact: ContactSolver::new(
                 scene.layout(),
                 scene.base.areas(),
-                scene.model.linear,
+                scene.model.is_linear,
                 search,
             ),
-            right_side: vec![0.0; n],
+            right_hand_side: vec![0.0; coordinates],
             free_jump: vec![0.0; scene.layout().len()],
-            means: vec![0.0; scene.layout().len()],
-            vector: vec![0.0; n],
+            base_means: vec![0.0; scene.layout().len()],
+            scratch: vec![0.0; coordinates],
         }
     }
 
     /// Computes the right-hand side of the equation of motion.
     ///
-    /// Loads, inertia and damping of a structure that moves with y, and its stiffness forces so far.
+    /// It contains the loads, inertia and damping of a motion with y, and the stiffness forces at the start of the step.
     pub(crate) fn predict(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         let c = &scene.coefficients;
         let model = &scene.model;
         let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
-        let carried = &forcing.carried;
-        let Self { right_side, vector, means, .. } = self;
-        right_side.copy_from_slice(&forcing.load);
-        SchemeCoefficients::combine(c.acceleration, carried, v, a, vector);
-        model.mass.multiply_add(-1.0, vector, right_side);
-        if model.damped {
-            SchemeCoefficients::combine(c.velocity, carried, v, a, vector);
-            vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
-            model.damping.multiply_add(-1.0, vector, right_side);
+        let translation_increment = &forcing.translation_increment;
+        let Self { right_hand_side, scratch, base_means, .. } = self;
+        right_hand_side.copy_from_slice(&forcing.load);
+        SchemeCoefficients::combine(c.acceleration, translation_increment, v, a, scratch);
+        model.mass.multiply_add(-1.0, scratch, right_hand_side);
+        if model.is_damped {
+            SchemeCoefficients::combine(c.velocity, translation_increment, v, a, scratch);
+            scratch.iter_mut().zip(&forcing.translation_velocity).for_each(|(v, y)| *v -= y);
+            model.damping.multiply_add(-1.0, scratch, right_hand_side);
         }
-        for (x, ((u, v), a)) in vector.iter_mut().zip(u.iter().zip(v).zip(a)) {
+        for (x, ((u, v), a)) in scratch.iter_mut().zip(u.iter().zip(v).zip(a)) {
             *x = u + SchemeCoefficients::apply(c.displacement, 0.0, *v, *a);
         }
-        scene.subtract_base(vector, means);
-        model.stiffness.multiply_add(-1.0, vector, right_side);
+        scene.subtract_base_translation(scratch, base_means);
+        model.stiffness.multiply_add(-1.0, scratch, right_hand_side);
     }
 
-    /// Computes the increment of a linear structure, and the motion at its end.
+    /// Computes the increment of a linear structure, and the motion at the end of the step.
     pub(crate) fn solve(
         &mut self,
         data: StepData<'_>,
@@ -84,9 +87,9 @@ impl LinearStep {
         let kinematics = &state.kinematics;
         let Some(matrices) = scene.model.diagonals() else {
             self.predict(data);
-            increment.displacement.copy_from_slice(&self.right_side);
+            increment.displacement.copy_from_slice(&self.right_hand_side);
             self.solve_contact(data, increment)?;
-            increment.follow(data);
+            increment.set_end_motion(data);
             return Ok(());
         };
         free_increment(
@@ -98,22 +101,25 @@ impl LinearStep {
             increment,
         );
         self.solve_tractions(data, increment)?;
-        let Self { operators, contact, vector, .. } = self;
-        vector.fill(0.0);
-        scene.base.add_forces(1.0, &contact.response().traction, vector);
-        let inverse = operators.reciprocals();
-        apply_tractions(scheme, inverse, vector, kinematics, &forcing.carried, increment);
+        let Self { operators, contact, scratch, .. } = self;
+        scratch.fill(0.0);
+        scene.base.add_forces(1.0, &contact.response().traction, scratch);
+        let reciprocals = operators.reciprocals();
+        let translation_increment = &forcing.translation_increment;
+        apply_tractions(scheme, reciprocals, scratch, kinematics, translation_increment, increment);
         Ok(())
     }
 
-    /// Solves for the increment; on entry its displacement contains the right-hand side.
+    /// Solves for the increment with contact.
+    ///
+    /// The displacement of the increment must contain the right-hand side and is overwritten.
     pub(crate) fn solve_contact(
         &mut self,
         data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         self.operators.solve(&mut increment.displacement);
-        increment.reach(data.state);
+        increment.set_end_displacement(data.state);
         self.solve_tractions(data, increment)?;
         transposed_multiply_add(
             &self.operators.columns,
@@ -124,30 +130,30 @@ impl LinearStep {
         Ok(())
     }
 
-    /// Contact tractions for the displacement at the end of the step without their change.
+    /// Solves the contact problem, for an end displacement without the change of traction.
     fn solve_tractions(
         &mut self,
         data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
-        let Self { operators, contact, free_jump, means, .. } = self;
-        scene.base.means(&increment.end, means);
+        let Self { operators, contact, free_jump, base_means, .. } = self;
+        scene.base.means(&increment.end_displacement, base_means);
         let mut length_scale = 0.0_f64;
         for (i, jump) in free_jump.iter_mut().enumerate() {
-            let ground = forcing.distortion[i] + forcing.history[i];
-            let base = means[i];
-            *jump = ground - base;
-            length_scale = length_scale.max(ground.abs()).max(base.abs());
+            let soil_displacement = forcing.distortion[i] + forcing.history[i];
+            let base_displacement = base_means[i];
+            *jump = soil_displacement - base_displacement;
+            length_scale = length_scale.max(soil_displacement.abs()).max(base_displacement.abs());
         }
         for (jump, gap) in free_jump.iter_mut().zip(&scene.static_state.gap) {
             *jump += gap;
         }
         // `max` ignores NaN, so the jumps themselves are checked.
         if !(length_scale.is_finite() && free_jump.iter().all(|jump| jump.is_finite())) {
-            StepError::check_finite("displacement of the structure", &increment.end)?;
+            StepError::check_finite("displacement of the structure", &increment.end_displacement)?;
             StepError::check_finite("jump between soil and base", free_jump)?;
-            StepError::check_finite("displacement of the base", means)?;
+            StepError::check_finite("displacement of the base", base_means)?;
         }
         let input = ContactInput {
             delassus: &operators.delassus,

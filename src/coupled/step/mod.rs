@@ -1,4 +1,4 @@
-//! Forcing of one step, and the increment in response to it.
+//! One time step: forcing, increment, and advance of the state.
 
 pub(crate) mod advance;
 pub(crate) mod energy_accumulator;

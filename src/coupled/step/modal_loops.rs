@@ -1,17 +1,22 @@
-//! The loops of a step in modes, where every matrix is diagonal: one before contact, one after.
+//! Loops of a step in modal coordinates, before and after the solution of the contact problem.
+//!
+//! Every matrix is diagonal in modal coordinates.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | m, d, k | modal mass, damping and stiffness |
 //! | 1/k_eff | reciprocals of the effective stiffness |
-//! | u, v, a | coordinates at the beginning of the step |
-//! | Δu, u₁, v₁, a₁ | increment, and coordinates at the end |
-//! | R Δy, R ẏ | part of the free field's translation |
+//! | u, v, a | motion at the start of the step |
+//! | Δu, u₁, v₁, a₁ | increment, and motion at the end |
+//! | R Δy, R ẏ | increment and velocity of the free field's translation |
 //!
-//! The loops are separate functions: for an argument, unlike a field, the compiler can assume that no other
-//! reference points to the written memory.
+//! Each loop is a function with slices as arguments. For an argument, unlike a field, the compiler can assume that no other
+//! reference points to the memory that the loop writes.
 
-#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+#![allow(
+    clippy::inline_always,
+    reason = "the functions must be compiled for the vector instructions of their caller"
+)]
 
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scheme::SchemeCoefficients;
@@ -20,40 +25,54 @@ use crate::coupled::step::increment::Increment;
 use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Computes Δu and u₁ with the tractions fixed at their static values.
+/// Computes Δu and u₁ without a change of traction.
 pub(crate) fn free_increment(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
-    inverse: &[f64],
+    reciprocals: &[f64],
     kinematics: &Kinematics,
     forcing: &Forcing,
     increment: &mut Increment,
 ) {
-    let out = increment.displacement.as_mut_slice();
-    let end = increment.end.as_mut_slice();
-    vectorized(FreeIncrement { scheme, matrices, inverse, kinematics, forcing, out, end });
+    vectorized(FreeIncrement {
+        scheme,
+        matrices,
+        reciprocals,
+        kinematics,
+        forcing,
+        displacement_increment: increment.displacement.as_mut_slice(),
+        end_displacement: increment.end_displacement.as_mut_slice(),
+    });
 }
 
 /// Subtracts the response to the tractions' `force` from Δu, and computes the motion at the end.
 pub(crate) fn apply_tractions(
     scheme: &SchemeCoefficients,
-    inverse: &[f64],
+    reciprocals: &[f64],
     force: &[f64],
     kinematics: &Kinematics,
-    carried: &[f64],
+    translation_increment: &[f64],
     increment: &mut Increment,
 ) {
-    vectorized(ApplyTractions { scheme, inverse, force, kinematics, carried, increment });
+    vectorized(ApplyTractions {
+        scheme,
+        reciprocals,
+        force,
+        kinematics,
+        translation_increment,
+        increment,
+    });
 }
 
+/// Arguments of [`free_increment`].
 struct FreeIncrement<'a> {
     scheme: &'a SchemeCoefficients,
     matrices: Diagonals<'a>,
-    inverse: &'a [f64],
+    reciprocals: &'a [f64],
     kinematics: &'a Kinematics,
     forcing: &'a Forcing,
-    out: &'a mut [f64],
-    end: &'a mut [f64],
+    displacement_increment: &'a mut [f64],
+    end_displacement: &'a mut [f64],
 }
 
 impl WithSimd for FreeIncrement<'_> {
@@ -61,9 +80,11 @@ impl WithSimd for FreeIncrement<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scheme, matrices, inverse, kinematics, forcing, out, end } = self;
-        right_hand_side(scheme, matrices, kinematics, forcing, out);
-        divide_by_stiffness(inverse, &kinematics.displacement, out, end);
+        let Self { displacement_increment, end_displacement, .. } = self;
+        let Self { scheme, matrices, reciprocals, kinematics, forcing, .. } = self;
+        right_hand_side(scheme, matrices, kinematics, forcing, displacement_increment);
+        let u = &kinematics.displacement;
+        divide_by_stiffness(reciprocals, u, displacement_increment, end_displacement);
     }
 }
 
@@ -74,9 +95,9 @@ fn right_hand_side(
     matrices: Diagonals<'_>,
     kinematics: &Kinematics,
     forcing: &Forcing,
-    out: &mut [f64],
+    rhs: &mut [f64],
 ) {
-    let n = out.len();
+    let n = rhs.len();
     let Diagonals { mass, damping, stiffness } = matrices;
     let m = &mass[..n];
     let k = &stiffness[..n];
@@ -84,41 +105,43 @@ fn right_hand_side(
     let v = &kinematics.velocity[..n];
     let a = &kinematics.acceleration[..n];
     let load = &forcing.load[..n];
-    let carried = &forcing.carried[..n];
+    // R Δy.
+    let dy = &forcing.translation_increment[..n];
     for j in 0..n {
-        let acceleration = SchemeCoefficients::apply(scheme.acceleration, carried[j], v[j], a[j]);
+        let acceleration = SchemeCoefficients::apply(scheme.acceleration, dy[j], v[j], a[j]);
         let displacement = u[j] + SchemeCoefficients::apply(scheme.displacement, 0.0, v[j], a[j]);
-        out[j] = load[j] - m[j] * acceleration - k[j] * displacement;
+        rhs[j] = load[j] - m[j] * acceleration - k[j] * displacement;
     }
     if let Some(d) = damping {
         let d = &d[..n];
-        let dragged = &forcing.dragged[..n];
+        let translation_velocity = &forcing.translation_velocity[..n];
         for j in 0..n {
-            let velocity = SchemeCoefficients::apply(scheme.velocity, carried[j], v[j], a[j]);
-            out[j] -= d[j] * (velocity - dragged[j]);
+            let velocity = SchemeCoefficients::apply(scheme.velocity, dy[j], v[j], a[j]);
+            rhs[j] -= d[j] * (velocity - translation_velocity[j]);
         }
     }
 }
 
-/// Computes Δu from the right-hand side, and u₁.
+/// Replaces the right-hand side by Δu, and computes u₁.
 #[inline(always)]
-fn divide_by_stiffness(inverse: &[f64], u: &[f64], out: &mut [f64], end: &mut [f64]) {
-    let n = out.len();
-    let inverse = &inverse[..n];
+fn divide_by_stiffness(reciprocals: &[f64], u: &[f64], rhs: &mut [f64], end: &mut [f64]) {
+    let n = rhs.len();
+    let reciprocals = &reciprocals[..n];
     let u = &u[..n];
     let end = &mut end[..n];
     for j in 0..n {
-        out[j] *= inverse[j];
-        end[j] = u[j] + out[j];
+        rhs[j] *= reciprocals[j];
+        end[j] = u[j] + rhs[j];
     }
 }
 
+/// Arguments of [`apply_tractions`].
 struct ApplyTractions<'a> {
     scheme: &'a SchemeCoefficients,
-    inverse: &'a [f64],
+    reciprocals: &'a [f64],
     force: &'a [f64],
     kinematics: &'a Kinematics,
-    carried: &'a [f64],
+    translation_increment: &'a [f64],
     increment: &'a mut Increment,
 }
 
@@ -127,49 +150,62 @@ impl WithSimd for ApplyTractions<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scheme, inverse, force, kinematics, carried, increment } = self;
-        let Increment { displacement, end, total, velocity, acceleration, .. } = increment;
-        apply_force(inverse, force, displacement, end);
-        follow(scheme, kinematics, carried, displacement, total, velocity, acceleration);
+        let Self { scheme, reciprocals, force, kinematics, translation_increment, increment } =
+            self;
+        subtract_response(
+            reciprocals,
+            force,
+            &mut increment.displacement,
+            &mut increment.end_displacement,
+        );
+        set_end_motion(
+            scheme,
+            kinematics,
+            translation_increment,
+            &increment.displacement,
+            &mut increment.total_displacement,
+            &mut increment.end_velocity,
+            &mut increment.end_acceleration,
+        );
     }
 }
 
 /// Subtracts the response to the tractions' force from Δu and u₁.
 #[inline(always)]
-fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
-    let n = out.len();
-    let inverse = &inverse[..n];
+fn subtract_response(reciprocals: &[f64], force: &[f64], du: &mut [f64], end: &mut [f64]) {
+    let n = du.len();
+    let reciprocals = &reciprocals[..n];
     let force = &force[..n];
     let end = &mut end[..n];
     for j in 0..n {
-        let response = inverse[j] * force[j];
-        out[j] -= response;
+        let response = reciprocals[j] * force[j];
+        du[j] -= response;
         end[j] -= response;
     }
 }
 
-/// Total increment, and velocity and acceleration at the end, as `Increment::follow` computes them.
+/// Total increment, and velocity and acceleration at the end, as `Increment::set_end_motion` computes them.
 #[inline(always)]
-fn follow(
+fn set_end_motion(
     scheme: &SchemeCoefficients,
     kinematics: &Kinematics,
-    carried: &[f64],
-    out: &[f64],
-    total: &mut [f64],
-    velocity: &mut [f64],
-    acceleration: &mut [f64],
+    translation_increment: &[f64],
+    du: &[f64],
+    total_displacement: &mut [f64],
+    end_velocity: &mut [f64],
+    end_acceleration: &mut [f64],
 ) {
-    let n = out.len();
+    let n = du.len();
     let v = &kinematics.velocity[..n];
     let a = &kinematics.acceleration[..n];
-    let carried = &carried[..n];
-    let total = &mut total[..n];
-    let velocity = &mut velocity[..n];
-    let acceleration = &mut acceleration[..n];
+    let dy = &translation_increment[..n];
+    let total_displacement = &mut total_displacement[..n];
+    let end_velocity = &mut end_velocity[..n];
+    let end_acceleration = &mut end_acceleration[..n];
     for j in 0..n {
-        let du = out[j] + carried[j];
-        total[j] = du;
-        velocity[j] = SchemeCoefficients::apply(scheme.new_velocity, du, v[j], a[j]);
-        acceleration[j] = SchemeCoefficients::apply(scheme.new_acceleration, du, v[j], a[j]);
+        let total = du[j] + dy[j];
+        total_displacement[j] = total;
+        end_velocity[j] = SchemeCoefficients::apply(scheme.new_velocity, total, v[j], a[j]);
+        end_acceleration[j] = SchemeCoefficients::apply(scheme.new_acceleration, total, v[j], a[j]);
     }
 }

@@ -1,4 +1,4 @@
-//! Newton's method around the whole step of a nonlinear structure, contact inside.
+//! Newton's method for a step of a nonlinear structure; each iteration solves the contact problem.
 
 use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
@@ -11,55 +11,59 @@ use crate::error::StepError;
 use crate::linalg::largest;
 use crate::structure::Tangent;
 
-/// Largest number of iterations of a step.
+/// Largest number of iterations of a step before the continuation; most steps need fewer than ten.
 const MAX_NEWTON_ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
 const RESIDUAL_TOLERANCE: f64 = 1e-12;
 /// Out-of-balance force that is accepted if the iteration stagnates.
 const STAGNATION_TOLERANCE: f64 = 1e3 * RESIDUAL_TOLERANCE;
-/// Rounding errors of a displacement, in units of its last digit, that may cause a force.
-const DISPLACEMENT_ROUNDINGS: f64 = 32.0;
-/// Number of iterations without a smaller out-of-balance force that counts as a cycle.
+/// Rounding error of a displacement that may cause a force, in units of its last digit.
+const DISPLACEMENT_ROUNDING_FACTOR: f64 = 32.0;
+/// Number of iterations without a smaller out-of-balance force after which the iteration counts as a cycle.
 const MAX_STAGNANT_ITERATIONS: usize = 15;
 
-/// Largest number of iterations of a stage of the continuation.
+/// Largest number of iterations of a stage of the continuation: a stage with one kink converges within them.
 const MAX_STAGE_ITERATIONS: usize = 8;
-/// Largest number of iterations of all stages of the continuation.
+/// Largest number of iterations of all stages of the continuation; it bounds the time of a step.
 const MAX_TOTAL_ITERATIONS: usize = 2000;
 /// Shortest stage, as a fraction of the initial out-of-balance force.
 const MIN_STAGE_FRACTION: f64 = 1e-6;
 
-/// Scratch of the iteration.
+/// Newton's method with its buffers.
 pub(crate) struct NewtonIteration {
     tangent: Tangent,
-    /// The iterate, and the force linearised about it.
+    /// The present iterate of Δu.
     guess: Vec<f64>,
-    linearised: Vec<f64>,
-    /// Displacement at u* that the force receives.
+    /// Nonlinear force, linearised about the iterate.
+    linearised_force: Vec<f64>,
+    /// Displacement u* that the nonlinear force receives.
     force_displacement: Vec<f64>,
-    /// Increment at the end of the last stage of the continuation.
-    reached: Vec<f64>,
+    /// Iterate at the end of the last stage of the continuation.
+    stage_solution: Vec<f64>,
     /// Out-of-balance force at the start of the continuation.
-    open: Vec<f64>,
+    initial_imbalance: Vec<f64>,
     /// Largest force of the last iteration.
-    scale: f64,
-    /// Number of iterations and contact trials, and the slowest method used so far.
+    force_scale: f64,
+    /// Number of iterations so far.
     iterations: usize,
+    /// Number of linear solutions of the contact search so far.
     trials: usize,
+    /// Slowest method of the contact search so far.
     method: SearchMethod,
 }
 
 impl NewtonIteration {
+    /// Buffers for this number of degrees of freedom.
     pub(crate) fn new(dofs: usize) -> Self {
         let zeros = vec![0.0; dofs];
         Self {
             tangent: Tangent::new(dofs),
             guess: zeros.clone(),
-            linearised: zeros.clone(),
+            linearised_force: zeros.clone(),
             force_displacement: zeros.clone(),
-            reached: zeros.clone(),
-            open: zeros,
-            scale: 0.0,
+            stage_solution: zeros.clone(),
+            initial_imbalance: zeros,
+            force_scale: 0.0,
             iterations: 0,
             trials: 0,
             method: SearchMethod::ActiveSet,
@@ -74,11 +78,13 @@ impl NewtonIteration {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
-        (self.trials, self.method) = (0, SearchMethod::ActiveSet);
-        // The increment by the last velocity, without the ground's translation.
+        self.trials = 0;
+        self.method = SearchMethod::ActiveSet;
+        // The first iterate is the increment with the last velocity, without the ground's translation.
         let velocity = state.kinematics.velocity.iter();
-        for ((guess, v), carried) in self.guess.iter_mut().zip(velocity).zip(&forcing.carried) {
-            *guess = v * scene.time_step - carried;
+        let pairs = velocity.zip(&forcing.translation_increment);
+        for (guess, (v, dy)) in self.guess.iter_mut().zip(pairs) {
+            *guess = v * scene.time_step - dy;
         }
         self.evaluate(linear, data, increment)?;
         let mut residual = f64::INFINITY;
@@ -87,7 +93,7 @@ impl NewtonIteration {
         self.iterations = 0;
         for iteration in 0..MAX_NEWTON_ITERATIONS {
             residual = self.iterate(linear, data, 0.0, increment)?;
-            // The first solution only predicts: its tangent may belong to the previous step.
+            // The first solution is only a prediction, since its tangent may belong to the previous step.
             if residual <= RESIDUAL_TOLERANCE && (iteration > 0 || residual == 0.0) {
                 break;
             }
@@ -101,17 +107,18 @@ impl NewtonIteration {
             }
         }
         if residual.is_nan() || residual > STAGNATION_TOLERANCE.max(self.rounding(linear)) {
-            self.continuation(linear, data, residual, increment)?;
+            self.continue_in_stages(linear, data, residual, increment)?;
         }
-        (increment.trials, increment.method) = (self.trials, self.method);
+        increment.trials = self.trials;
+        increment.method = self.method;
         let u = &state.kinematics.displacement;
         for (i, entry) in increment.force_displacement.iter_mut().enumerate() {
             *entry = u[i] + increment.displacement[i];
         }
         let translations = forcing.translations.iter().map(|translation| translation.displacement);
-        scene.to_force_displacement(
+        scene.convert_to_force_displacement(
             &mut increment.force_displacement,
-            &mut linear.means,
+            &mut linear.base_means,
             translations,
         );
         Ok(())
@@ -119,78 +126,86 @@ impl NewtonIteration {
 
     /// Relative out-of-balance force due to rounding of displacements.
     ///
-    /// Once columns have yielded, a building comes to rest at an offset. The last digit of the offset times the
-    /// stiffness is not small relative to forces that vanish.
+    /// A building with yielded columns comes to rest with an offset. The last digit of the offset times the stiffness is not
+    /// small relative to forces that tend to zero.
     fn rounding(&self, linear: &LinearStep) -> f64 {
         let entries = linear.operators.tangent.entries();
         let forces = entries.map(|(_, j, stiffness)| stiffness * self.force_displacement[j]);
-        DISPLACEMENT_ROUNDINGS
+        DISPLACEMENT_ROUNDING_FACTOR
             * f64::EPSILON
-            * forces.fold(0.0_f64, |largest, f| largest.max(f.abs()))
-            / self.scale
+            * forces.fold(0.0_f64, |max, force| max.max(force.abs()))
+            / self.force_scale
     }
 
-    /// Follows the solution from the last iterate while its out-of-balance force is removed in stages.
+    /// Continuation: removes the out-of-balance force of the last iterate in stages.
     ///
-    /// The last iterate solves the step with an external force equal to its out-of-balance force. Newton's method
-    /// returns to earlier iterates if a law sticks between two states in which it slides: tangents of sliding omit
-    /// the force that sticking bears. A stage that is short enough crosses one kink at most, and there the method
-    /// converges. For monotone forces the path is continuous and does not turn back.
-    fn continuation(
+    /// The last iterate is the solution with an external force equal to its out-of-balance force. Newton's method cycles
+    /// if a hysteretic law sticks between two states in which it slides, since the tangent of sliding does not contain the
+    /// stiffness of sticking. A stage that is short enough crosses at most one kink, where the method converges. For
+    /// monotone forces the path is continuous and does not turn back.
+    ///
+    /// `initial_residual` is the relative out-of-balance force of the last iterate, for errors.
+    fn continue_in_stages(
         &mut self,
         linear: &mut LinearStep,
         data: StepData<'_>,
-        began: f64,
+        initial_residual: f64,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        for (i, open) in self.open.iter_mut().enumerate() {
-            *open = increment.force[i] - self.linearised[i];
+        for (i, imbalance) in self.initial_imbalance.iter_mut().enumerate() {
+            *imbalance = increment.nonlinear_force[i] - self.linearised_force[i];
         }
-        self.reached.copy_from_slice(&self.guess);
-        let mut remaining = 1.0;
-        let mut stage = 0.5;
-        while remaining > 0.0 {
-            let aim = if stage < remaining { remaining - stage } else { 0.0 };
-            let tolerance = if aim > 0.0 { STAGNATION_TOLERANCE } else { RESIDUAL_TOLERANCE };
+        self.stage_solution.copy_from_slice(&self.guess);
+        let mut remaining_fraction = 1.0;
+        let mut stage_fraction = 0.5;
+        while remaining_fraction > 0.0 {
+            let target_fraction = if stage_fraction < remaining_fraction {
+                remaining_fraction - stage_fraction
+            } else {
+                0.0
+            };
+            let tolerance =
+                if target_fraction > 0.0 { STAGNATION_TOLERANCE } else { RESIDUAL_TOLERANCE };
             let mut residual = f64::INFINITY;
             for _ in 0..MAX_STAGE_ITERATIONS {
-                residual = self.iterate(linear, data, aim, increment)?;
+                residual = self.iterate(linear, data, target_fraction, increment)?;
                 if residual <= tolerance {
                     break;
                 }
             }
             if residual <= STAGNATION_TOLERANCE {
-                self.reached.copy_from_slice(&self.guess);
-                remaining = aim;
-                stage *= 2.0;
+                self.stage_solution.copy_from_slice(&self.guess);
+                remaining_fraction = target_fraction;
+                stage_fraction *= 2.0;
                 continue;
             }
-            stage = 0.5 * stage.min(remaining);
-            if stage < MIN_STAGE_FRACTION || self.iterations > MAX_TOTAL_ITERATIONS {
+            stage_fraction = 0.5 * stage_fraction.min(remaining_fraction);
+            if stage_fraction < MIN_STAGE_FRACTION || self.iterations > MAX_TOTAL_ITERATIONS {
                 let modes = increment.modes.iter().map(|mode| mode.word()).collect();
                 let iterations = self.iterations;
-                return Err(StepError::Newton { iterations, residual: remaining * began, modes });
+                let residual = remaining_fraction * initial_residual;
+                return Err(StepError::Newton { iterations, residual, modes });
             }
-            self.guess.copy_from_slice(&self.reached);
+            self.guess.copy_from_slice(&self.stage_solution);
             self.evaluate(linear, data, increment)?;
         }
         Ok(())
     }
 
-    /// Solves the step with the force linearised about the guess, and the fraction `remaining` of the open force.
+    /// Solves the step with the force linearised about the iterate, and returns the relative out-of-balance force.
     ///
-    /// The open force acts as an external force. The increment becomes the next guess. Returns the out-of-balance
-    /// force relative to the largest force.
+    /// The fraction `imbalance_fraction` of the initial out-of-balance force acts as an external force. The increment becomes
+    /// the next iterate. The result is relative to the largest force.
     fn iterate(
         &mut self,
         linear: &mut LinearStep,
         data: StepData<'_>,
-        remaining: f64,
+        imbalance_fraction: f64,
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
         let StepData { scene, structure, .. } = data;
         self.iterations += 1;
-        let weight = scene.coefficients.displacement[0];
+        let stiffness_factor = scene.coefficients.displacement[0];
         self.tangent
             .refill(structure, &self.force_displacement)
             .map_err(StepError::part("tangent of the structure"))?;
@@ -201,43 +216,46 @@ impl NewtonIteration {
             let factor = Factor::of_dofs(model, &scene.coefficients, tangent)
                 .map_err(StepError::part("tangent of the structure"))?;
             let tangent = tangent.clone();
-            linear.operators =
-                Operators::new(model, base, &scene.soil, Factor::Sparse(factor), tangent)
-                    .map_err(StepError::part("tangent of the structure"))?;
+            linear.operators = Operators::new(
+                model,
+                base,
+                &scene.step_compliance,
+                Factor::Sparse(factor),
+                tangent,
+            )
+            .map_err(StepError::part("tangent of the structure"))?;
             linear.contact.invalidate();
         }
-        // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
-        self.linearised.copy_from_slice(&increment.force);
+        // f(u*) linearised about the iterate g: f + θ D (Δu − g), with θ = `stiffness_factor`.
+        self.linearised_force.copy_from_slice(&increment.nonlinear_force);
         let tangent = &linear.operators.tangent;
-        tangent.multiply_add(-weight, &self.guess, &mut self.linearised);
+        tangent.multiply_add(-stiffness_factor, &self.guess, &mut self.linearised_force);
         for (i, du) in increment.displacement.iter_mut().enumerate() {
-            *du = linear.right_side[i] - self.linearised[i];
+            *du = linear.right_hand_side[i] - self.linearised_force[i];
         }
-        if remaining > 0.0 {
-            let open = self.open.iter();
-            increment
-                .displacement
-                .iter_mut()
-                .zip(open)
-                .for_each(|(du, open)| *du += remaining * open);
+        if imbalance_fraction > 0.0 {
+            for (du, imbalance) in increment.displacement.iter_mut().zip(&self.initial_imbalance) {
+                *du += imbalance_fraction * imbalance;
+            }
         }
         linear.solve_contact(data, increment)?;
         self.trials += increment.trials;
         self.method = self.method.max(increment.method);
         let tangent = &linear.operators.tangent;
-        tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
+        tangent.multiply_add(stiffness_factor, &increment.displacement, &mut self.linearised_force);
         self.guess.copy_from_slice(&increment.displacement);
         self.evaluate(linear, data, increment)?;
-        self.scale = largest(&linear.right_side).max(largest(&increment.force));
-        let open = self
-            .linearised
+        self.force_scale =
+            largest(&linear.right_hand_side).max(largest(&increment.nonlinear_force));
+        let imbalance = self
+            .linearised_force
             .iter()
-            .zip(&increment.force)
-            .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        Ok(if self.scale > 0.0 { open / self.scale } else { 0.0 })
+            .zip(&increment.nonlinear_force)
+            .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+        Ok(if self.force_scale > 0.0 { imbalance / self.force_scale } else { 0.0 })
     }
 
-    /// f at u* for the guess, minus f at the static state.
+    /// Evaluates f at u* for the present iterate, minus f at the static state.
     fn evaluate(
         &mut self,
         linear: &mut LinearStep,
@@ -254,16 +272,21 @@ impl NewtonIteration {
             .translations
             .iter()
             .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
-        scene.to_force_displacement(&mut self.force_displacement, &mut linear.means, translations);
-        increment.force.fill(0.0);
-        if let Some(nonlinear) = structure.nonlinear() {
-            nonlinear
-                .force(&self.force_displacement, &mut increment.force)
+        scene.convert_to_force_displacement(
+            &mut self.force_displacement,
+            &mut linear.base_means,
+            translations,
+        );
+        increment.nonlinear_force.fill(0.0);
+        if let Some(nonlinear_force) = structure.nonlinear() {
+            nonlinear_force
+                .force(&self.force_displacement, &mut increment.nonlinear_force)
                 .map_err(StepError::part("nonlinear force of the structure"))?;
         }
-        for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {
-            *force -= at_rest;
+        let static_forces = &scene.static_state.force;
+        for (force, static_force) in increment.nonlinear_force.iter_mut().zip(static_forces) {
+            *force -= static_force;
         }
-        StepError::check_finite("nonlinear force of the structure", &increment.force)
+        StepError::check_finite("nonlinear force of the structure", &increment.nonlinear_force)
     }
 }

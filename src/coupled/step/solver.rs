@@ -10,20 +10,21 @@ use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 
-/// Change of a degree of freedom in a step beyond which a run is lost, in any units.
+/// Largest change of a degree of freedom in a step, in any units; beyond it a run has diverged.
 const MAX_STEP_CHANGE: f64 = 1e15;
 
-/// The linear step, and Newton's method around it for a nonlinear structure.
+/// Solver of a step: a linear step, with Newton's method around it for a nonlinear structure.
 pub(crate) struct Solver {
     linear: LinearStep,
     newton: Option<NewtonIteration>,
 }
 
 impl Solver {
+    /// Solver for a scene's steps.
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            newton: (!scene.model.linear).then(|| NewtonIteration::new(scene.model.coordinates)),
+            newton: (!scene.model.is_linear).then(|| NewtonIteration::new(scene.model.coordinates)),
         }
     }
 
@@ -32,8 +33,8 @@ impl Solver {
         &self.linear.operators
     }
 
-    /// Operators and contact problem, to estimate their condition.
-    pub(crate) fn parts_mut(&mut self) -> (&mut Operators, &mut ContactSolver) {
+    /// Operators and contact solver, for estimates of condition numbers.
+    pub(crate) fn operators_and_contact_mut(&mut self) -> (&mut Operators, &mut ContactSolver) {
         (&mut self.linear.operators, &mut self.linear.contact)
     }
 
@@ -47,24 +48,24 @@ impl Solver {
         if let Some(newton) = newton {
             linear.predict(data);
             newton.solve(linear, data, increment)?;
-            increment.follow(data);
+            increment.set_end_motion(data);
         } else {
             linear.solve(data, increment)?;
         }
-        check(&increment.displacement)
+        check_increment(&increment.displacement)
     }
 }
 
 /// Error for an increment that is not finite or too large.
-fn check(increment: &[f64]) -> Result<(), StepError> {
+fn check_increment(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
     if magnitude(increment) <= MAX_STEP_CHANGE {
         return Ok(());
     }
     StepError::check_finite("displacement of the structure", increment)?;
-    let change = largest(increment);
-    if change > MAX_STEP_CHANGE {
-        Err(StepError::Runaway { increment: change })
+    let max_change = largest(increment);
+    if max_change > MAX_STEP_CHANGE {
+        Err(StepError::Runaway { increment: max_change })
     } else {
         Ok(())
     }

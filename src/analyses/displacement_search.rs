@@ -1,0 +1,86 @@
+//! Search for the force of a target displacement in a push-over.
+
+/// Relative width of the bracket of the largest force at which the search ends.
+pub(super) const LIMIT_TOLERANCE: f64 = 1e-4;
+/// Largest growth of the force in one extrapolation, so that a soft start does not overshoot the limit.
+const MAX_FORCE_GROWTH: f64 = 4.0;
+
+/// Force and displacement of a static state.
+#[derive(Clone, Copy)]
+pub(super) struct ForceDisplacement {
+    pub(super) force: f64,
+    pub(super) displacement: f64,
+}
+
+/// Search for the force of a target displacement.
+///
+/// Between two states it is the regula falsi with halved weights (Illinois method). Beyond all states the force grows
+/// with the last secant stiffness.
+pub(super) struct DisplacementSearch {
+    target: f64,
+    first_force: f64,
+    /// Last state below the target.
+    pub(super) lower: ForceDisplacement,
+    /// Last state above the target.
+    pub(super) upper: Option<ForceDisplacement>,
+    /// Last force without equilibrium.
+    pub(super) failed_force: Option<f64>,
+    /// Weights of the residuals of the lower and the upper state.
+    lower_weight: f64,
+    upper_weight: f64,
+    /// Whether the previous state was above the target.
+    was_above: Option<bool>,
+}
+
+impl DisplacementSearch {
+    pub(super) fn new(target: f64, first_force: f64, lower: ForceDisplacement) -> Self {
+        Self {
+            target,
+            first_force,
+            lower,
+            upper: None,
+            failed_force: None,
+            lower_weight: 1.0,
+            upper_weight: 1.0,
+            was_above: None,
+        }
+    }
+
+    /// Force of the next trial.
+    pub(super) fn next_force(&self) -> f64 {
+        let lower = self.lower;
+        match (self.upper, self.failed_force) {
+            (Some(upper), _) => {
+                let lower_residual = self.lower_weight * (self.target - lower.displacement);
+                let upper_residual = self.upper_weight * (upper.displacement - self.target);
+                (lower.force * upper_residual + upper.force * lower_residual)
+                    / (upper_residual + lower_residual)
+            }
+            (None, Some(failed_force)) => 0.5 * (lower.force + failed_force),
+            (None, None) if lower.displacement == 0.0 => lower.force + self.first_force,
+            (None, None) => lower.force * (self.target / lower.displacement).min(MAX_FORCE_GROWTH),
+        }
+    }
+
+    /// Replaces the lower or the upper state; returns whether it is above the target.
+    pub(super) fn update(&mut self, state: ForceDisplacement) -> bool {
+        let is_above = state.displacement / self.target > 1.0;
+        let is_repeated = self.was_above.replace(is_above) == Some(is_above);
+        let weight_factor = if is_repeated { 0.5 } else { 1.0 };
+        if is_above {
+            self.upper = Some(state);
+            self.lower_weight *= weight_factor;
+            self.upper_weight = 1.0;
+        } else {
+            self.lower = state;
+            self.lower_weight = 1.0;
+            self.upper_weight *= weight_factor;
+        }
+        is_above
+    }
+
+    /// Whether the forces with and without equilibrium agree to the tolerance, relative to `force`.
+    pub(super) fn is_limit(&self, failed_force: f64, force: f64) -> bool {
+        (failed_force - self.lower.force).abs() <= LIMIT_TOLERANCE * force.abs()
+    }
+}
