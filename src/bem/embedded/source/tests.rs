@@ -41,7 +41,7 @@ fn weights_are_the_coefficients_of_the_mobility() {
     let mut at_rest = vec![[Complex::default(); TRENCH_KINDS]; weights.classes.count()];
     TrenchPairs::new(source.soil.clone(), ELEMENT_DEGREE).fill_classes(&compliances, &mut at_rest);
     let place = [0.8_f64.ln(), 0.7];
-    let CirclePoint { z, rest } = on_circle(place[0], place[1]);
+    let CirclePoint { z, one_less_z } = on_circle(place[0], place[1]);
     let mut mobility = at_rest.clone();
     let mut work = crate::bem::layered::LayeredCompliance::default();
     let mut scratch = at_rest.clone();
