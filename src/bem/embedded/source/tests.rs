@@ -52,7 +52,7 @@ fn weights_are_the_coefficients_of_the_mobility() {
         for (kind, lags) in lags(&weights, class).iter().enumerate() {
             let sum: f64 = lags.iter().sum();
             worst[0] = worst[0].max((sum - at_rest[class][kind].re).abs());
-            let mut power = rest;
+            let mut power = one_less_z;
             let mut sum = Complex::default();
             for lag in lags {
                 sum += power.scale(*lag);

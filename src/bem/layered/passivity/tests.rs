@@ -55,7 +55,7 @@ fn mobility_of_random_grounds_is_accretive() {
         let profile = SoilProfile::new(layers, bedrock).unwrap();
         let element_count = random.pick(&[1, 2, 3, 4, 5, 6]);
         let strip = Strip::new(-1.0..1.0, element_count, Grading::Cosine).unwrap();
-        let classes = PairClasses::new(strip.element_count()).unwrap();
+        let classes = PairClasses::new(strip.elements()).unwrap();
         let magnitude = 10.0_f64.powf(random.within(-2.0, 1.5));
         let real_part = magnitude * 10.0_f64.powf(random.within(-3.0, 0.0));
         let s = Complex::new(
