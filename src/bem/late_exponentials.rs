@@ -119,6 +119,13 @@ fn exponential_sum(
             poles[k - 1].polynomial_count.max(poles[k].polynomial_count);
     }
     let polynomial_count = poles.first().map_or(1, |pole| pole.polynomial_count);
+    let rates = poles.iter().map(|pole| pole.s * travel_per_step).collect();
+    let means = legendre_means(classes.elements(), polynomial_count);
+    ExponentialSum::new(rates, means, polynomial_products(&poles, polynomial_count))
+}
+
+/// Products of two Legendre polynomials, with their coefficients for each pole.
+fn polynomial_products(poles: &[Pole], polynomial_count: usize) -> Vec<TailProduct> {
     let mut products = Vec::new();
     for i in 0..polynomial_count {
         for j in (i..polynomial_count).step_by(2) {
@@ -131,8 +138,7 @@ fn exponential_sum(
             products.push(TailProduct { functions: [i, j], normal, tangential });
         }
     }
-    let rates = poles.iter().map(|pole| pole.s * travel_per_step).collect();
-    ExponentialSum::new(rates, legendre_means(classes.elements(), polynomial_count), products)
+    products
 }
 
 /// Exponential of the sum, with the Legendre coefficients of Φ for its rate.

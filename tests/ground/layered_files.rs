@@ -242,7 +242,7 @@ fn files_of_other_kernels_are_made_anew() {
     }
 }
 
-/// GOAL: files that are no kernels are refused and not written over.
+/// GOAL: files that are no kernels cause an error and are not overwritten.
 #[test]
 fn foreign_files_are_refused_and_kept() {
     let file = TemporaryFile::new("foreign");
@@ -250,7 +250,7 @@ fn foreign_files_are_refused_and_kept() {
         file.write(text);
         let fault = fault(bits_with_file(&file.path));
         assert!(
-            matches!(&fault, FileFault::Format { needed, .. } if needed.contains("not written over")),
+            matches!(&fault, FileFault::Format { needed, .. } if needed.contains("not overwritten")),
             "{text:.20}: {fault}"
         );
         assert_eq!(file.read(), text.as_bytes());

@@ -1,22 +1,19 @@
-//! The mobility of a layered ground along its contours.
+//! Mobility of a layered ground along the circles of its convolution quadrature.
 //!
-//! (1−z) Ĝ(z) is smooth in the angle θ of z, except where waves return late. Panels in θ have 24 Chebyshev
-//! points each. They are halved until the last two coefficients are small, which gives a binary tree for
-//! every eigenvalue of Δ(z). The tree of the first eigenvalue, whose waves travel and return, has narrower
-//! panels towards θ = 0, where long waves have a branch point. The waves of the other eigenvalues decay
-//! within a step or two, except for high frequencies with three stages. After a division by (1−z)², a few
-//! panels represent them.
+//! (1−z) Ĝ(z) is smooth in the angle θ of z, except for waves that return late. Panels in θ have 24 Chebyshev points
+//! each. They are halved until the last two coefficients are small, which yields a binary tree for every eigenvalue of
+//! Δ(z). The first eigenvalue represents waves that travel and return. Its tree has narrower panels towards θ = 0, the
+//! branch point of long waves. The waves of the other eigenvalues decay within a step or two, except for high frequencies
+//! with three stages. After a division by (1−z)², a few panels represent them.
 //!
-//! All singularities lie on |z| ≥ 1, and the singularities of undamped layers on the unit circle itself.
-//! Panels lie inside it, at ln |z| = −w/20 for a width w, so that no singularity is missed between two
-//! points. As polynomials of the complex variable ln z they are accurate on every circle from there to the unit
-//! circle. One panel thus serves all blocks of lags. Where panels would need more points than the circle has
-//! there, the circle's own points are evaluated. This always occurs at cut-off frequencies of undamped
-//! layers.
+//! All singularities lie on |z| ≥ 1, and the singularities of undamped layers on the unit circle itself. Panels lie inside
+//! the unit circle, at ln |z| = −w/20 for a width w, so that no singularity is missed between two points. Their
+//! polynomials in the complex variable ln z are accurate on every circle between the panel and the unit circle. All blocks
+//! of lags can therefore use the same panel. On parts of a circle with fewer points than panels need, the mobility is
+//! evaluated at the circle's points. This always occurs at cut-off frequencies of undamped layers.
 //!
-//! A response up to m lags late is a polynomial in z of degree m, with a phase change up to mw over a panel.
-//! After division by the power of z in the middle, the phase change is half of this. A panel that is not
-//! resolved may then be resolved.
+//! A response up to m lags late is a polynomial in z of degree m, whose phase change over a panel is up to mw. Division by
+//! z^(m/2) halves the phase change. It may resolve a panel that is not resolved without division.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -30,53 +27,56 @@ use crate::linalg::Complex;
 
 /// Number of Chebyshev points of a panel.
 pub(crate) const CHEBYSHEV_POINTS: usize = 24;
-/// Number of halvings of θ = 0 … π that give the first panels.
+/// Number of halvings of θ = 0 … π for the first panels.
 const COARSEST_DEPTH: u32 = 2;
 /// −ln |z| of a panel, divided by its width.
 pub(super) const PANEL_OFFSET_RATIO: f64 = 1.0 / 20.0;
 /// Limit of the last Chebyshev coefficients, relative to the tolerance.
 ///
-/// It is below one because their errors grow with the lag, and errors of F do not.
+/// It is below one because errors of coefficients grow with the lag, in contrast to errors of F.
 const COEFFICIENT_LIMIT_FACTOR: f64 = 0.3;
-/// Phase change over half a panel of the powers of z by which functions are divided, in the order of trial.
+/// Phase changes over half a panel of the trial powers of z by which functions are divided.
 ///
-/// Responses come late and never early, so the powers are not negative.
+/// Responses are late and never early, so that the powers are not negative.
 const TRIAL_PHASES: [f64; 2] = [0.0, 4.0];
 
 /// Circle |z| = r for the transform of a block.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Circle {
     /// Number of points of the whole circle.
-    pub(crate) length: usize,
+    pub(crate) point_count: usize,
     /// ln r.
-    pub(crate) logarithm: f64,
+    pub(crate) log_radius: f64,
 }
 
 impl Circle {
-    /// Circle of `length` points for a relative accuracy of F.
-    pub(crate) fn new(length: usize, tolerance: f64) -> Self {
-        // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
-        Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }
+    /// Circle of `point_count` points for a relative accuracy of F.
+    pub(crate) fn new(point_count: usize, tolerance: f64) -> Self {
+        // Aliases ε and amplified errors tol·ε^(−1/2) at the last lag are then about equal.
+        let log_radius = 2.0 / 3.0 * tolerance.ln() / point_count as f64;
+        Self { point_count, log_radius }
     }
 
-    /// Number of points of the upper half, both ends included.
-    pub(crate) fn points(self) -> usize {
-        self.length / 2 + 1
+    /// Number of points of the upper half, with both ends.
+    pub(crate) fn half_circle_points(self) -> usize {
+        self.point_count / 2 + 1
     }
 
     /// Angle of a point, rad.
     pub(crate) fn angle(self, point: usize) -> f64 {
-        std::f64::consts::TAU / self.length as f64 * point as f64
+        std::f64::consts::TAU / self.point_count as f64 * point as f64
     }
 }
 
-/// Ratio of an eigenvalue's contribution to the mobility and the function that panels represent.
-pub(crate) fn panel_factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
-    let rest = on_circle(logarithm, angle).one_less_z;
-    if node == 0 { Complex::real(1.0) } else { rest * rest }
+/// Factor of a panel's function in an eigenvalue's contribution to the mobility.
+///
+/// `log_z`: ln |z| and angle.
+pub(crate) fn panel_factor(node: usize, log_z: [f64; 2]) -> Complex {
+    let one_less_z = on_circle(log_z[0], log_z[1]).one_less_z;
+    if node == 0 { Complex::real(1.0) } else { one_less_z * one_less_z }
 }
 
-/// Panels tested so far, with polynomials on the resolved ones.
+/// Tested panels of an eigenvalue, with polynomials on the resolved panels.
 #[derive(Debug)]
 pub(crate) struct Panels {
     stored: Mutex<HashMap<CirclePanel, Option<Arc<PanelPolynomials>>>>,
@@ -84,7 +84,7 @@ pub(crate) struct Panels {
     pub(super) self_pairs: Arc<[[usize; 2]]>,
 }
 
-/// Functions on a panel, divided by a power of z, by Chebyshev coefficients.
+/// Functions on a panel, divided by a power of z, as Chebyshev series.
 #[derive(Debug)]
 pub(crate) struct PanelPolynomials {
     /// Coefficients degree by degree, one column for each function.
@@ -96,22 +96,22 @@ pub(crate) struct PanelPolynomials {
 impl PanelPolynomials {
     /// Polynomials through `values` at the points of a panel, one column for each function.
     ///
-    /// `None` if no power resolves them. `self_pairs` and `tolerance` as in [`is_resolved`].
+    /// `None` if the panel is not resolved with any power. `self_pairs` and `tolerance` as in [`is_resolved`].
     pub(crate) fn through<const KINDS: usize>(
         values: &[Complex],
         self_pairs: &[[usize; 2]],
         tolerance: f64,
     ) -> Option<Self> {
-        let count = values.len() / CHEBYSHEV_POINTS;
+        let function_count = values.len() / CHEBYSHEV_POINTS;
         for phase in TRIAL_PHASES {
-            let mut divided = values.to_vec();
-            for (x, row) in nodes().zip(divided.chunks_exact_mut(count)) {
+            let mut quotients = values.to_vec();
+            for (x, row) in nodes().zip(quotients.chunks_exact_mut(function_count)) {
                 let inverse_power = Complex::polar(1.0, -phase * x);
                 for value in row {
                     *value = *value * inverse_power;
                 }
             }
-            let coefficients = chebyshev_coefficients(&divided);
+            let coefficients = chebyshev_coefficients(&quotients);
             if is_resolved::<KINDS>(&coefficients, self_pairs, tolerance, phase) {
                 return Some(Self { coefficients, phase });
             }
@@ -120,7 +120,7 @@ impl PanelPolynomials {
     }
 }
 
-/// A panel of the half circle: the `index`-th of 2^`depth` equal panels.
+/// Panel of the half circle: the `index`-th of 2^`depth` equal panels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct CirclePanel {
     depth: u32,
@@ -128,20 +128,20 @@ pub(crate) struct CirclePanel {
 }
 
 impl CirclePanel {
-    /// Panels of half the width.
+    /// Two panels of half the width.
     fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
     }
 
-    /// Angle, rad.
+    /// Width as an angle, rad.
     pub(super) fn width(self) -> f64 {
         PI / (1_usize << self.depth) as f64
     }
 
     /// Points of a circle on this panel.
     pub(super) fn points_of(self, circle: Circle) -> Range<usize> {
-        let points = (circle.points() - 1) >> self.depth;
-        self.index * points..(self.index + 1) * points
+        let point_count = (circle.half_circle_points() - 1) >> self.depth;
+        self.index * point_count..(self.index + 1) * point_count
     }
 
     /// ln |z| and angle of the Chebyshev points of this panel.
@@ -153,21 +153,21 @@ impl CirclePanel {
     }
 }
 
-/// Chebyshev points.
+/// Chebyshev points in −1 … 1, in descending order.
 pub(super) fn nodes() -> impl Iterator<Item = f64> {
     (0..CHEBYSHEV_POINTS).map(|i| (PI * (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64).cos())
 }
 
-/// Chebyshev coefficients of values at the points, one column for each function.
+/// Chebyshev coefficients from values at the Chebyshev points, one column for each function.
 pub(super) fn chebyshev_coefficients(values: &[Complex]) -> Vec<Complex> {
-    let count = values.len() / CHEBYSHEV_POINTS;
+    let function_count = values.len() / CHEBYSHEV_POINTS;
     let mut coefficients = vec![Complex::default(); values.len()];
-    for (degree, row) in coefficients.chunks_exact_mut(count).enumerate() {
-        for (i, values) in values.chunks_exact(count).enumerate() {
+    for (degree, row) in coefficients.chunks_exact_mut(function_count).enumerate() {
+        for (i, point_values) in values.chunks_exact(function_count).enumerate() {
             let angle = PI * (degree as f64 * (i as f64 + 0.5)) / CHEBYSHEV_POINTS as f64;
-            let unit = if degree == 0 { 1.0 } else { 2.0 } / CHEBYSHEV_POINTS as f64;
-            let factor = unit * angle.cos();
-            for (sum, value) in row.iter_mut().zip(values) {
+            let normalisation = if degree == 0 { 1.0 } else { 2.0 } / CHEBYSHEV_POINTS as f64;
+            let factor = normalisation * angle.cos();
+            for (sum, value) in row.iter_mut().zip(point_values) {
                 *sum += value.scale(factor);
             }
         }
@@ -176,11 +176,12 @@ pub(super) fn chebyshev_coefficients(values: &[Complex]) -> Vec<Complex> {
 }
 
 impl Panels {
-    /// No panels yet; `self_pairs`: as the field.
+    /// Empty store of panels; `self_pairs` has, for each class, the classes of its two elements with themselves.
     pub(crate) fn new(self_pairs: &Arc<[[usize; 2]]>) -> Self {
         Self { stored: Mutex::default(), self_pairs: Arc::clone(self_pairs) }
     }
 
+    /// Locks the store of tested panels.
     pub(super) fn stored(
         &self,
     ) -> MutexGuard<'_, HashMap<CirclePanel, Option<Arc<PanelPolynomials>>>> {
@@ -197,18 +198,18 @@ impl Panels {
 pub(in crate::bem) fn self_pair_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
     let mut self_pairs = vec![[0; 2]; classes.count()];
     let pairs = classes.pairs();
-    let elements = classes.elements().len();
-    for (number, pair) in pairs.iter().enumerate() {
-        let members = [number / elements, number % elements];
-        self_pairs[pair.class] = members.map(|element| pairs[element * (elements + 1)].class);
+    let element_count = classes.elements().len();
+    for (index, pair) in pairs.iter().enumerate() {
+        let elements = [index / element_count, index % element_count];
+        self_pairs[pair.class] = elements.map(|element| pairs[element * (element_count + 1)].class);
     }
     self_pairs
 }
 
-/// Whether the last two `coefficients` are small, up to the unit circle.
+/// Whether the last two `coefficients` are small, also on the unit circle.
 ///
 /// They are compared with the coefficients of the pairs of the elements with themselves; `self_pairs` has, for each
-/// class, the classes of these pairs. `phase` belongs to the coefficients.
+/// class, the classes of these pairs. `phase` is the phase change of the power of z over half the panel.
 fn is_resolved<const KINDS: usize>(
     coefficients: &[Complex],
     self_pairs: &[[usize; 2]],
@@ -220,37 +221,40 @@ fn is_resolved<const KINDS: usize>(
     let limit = COEFFICIENT_LIMIT_FACTOR * tolerance
         / growth.powf((CHEBYSHEV_POINTS - 1) as f64)
         / (phase * shift).exp();
-    let degrees: Vec<_> = coefficients
+    let rows_by_degree: Vec<_> = coefficients
         .chunks_exact(self_pairs.len() * KINDS)
         .map(|row| row.as_chunks::<KINDS>().0)
         .collect();
-    let mut sizes = Vec::with_capacity(self_pairs.len());
+    let mut class_magnitudes = Vec::with_capacity(self_pairs.len());
     for class in 0..self_pairs.len() {
-        // The diagonal of a symmetric matrix comes first.
-        let mut size = f64::INFINITY;
-        for kind in 0..KINDS.div_ceil(2) {
-            size = size.min(degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max));
+        // The first components are the diagonal of the pair's symmetric matrix.
+        let mut min_magnitude = f64::INFINITY;
+        for component in 0..KINDS.div_ceil(2) {
+            let magnitudes = rows_by_degree.iter().map(|row| row[class][component].abs());
+            min_magnitude = min_magnitude.min(magnitudes.fold(0.0, f64::max));
         }
-        sizes.push(size);
+        class_magnitudes.push(min_magnitude);
     }
-    let [.., next_to_last, last] = &degrees[..] else { return false };
+    let [.., next_to_last, last] = &rows_by_degree[..] else { return false };
     next_to_last.iter().zip(*last).zip(self_pairs).all(|((one, two), classes)| {
-        let max_size = limit * classes.map(|class| sizes[class]).iter().product::<f64>().sqrt();
-        one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= max_size)
+        let magnitudes = classes.map(|class| class_magnitudes[class]);
+        let max_sum = limit * magnitudes.iter().product::<f64>().sqrt();
+        one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= max_sum)
     })
 }
 
 /// Panels and single points that cover the upper half of a circle.
 pub(crate) struct CircleCover {
     pub(crate) panels: Vec<CirclePanel>,
-    /// Points on none of the panels, in ascending order.
+    /// Points outside all panels, in ascending order.
     pub(crate) points: Vec<usize>,
 }
 
 impl Circle {
     /// Covers the upper half of a circle by resolved panels and single points.
     ///
-    /// `are_resolved` returns for each of some panels of one width whether it is resolved.
+    /// `node` is the index of the eigenvalue. `are_resolved` receives panels of one width, and returns for each whether it
+    /// is resolved.
     pub(crate) fn cover(
         self,
         node: usize,
@@ -272,13 +276,13 @@ impl Circle {
         }
         let mut points: Vec<_> =
             panels.into_iter().flat_map(|panel| panel.points_of(self)).collect();
-        points.push(self.points() - 1);
+        points.push(self.half_circle_points() - 1);
         Ok(CircleCover { panels: resolved_panels, points })
     }
 
-    /// Whether a panel lies near enough to the circle, and replaces more points than it has.
+    /// Whether a panel is close enough to the circle, and replaces more points than it has.
     fn can_use(self, panel: CirclePanel) -> bool {
-        let is_near = -self.logarithm <= 2.0 * PANEL_OFFSET_RATIO * panel.width();
-        is_near && panel.points_of(self).len() > CHEBYSHEV_POINTS
+        let is_close = -self.log_radius <= 2.0 * PANEL_OFFSET_RATIO * panel.width();
+        is_close && panel.points_of(self).len() > CHEBYSHEV_POINTS
     }
 }

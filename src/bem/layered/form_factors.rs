@@ -1,13 +1,13 @@
 //! Form factors of element pairs in the wavenumber domain, on fixed panels.
 //!
-//! For a source of length `l_q` and a receiver of length `l_p`, X to its right, the integrals of e^(ik(x−ξ))
-//! over both are `S_p` `S_q` cos kX and `S_p` `S_q` sin kX with S = 2 sin(kl/2)/k. Panels are so narrow that
-//! the phase of these changes by at most 16 radians, which 16 Gauss points resolve. Form factors depend only
-//! on the mesh. Each panel is therefore computed once, when it is first needed.
+//! The receiver of length `l_p` lies at the distance X to the right of the source of length `l_q`. The integrals of
+//! e^(ik(x−ξ)) over both elements are `S_p` `S_q` cos kX and `S_p` `S_q` sin kX with S = 2 sin(kl/2)/k. Panels are so
+//! narrow that the phase of these form factors changes by at most 16 radians, which 16 Gauss points resolve. Form factors
+//! depend only on the mesh. The table of a panel is therefore computed once, at its first use.
 //!
-//! Wide panels, 2, 4, 8 … times as long, also have 16 Gauss points. There C/k² is approximated by a
-//! polynomial Σ cₙ Pₙ(x), while `S_p` `S_q` k² is exact, as four waves e^(iky), with
-//! ∫ Pₙ(x) e^(i(κ+hx)y) dx = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
+//! Wide panels, 2, 4, 8 … times as wide, also have 16 Gauss points. On a wide panel C/k² is a polynomial Σ cₙ Pₙ(x), and
+//! `S_p` `S_q` k² is an exact sum of four waves e^(iky), with
+//! ∫ Pₙ(x) e^(i(κ+hx)y) dx = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's quadrature).
 
 use std::sync::OnceLock;
 
@@ -19,21 +19,31 @@ use crate::linalg::gauss::Rule;
 pub(crate) const PANEL_POINTS: usize = 16;
 /// Number of Legendre coefficients of the form factors on a panel: J₃₂(8) is 7e-17.
 pub(crate) const LEGENDRE_DEGREES: usize = 32;
-/// Phase change of the fastest form factor over a panel, rad.
+/// Phase change of the fastest form factor over a panel, rad: 16 Gauss points resolve it to rounding.
 const PANEL_PHASE: f64 = 16.0;
-/// Number of pairs summed together.
+/// Number of pairs in one block, summed by vector instructions.
 pub(crate) const PAIR_LANES: usize = 4;
-/// Number of panel widths, each twice the one before.
+/// Number of panel widths, each twice the width before: they reach the largest number of panels.
 pub(crate) const PANEL_LEVEL_COUNT: usize = 14;
-/// Largest memory for tables at Gauss points, bytes; panels beyond it are computed each time.
+/// Largest memory for tables at Gauss points, bytes; panels beyond it are computed at each use.
 const MAX_TABLE_BYTES: usize = 256 << 20;
+/// Largest number of stored narrow panels.
+const MAX_STORED_PANELS: usize = 1 << 14;
+/// Largest number of stored panels with Legendre coefficients: few panels are halved.
+const MAX_STORED_LEGENDRE_PANELS: usize = 1 << 12;
+/// Largest number of narrow panels of one integral that stored wide panels cover.
+const MAX_COVERED_PANELS: usize = 1 << 17;
+/// Largest half phase for which sin x/x equals its first two series terms to rounding.
+const MAX_SINC_SERIES_ARGUMENT: f64 = 1e-4;
+/// Additional Gauss points for Legendre coefficients, for their precision.
+const EXTRA_PROJECTION_POINTS: usize = 8;
 
-/// zz, xx, zx: real and imaginary part of each, for [`PAIR_LANES`] pairs.
+/// Sums for [`PAIR_LANES`] pairs: real and imaginary parts of zz, xx and zx.
 pub(crate) type Sums = [[f64; PAIR_LANES]; 6];
 /// Even and odd form factors of [`PAIR_LANES`] pairs.
 pub(crate) type FormRow = [[f64; PAIR_LANES]; 2];
 
-/// A pair of elements in the wavenumber domain.
+/// Lengths and distance of a pair of elements, for its form factors.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PairShape {
     /// Lengths of source and receiver, m.
@@ -45,7 +55,7 @@ pub(crate) struct PairShape {
 impl PairShape {
     fn new(source: ContactElement, receiver: ContactElement) -> Self {
         let lengths = [source.length(), receiver.length()];
-        // The offset of an element from itself must be exactly zero.
+        // The offset of a pair of an element with itself must be exactly zero.
         let offset =
             if source == receiver { 0.0 } else { receiver.center()[0] - source.center()[0] };
         Self { lengths, offset }
@@ -55,7 +65,7 @@ impl PairShape {
     fn form_factors(&self, k: f64) -> [f64; 2] {
         let factors = self.lengths.map(|length| {
             let half_phase = 0.5 * k * length;
-            if half_phase < 1e-4 {
+            if half_phase < MAX_SINC_SERIES_ARGUMENT {
                 length * (1.0 - half_phase * half_phase / 6.0)
             } else {
                 length * half_phase.sin() / half_phase
@@ -71,24 +81,24 @@ impl PairShape {
     ///
     /// For each wave: the distance y ≥ 0 of cos ky and sin ky, and the factors of both.
     pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
-        let Self { lengths: [q, p], offset } = *self;
-        let half_sum = 0.5 * (p + q);
-        let half_difference = 0.5 * (p - q);
-        let ends = [
+        let Self { lengths: [source_length, receiver_length], offset } = *self;
+        let half_sum = 0.5 * (receiver_length + source_length);
+        let half_difference = 0.5 * (receiver_length - source_length);
+        let end_distances = [
             (offset + half_sum, -1.0),
             (offset - half_difference, 1.0),
             (offset + half_difference, 1.0),
             (offset - half_sum, -1.0),
         ];
-        ends.map(|(y, sign)| {
-            // The odd part of an element with itself is exactly zero.
+        end_distances.map(|(y, sign)| {
+            // The odd form factor of an element with itself is exactly zero.
             let direction = if offset == 0.0 { 0.0 } else { y.signum() };
             (y.abs(), [sign, sign * direction])
         })
     }
 }
 
-/// A panel of wavenumbers: the `index`-th of the panels 2^`level` times as long as the narrowest.
+/// Panel of wavenumbers: the `index`-th of the panels 2^`level` times as wide as the narrowest.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Panel {
     pub(crate) level: u32,
@@ -96,37 +106,37 @@ pub(crate) struct Panel {
 }
 
 impl Panel {
-    /// Halves of the panel.
+    /// Two panels of half the width.
     pub(crate) fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { level: self.level - 1, index: 2 * self.index + half })
     }
 }
 
-/// Form factors of the pairs of a patch, with tables of the panels used so far.
+/// Form factors of all classes of pairs, with tables of the used panels.
 #[derive(Debug)]
 pub(crate) struct FormFactors {
     pub(crate) shapes: Vec<PairShape>,
-    /// Width of a panel, 1/m.
+    /// Width of the narrowest panels, 1/m.
     pub(crate) width: f64,
     pub(crate) rule: Rule,
     /// Rule for Legendre coefficients of the form factors.
     projection_rule: Rule,
-    /// For each panel: blocks of pairs with rows of Gauss points.
+    /// Tables of the narrow panels: block by block of pairs, a row for each Gauss point.
     values: Tables,
-    /// For each panel: blocks of pairs with rows of Legendre coefficients.
+    /// Tables of the narrow panels: block by block of pairs, a row for each Legendre polynomial.
     legendre: Tables,
-    /// For each level above the first: as `values`.
-    wide: [OnceLock<Tables>; PANEL_LEVEL_COUNT],
-    /// Number of panels of one level whose tables are stored.
-    stored_panels: usize,
+    /// Tables of the wide panels of each level, as `values`.
+    wide_values: [OnceLock<Tables>; PANEL_LEVEL_COUNT],
+    /// Largest number of stored tables of one level.
+    max_stored_tables: usize,
 }
 
-/// Tables of some panels, computed when first needed.
+/// Tables of panels, each computed at its first use.
 type Tables = Box<[OnceLock<Box<[FormRow]>>]>;
 
-/// Tables of `count` panels, not yet computed.
-fn empty_tables(count: usize) -> Tables {
-    (0..count).map(|_| OnceLock::new()).collect()
+/// Tables of `panel_count` panels, not yet computed.
+fn empty_tables(panel_count: usize) -> Tables {
+    (0..panel_count).map(|_| OnceLock::new()).collect()
 }
 
 impl FormFactors {
@@ -136,32 +146,33 @@ impl FormFactors {
             .filter_map(|class| classes.representative(class).ok())
             .map(|[source, receiver]| PairShape::new(source, receiver))
             .collect();
-        let blocks = shapes.len().div_ceil(PAIR_LANES);
-        let panels = MAX_TABLE_BYTES / (blocks * PANEL_POINTS * size_of::<FormRow>()).max(1);
+        let block_count = shapes.len().div_ceil(PAIR_LANES);
+        let table_bytes = (block_count * PANEL_POINTS * size_of::<FormRow>()).max(1);
+        let max_tables = MAX_TABLE_BYTES / table_bytes;
         Self {
             width: PANEL_PHASE / classes.span(),
             rule: Rule::new(PANEL_POINTS),
-            projection_rule: Rule::new(LEGENDRE_DEGREES + 8),
-            values: empty_tables(panels.min(1 << 14)),
-            legendre: empty_tables((panels / 4).clamp(1, 1 << 12)),
-            wide: [const { OnceLock::new() }; PANEL_LEVEL_COUNT],
-            stored_panels: (panels / 8).max(1),
+            projection_rule: Rule::new(LEGENDRE_DEGREES + EXTRA_PROJECTION_POINTS),
+            values: empty_tables(max_tables.min(MAX_STORED_PANELS)),
+            legendre: empty_tables((max_tables / 4).clamp(1, MAX_STORED_LEGENDRE_PANELS)),
+            wide_values: [const { OnceLock::new() }; PANEL_LEVEL_COUNT],
+            max_stored_tables: (max_tables / 8).max(1),
             shapes,
         }
     }
 
     /// Number of blocks of [`PAIR_LANES`] pairs.
-    pub(crate) fn blocks(&self) -> usize {
+    pub(crate) fn block_count(&self) -> usize {
         self.shapes.len().div_ceil(PAIR_LANES)
     }
 
-    /// Number of wide panels of a level whose tables are stored.
-    fn stored_wide_panels(&self, level: u32) -> usize {
-        self.stored_panels.min((1 << 17) >> level)
+    /// Number of stored tables of a level of wide panels.
+    fn wide_table_count(&self, level: u32) -> usize {
+        self.max_stored_tables.min(MAX_COVERED_PANELS >> level)
     }
 
-    /// Left end of a panel and its width, 1/m.
-    pub(crate) fn extent(&self, Panel { level, index }: Panel) -> [f64; 2] {
+    /// Start of a panel and its width, 1/m.
+    pub(crate) fn start_and_width(&self, Panel { level, index }: Panel) -> [f64; 2] {
         let width = self.width * (1_u64 << level) as f64;
         [width * index as f64, width]
     }
@@ -173,19 +184,19 @@ impl FormFactors {
             return Self::with_table(&self.values, index, || self.table(index, &self.rule), apply);
         }
         let level = (panel.level as usize).min(PANEL_LEVEL_COUNT - 1);
-        let tables =
-            self.wide[level].get_or_init(|| empty_tables(self.stored_wide_panels(panel.level)));
+        let tables = self.wide_values[level]
+            .get_or_init(|| empty_tables(self.wide_table_count(panel.level)));
         Self::with_table(tables, index, || self.wide_table(panel), apply);
     }
 
-    /// Calls `apply` with the rows of `panel` for Legendre polynomials.
+    /// Calls `apply` with the rows of a narrow panel for Legendre polynomials of degree 0, 1, ….
     ///
-    /// Degrees 0, 1, …; rows are weights of ∫ C Pₙ dk.
+    /// Rows are weights of the moments ∫ C Pₙ dk.
     pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[FormRow])) {
         Self::with_table(&self.legendre, panel, || self.legendre_table(panel), apply);
     }
 
-    /// Calls `apply` with the table of a panel, which is computed now if it is not stored.
+    /// Calls `apply` with the stored or newly computed table of a panel.
     fn with_table(
         tables: &[OnceLock<Box<[FormRow]>>],
         panel: usize,
@@ -200,26 +211,26 @@ impl FormFactors {
 
     /// Rows of a narrow panel at the points of a rule.
     fn table(&self, panel: usize, rule: &Rule) -> Box<[FormRow]> {
-        let points = rule.nodes.len();
-        let mut rows = vec![FormRow::default(); self.blocks() * points];
+        let point_count = rule.nodes.len();
+        let mut rows = vec![FormRow::default(); self.block_count() * point_count];
         for (class, shape) in self.shapes.iter().enumerate() {
             for (i, node) in rule.nodes.iter().enumerate() {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
-                let row = &mut rows[class / PAIR_LANES * points + i];
-                for (part, value) in shape.form_factors(k).into_iter().enumerate() {
-                    row[part][class % PAIR_LANES] = value;
+                let row = &mut rows[class / PAIR_LANES * point_count + i];
+                for (parity, value) in shape.form_factors(k).into_iter().enumerate() {
+                    row[parity][class % PAIR_LANES] = value;
                 }
             }
         }
         rows.into_boxed_slice()
     }
 
-    /// Rows of a wide panel: factors of the sum of C and weights over Gauss points.
+    /// Rows of a wide panel at its Gauss points, from exact moments of the form factors.
     fn wide_table(&self, panel: Panel) -> Box<[FormRow]> {
-        let extent = self.extent(panel);
-        let half_width = 0.5 * extent[1];
-        let middle = extent[0] + 0.5 * extent[1];
-        let mut rows = vec![FormRow::default(); self.blocks() * PANEL_POINTS];
+        let [start, width] = self.start_and_width(panel);
+        let half_width = 0.5 * width;
+        let middle = start + 0.5 * width;
+        let mut rows = vec![FormRow::default(); self.block_count() * PANEL_POINTS];
         let polynomials: Vec<_> = self.rule.nodes.iter().map(|x| legendre(*x)).collect();
         for (class, shape) in self.shapes.iter().enumerate() {
             let mut moments = [[0.0; 2]; PANEL_POINTS];
@@ -230,19 +241,19 @@ impl FormFactors {
                 // Real and imaginary part of iⁿ e^(iκy), n = 0 … 3.
                 let phases = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
                 for (n, bessel) in spherical_bessel(half_width * y).into_iter().enumerate() {
-                    for part in 0..2 {
-                        let size = 2.0 * (n as f64 + 0.5) * bessel;
-                        moments[n][part] += factors[part] * size * phases[n % 4][part];
+                    for parity in 0..2 {
+                        let amplitude = 2.0 * (n as f64 + 0.5) * bessel;
+                        moments[n][parity] += factors[parity] * amplitude * phases[n % 4][parity];
                     }
                 }
             }
             for (i, (node, polynomials)) in self.rule.nodes.iter().zip(&polynomials).enumerate() {
                 let k = middle + half_width * node;
                 let row = &mut rows[class / PAIR_LANES * PANEL_POINTS + i];
-                for part in 0..2 {
+                for parity in 0..2 {
                     let terms = moments.iter().zip(polynomials);
-                    let sum: f64 = terms.map(|(moment, p)| moment[part] * p).sum();
-                    row[part][class % PAIR_LANES] = sum / (k * k);
+                    let form_factor: f64 = terms.map(|(moment, p)| moment[parity] * p).sum();
+                    row[parity][class % PAIR_LANES] = form_factor / (k * k);
                 }
             }
         }
@@ -251,21 +262,21 @@ impl FormFactors {
 
     /// Rows of a narrow panel for Legendre polynomials.
     fn legendre_table(&self, panel: usize) -> Box<[FormRow]> {
-        let points = self.projection_rule.nodes.len();
+        let point_count = self.projection_rule.nodes.len();
         let values = self.table(panel, &self.projection_rule);
-        let mut rows = vec![FormRow::default(); self.blocks() * LEGENDRE_DEGREES];
+        let mut rows = vec![FormRow::default(); self.block_count() * LEGENDRE_DEGREES];
         for (i, (node, weight)) in
             self.projection_rule.nodes.iter().zip(&self.projection_rule.weights).enumerate()
         {
             let polynomials = legendre(*node);
-            for block in 0..self.blocks() {
-                let value = &values[block * points + i];
+            for block in 0..self.block_count() {
+                let point_row = &values[block * point_count + i];
                 for (degree, polynomial) in polynomials.iter().enumerate() {
                     let factor = (degree as f64 + 0.5) * weight * polynomial;
                     let row = &mut rows[block * LEGENDRE_DEGREES + degree];
-                    for part in 0..2 {
+                    for parity in 0..2 {
                         for lane in 0..PAIR_LANES {
-                            row[part][lane] += factor * value[part][lane];
+                            row[parity][lane] += factor * point_row[parity][lane];
                         }
                     }
                 }
@@ -275,20 +286,21 @@ impl FormFactors {
     }
 }
 
-/// jₙ(t), n = 0 … 15, for t ≥ 0.
+/// Spherical Bessel functions jₙ(t), n = 0 … 15, for t ≥ 0.
 fn spherical_bessel(t: f64) -> [f64; PANEL_POINTS] {
-    /// Degree from which the downward recurrence is stable to the degrees needed, for t up to their number.
+    /// Degree at the start of the downward recurrence: the returned degrees are then exact for t up to their number.
     const DOWNWARD_START_DEGREE: usize = 64;
     let mut values = [0.0; PANEL_POINTS];
     if t < 1.0 {
         // tⁿ/(2n+1)!! (1 − t²/2/(2n+3) (1 − t²/4/(2n+5) (1 − …)))
         let mut power = 1.0;
         for (n, value) in values.iter_mut().enumerate() {
-            let odd = (2 * n + 1) as f64;
+            let two_n_plus_one = (2 * n + 1) as f64;
             let terms = (1..=10).rev().map(f64::from);
-            let series = terms.fold(1.0, |sum, i| 1.0 - sum * t * t / (2.0 * i * (odd + 2.0 * i)));
+            let series = terms
+                .fold(1.0, |sum, i| 1.0 - sum * t * t / (2.0 * i * (two_n_plus_one + 2.0 * i)));
             *value = power * series;
-            power *= t / (odd + 2.0);
+            power *= t / (two_n_plus_one + 2.0);
         }
         return values;
     }
@@ -302,28 +314,30 @@ fn spherical_bessel(t: f64) -> [f64; PANEL_POINTS] {
         }
         return values;
     }
-    let mut above = 0.0;
+    // The start is so small that the recurrence does not overflow.
+    let mut next_value = 0.0;
     let mut value = 1e-200;
     for n in (1..=DOWNWARD_START_DEGREE).rev() {
-        let below = (2 * n + 1) as f64 / t * value - above;
-        (above, value) = (value, below);
+        let previous_value = (2 * n + 1) as f64 / t * value - next_value;
+        next_value = value;
+        value = previous_value;
         if n <= PANEL_POINTS {
             values[n - 1] = value;
         }
     }
-    // The recurrence gives multiples of the functions. The larger of the first two, which is not zero, gives the factor.
+    // The recurrence yields multiples of the functions. The larger of j₀ and j₁, which is not zero, determines the factor.
     let j0 = sin / t;
     let j1 = (sin / t - cos) / t;
     let scale = if j0.abs() > j1.abs() { j0 / values[0] } else { j1 / values[1] };
     values.map(|value| scale * value)
 }
 
-/// Legendre polynomials at x.
+/// Legendre polynomials of degree 0, 1, … at x.
 pub(crate) fn legendre(x: f64) -> [f64; LEGENDRE_DEGREES] {
     legendre_at([x]).map(|[value]| value)
 }
 
-/// Legendre polynomials at several x.
+/// Legendre polynomials of degree 0, 1, … at several x.
 pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; LEGENDRE_DEGREES] {
     let mut values = [[1.0; N]; LEGENDRE_DEGREES];
     values[1] = x;
@@ -348,21 +362,24 @@ const LEGENDRE_RECURRENCE: [[f64; 2]; LEGENDRE_DEGREES] = {
     factors
 };
 
-/// Adds Σ coefficient × row to the sums of all pairs; with many pairs, this takes nearly all the time.
+/// Adds Σ coefficient × row to the sums of all pairs.
+///
+/// With many pairs, nearly all computing time is spent here.
 pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
-    for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
-        let mut local = *sums;
-        for (row, c) in rows.iter().zip(coefficients) {
+    for (block_rows, block_sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
+        // A local copy stays in registers.
+        let mut local_sums = *block_sums;
+        for (row, c) in block_rows.iter().zip(coefficients) {
             for lane in 0..PAIR_LANES {
-                local[0][lane] += c[0] * row[0][lane];
-                local[1][lane] += c[1] * row[0][lane];
-                local[2][lane] += c[2] * row[0][lane];
-                local[3][lane] += c[3] * row[0][lane];
-                local[4][lane] += c[4] * row[1][lane];
-                local[5][lane] += c[5] * row[1][lane];
+                local_sums[0][lane] += c[0] * row[0][lane];
+                local_sums[1][lane] += c[1] * row[0][lane];
+                local_sums[2][lane] += c[2] * row[0][lane];
+                local_sums[3][lane] += c[3] * row[0][lane];
+                local_sums[4][lane] += c[4] * row[1][lane];
+                local_sums[5][lane] += c[5] * row[1][lane];
             }
         }
-        *sums = local;
+        *block_sums = local_sums;
     }
 }
 

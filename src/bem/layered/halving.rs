@@ -2,61 +2,68 @@
 
 use super::compliance::SurfaceCompliance;
 use super::form_factors::{LEGENDRE_DEGREES, PANEL_POINTS, Panel, legendre_at};
-use super::tail::grid;
+use super::tail::panel_count_step;
 use super::wavenumber::{
     IntegralBuffers, MIN_TAIL_PHASE, PanelResult, Wavenumbers, weighted_parts,
 };
 use crate::linalg::Complex;
 use crate::linalg::gauss::Rule;
 
-/// Rounding error of C relative to its largest value on a panel.
+/// Rounding error of the Legendre coefficients of C, relative to the largest value on a panel.
 pub(crate) const ROUNDING_FLOOR_FACTOR: f64 = 3e-14;
-/// Exponent of the tolerance for Legendre coefficients neglected on the narrowest panels and their halves.
+/// Exponent of the tolerance for neglected Legendre coefficients on the narrowest panels and their halves.
 ///
-/// 16 points integrate products up to degree 31, so the error is about the coefficients' power 3/2 to 5/3.
+/// 16 points integrate products up to degree 31 exactly, so that the error is about the power 3/2 to 5/3 of the
+/// neglected coefficients.
 pub(crate) const PANEL_TOLERANCE_EXPONENT: f64 = 2.0 / 3.0;
-/// Largest number of successive halvings of a panel.
+/// Largest number of successive halvings of a panel: narrower parts are below rounding of the wavenumber.
 const MAX_HALVING_DEPTH: u32 = 44;
-/// Largest number of halves of one integral: rounding above [`ROUNDING_FLOOR_FACTOR`] must not halve for ever.
+/// Largest number of halves of one integral: halving must end if rounding exceeds [`ROUNDING_FLOOR_FACTOR`].
 const MAX_HALVES: usize = 1 << 16;
 
-/// Halves the panel from `start`, of width `panel_width`, until C is resolved on every part.
+/// Halves a panel until C is resolved on every part.
 ///
-/// `sample` gets the left end and the width of a part, and returns its samples and whether they resolve it.
-/// `take` gets the position and size of a resolved part relative to the panel, its width and its samples.
-/// Returns the wavenumber at which halving stopped as the error.
+/// `panel`: start and width. `sample_part` receives the start and the width of a part, and returns its samples and whether
+/// they resolve the part. `use_part` receives a resolved part: start and size relative to the panel, width and samples.
+///
+/// # Errors
+/// The wavenumber at which halving stopped without success.
 pub(crate) fn by_halves<S>(
-    [start, panel_width]: [f64; 2],
+    panel: [f64; 2],
     stack: &mut Vec<(f64, f64, u32)>,
-    mut sample: impl FnMut(f64, f64) -> (S, bool),
-    mut take: impl FnMut([f64; 2], f64, S),
+    mut sample_part: impl FnMut(f64, f64) -> (S, bool),
+    mut use_part: impl FnMut([f64; 2], f64, S),
 ) -> std::result::Result<(), f64> {
-    let mut halves = 0;
+    let [panel_start, panel_width] = panel;
+    let mut half_count = 0;
     stack.clear();
     stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
-    while let Some((place, size, depth)) = stack.pop() {
-        let left = start + panel_width * place;
-        let width = panel_width * size;
-        let (samples, is_resolved) = sample(left, width);
+    while let Some((part_start, part_size, depth)) = stack.pop() {
+        let start = panel_start + panel_width * part_start;
+        let width = panel_width * part_size;
+        let (samples, is_resolved) = sample_part(start, width);
         if is_resolved {
-            take([place, size], width, samples);
-        } else if depth < MAX_HALVING_DEPTH && halves < MAX_HALVES {
-            halves += 2;
-            let half = 0.5 * size;
-            stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
+            use_part([part_start, part_size], width, samples);
+        } else if depth < MAX_HALVING_DEPTH && half_count < MAX_HALVES {
+            half_count += 2;
+            let half_size = 0.5 * part_size;
+            stack.extend([
+                (part_start + half_size, half_size, depth + 1),
+                (part_start, half_size, depth + 1),
+            ]);
         } else {
-            return Err(left);
+            return Err(start);
         }
     }
     Ok(())
 }
 
-/// Median of the samples' sizes: a single sample near a pole does not represent the integral.
-pub(crate) fn median(mut sizes: [f64; PANEL_POINTS]) -> f64 {
-    *sizes.select_nth_unstable_by(PANEL_POINTS / 2, f64::total_cmp).1
+/// Median of the samples' magnitudes, for the integral's magnitude: a single sample near a pole does not represent it.
+pub(crate) fn median(mut magnitudes: [f64; PANEL_POINTS]) -> f64 {
+    *magnitudes.select_nth_unstable_by(PANEL_POINTS / 2, f64::total_cmp).1
 }
 
-/// Largest size of the last two Legendre coefficients of functions given by `samples` at Gauss points.
+/// Largest sum of the magnitudes of the last two Legendre coefficients, for functions sampled at Gauss points.
 ///
 /// `None` if a coefficient is not a number.
 pub(crate) fn last_coefficients<const N: usize>(
@@ -64,123 +71,127 @@ pub(crate) fn last_coefficients<const N: usize>(
     rule: &Rule,
     polynomials: &[[f64; LEGENDRE_DEGREES]],
 ) -> Option<f64> {
-    let mut last = [[Complex::default(); N]; 2];
-    for ((values, weight), polynomials) in samples.zip(&rule.weights).zip(polynomials) {
-        for (degree, last) in [PANEL_POINTS - 2, PANEL_POINTS - 1].into_iter().zip(&mut last) {
-            let factor = (degree as f64 + 0.5) * weight * polynomials[degree];
-            for (last, value) in last.iter_mut().zip(values) {
-                *last += value.scale(factor);
+    let mut coefficients = [[Complex::default(); N]; 2];
+    for ((values, weight), point_polynomials) in samples.zip(&rule.weights).zip(polynomials) {
+        for (degree, sums) in
+            [PANEL_POINTS - 2, PANEL_POINTS - 1].into_iter().zip(&mut coefficients)
+        {
+            let factor = (degree as f64 + 0.5) * weight * point_polynomials[degree];
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += value.scale(factor);
             }
         }
     }
-    let errors: [f64; N] = std::array::from_fn(|c| last[0][c].abs() + last[1][c].abs());
+    let errors: [f64; N] =
+        std::array::from_fn(|c| coefficients[0][c].abs() + coefficients[1][c].abs());
     (!errors.iter().sum::<f64>().is_nan()).then(|| errors.into_iter().fold(0.0, f64::max))
 }
 
-/// Largest errors of the integral over a panel.
+/// Largest allowed errors of the integral over a panel.
 struct MaxErrors {
-    /// On panels wider than the narrowest.
+    /// Error on panels wider than the narrowest.
     wide: f64,
-    /// On the narrowest panels and their halves.
+    /// Error on the narrowest panels and their halves.
     narrow: f64,
 }
 
 impl Wavenumbers {
-    /// Calls `take` with each panel up to K and the result on it.
+    /// Calls `use_panel` with each panel up to K and the result on it.
     pub(super) fn integrate_panels(
         &self,
-        panels: usize,
-        work: &mut IntegralBuffers,
+        panel_count: usize,
+        buffers: &mut IntegralBuffers,
         compliance: &mut dyn FnMut(f64) -> SurfaceCompliance,
-        take: &mut dyn FnMut(Panel, PanelResult),
+        use_panel: &mut dyn FnMut(Panel, PanelResult),
     ) -> std::result::Result<(), f64> {
-        let max_errors = self.sample_widest_panels(panels, work, compliance);
-        for place in 0..work.samples.len() {
-            let (mut panel, mut samples) = work.samples[place];
-            work.wide.clear();
+        let max_errors = self.sample_widest_panels(panel_count, buffers, compliance);
+        for index in 0..buffers.samples.len() {
+            let (mut panel, mut samples) = buffers.samples[index];
+            buffers.panel_stack.clear();
             loop {
-                let extent = self.forms.extent(panel);
+                let start_and_width = self.forms.start_and_width(panel);
                 let is_narrow = panel.level == 0;
                 let max_error = if is_narrow { max_errors.narrow } else { max_errors.wide };
-                if self.is_resolved(&samples, extent, max_error) {
-                    take(panel, PanelResult::Samples(&samples));
+                if self.is_resolved(&samples, start_and_width, max_error) {
+                    use_panel(panel, PanelResult::Samples(&samples));
                 } else if is_narrow {
-                    let moments = self.halve_panel(extent, max_error, work, compliance)?;
-                    take(panel, PanelResult::Moments(&moments));
+                    let moments =
+                        self.halve_panel(start_and_width, max_error, buffers, compliance)?;
+                    use_panel(panel, PanelResult::Moments(&moments));
                 } else {
-                    work.wide.extend(panel.halves().into_iter().rev());
+                    buffers.panel_stack.extend(panel.halves().into_iter().rev());
                 }
-                let Some(next) = work.wide.pop() else { break };
-                panel = next;
-                samples = self.compliance_samples(self.forms.extent(panel), compliance);
-                work.evaluations += PANEL_POINTS;
+                let Some(next_panel) = buffers.panel_stack.pop() else { break };
+                panel = next_panel;
+                samples = self.compliance_samples(self.forms.start_and_width(panel), compliance);
+                buffers.evaluation_count += PANEL_POINTS;
             }
         }
         Ok(())
     }
 
-    /// Calls `take` with the widest panels up to K.
+    /// Calls `use_panel` with the widest panels up to K.
     pub(super) fn for_each_widest_panel(
         &self,
-        panels: usize,
+        panel_count: usize,
         stack: &mut Vec<Panel>,
-        mut take: impl FnMut(Panel),
+        mut use_panel: impl FnMut(Panel),
     ) {
-        let widest = grid(panels);
+        let widest = panel_count_step(panel_count);
         let level = widest.ilog2();
         stack.clear();
-        stack.extend((0..panels / widest).rev().map(|index| Panel { level, index }));
+        stack.extend((0..panel_count / widest).rev().map(|index| Panel { level, index }));
         while let Some(panel) = stack.pop() {
-            let left = self.forms.extent(panel)[0];
-            // Near k = 0 the four waves of a wide panel would cancel.
-            if panel.level > 0 && (panel.index < 2 || left * self.shortest < MIN_TAIL_PHASE) {
+            let start = self.forms.start_and_width(panel)[0];
+            // Near k = 0 the four waves of a wide panel nearly cancel.
+            if panel.level > 0 && (panel.index < 2 || start * self.min_length < MIN_TAIL_PHASE) {
                 stack.extend(panel.halves().into_iter().rev());
             } else {
-                take(panel);
+                use_panel(panel);
             }
         }
     }
 
-    /// Stores samples on the widest panels up to K in `work.samples`.
+    /// Stores samples on the widest panels up to K in `buffers.samples`.
     fn sample_widest_panels(
         &self,
-        panels: usize,
-        work: &mut IntegralBuffers,
+        panel_count: usize,
+        buffers: &mut IntegralBuffers,
         compliance: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> MaxErrors {
-        let IntegralBuffers { samples, wide, .. } = work;
+        let IntegralBuffers { samples, panel_stack, .. } = buffers;
         samples.clear();
-        let mut integral_size = 0.0;
-        self.for_each_widest_panel(panels, wide, |panel| {
-            let extent = self.forms.extent(panel);
-            let panel_samples = self.compliance_samples(extent, compliance);
-            let size = median(panel_samples.map(|c| c.xx.abs() + c.zz.abs()));
-            let middle = extent[0] + 0.5 * extent[1];
-            let form_size = (2.0 / (middle * self.longest)).powi(2).min(1.0);
-            integral_size += 0.5 * extent[1] * form_size * size;
+        let mut integral_magnitude = 0.0;
+        self.for_each_widest_panel(panel_count, panel_stack, |panel| {
+            let [start, width] = self.forms.start_and_width(panel);
+            let panel_samples = self.compliance_samples([start, width], compliance);
+            let magnitude = median(panel_samples.map(|c| c.xx.abs() + c.zz.abs()));
+            let middle = start + 0.5 * width;
+            let relative_form = (2.0 / (middle * self.max_length)).powi(2).min(1.0);
+            integral_magnitude += 0.5 * width * relative_form * magnitude;
             samples.push((panel, panel_samples));
         });
-        work.evaluations += PANEL_POINTS * work.samples.len();
+        buffers.evaluation_count += PANEL_POINTS * buffers.samples.len();
         MaxErrors {
-            wide: self.tolerance * integral_size,
-            narrow: self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_size,
+            wide: self.tolerance * integral_magnitude,
+            narrow: self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_magnitude,
         }
     }
 
-    /// C at the Gauss points of a panel, by its left end and its width.
+    /// C at the Gauss points of a panel from its start and width.
     fn compliance_samples(
         &self,
-        [left, width]: [f64; 2],
+        [start, width]: [f64; 2],
         compliance: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> [SurfaceCompliance; PANEL_POINTS] {
-        std::array::from_fn(|i| compliance(left + 0.5 * width * (1.0 + self.forms.rule.nodes[i])))
+        std::array::from_fn(|i| compliance(start + 0.5 * width * (1.0 + self.forms.rule.nodes[i])))
     }
 
     /// Whether the last two Legendre coefficients of C are small enough.
     fn is_resolved(
         &self,
         samples: &[SurfaceCompliance; PANEL_POINTS],
-        [left, width]: [f64; 2],
+        [start, width]: [f64; 2],
         max_error: f64,
     ) -> bool {
         let values = samples.iter().map(|sample| [sample.xx, sample.zz, sample.xz]);
@@ -188,39 +199,40 @@ impl Wavenumbers {
         let Some(error) = last_coefficients(values.clone(), rule, &self.polynomials) else {
             return false;
         };
-        let sizes = values.flatten().map(|value| value.re.abs().max(value.im.abs()));
-        let largest = sizes.fold(0.0_f64, f64::max);
-        let form_size = (2.0 / (left * self.shortest)).powi(2).min(1.0);
-        error * width * form_size <= max_error || error <= ROUNDING_FLOOR_FACTOR * largest
+        let magnitudes = values.flatten().map(|value| value.re.abs().max(value.im.abs()));
+        let max_magnitude = magnitudes.fold(0.0_f64, f64::max);
+        let relative_form = (2.0 / (start * self.min_length)).powi(2).min(1.0);
+        error * width * relative_form <= max_error || error <= ROUNDING_FLOOR_FACTOR * max_magnitude
     }
 
-    /// ∫ C Pₙ dk over one panel, by repeated halving.
+    /// Moments ∫ C Pₙ dk over one panel, by repeated halving.
     fn halve_panel(
         &self,
-        extent: [f64; 2],
+        panel: [f64; 2],
         max_error: f64,
-        work: &mut IntegralBuffers,
+        buffers: &mut IntegralBuffers,
         compliance: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> std::result::Result<[[f64; 6]; LEGENDRE_DEGREES], f64> {
         let rule = &self.forms.rule;
         let mut moments = [[0.0; 6]; LEGENDRE_DEGREES];
-        let IntegralBuffers { stack, evaluations, .. } = work;
-        let sample = |left: f64, width: f64| {
-            *evaluations += PANEL_POINTS;
-            let samples = self.compliance_samples([left, width], compliance);
-            let is_resolved = self.is_resolved(&samples, [left, width], max_error);
+        let IntegralBuffers { part_stack, evaluation_count, .. } = buffers;
+        let sample_part = |start: f64, width: f64| {
+            *evaluation_count += PANEL_POINTS;
+            let samples = self.compliance_samples([start, width], compliance);
+            let is_resolved = self.is_resolved(&samples, [start, width], max_error);
             (samples, is_resolved)
         };
-        by_halves(extent, stack, sample, |[place, size], width, samples| {
-            let x: [f64; PANEL_POINTS] =
-                std::array::from_fn(|i| 2.0 * (place + 0.5 * size * (1.0 + rule.nodes[i])) - 1.0);
+        by_halves(panel, part_stack, sample_part, |[part_start, part_size], width, samples| {
+            let x: [f64; PANEL_POINTS] = std::array::from_fn(|i| {
+                2.0 * (part_start + 0.5 * part_size * (1.0 + rule.nodes[i])) - 1.0
+            });
             let polynomials = legendre_at(x);
             let c: [[f64; 6]; PANEL_POINTS] =
                 std::array::from_fn(|i| weighted_parts(&samples[i], 0.5 * width * rule.weights[i]));
-            for (moment, polynomials) in moments.iter_mut().zip(&polynomials) {
-                for (polynomial, c) in polynomials.iter().zip(&c) {
-                    for (moment, c) in moment.iter_mut().zip(c) {
-                        *moment += polynomial * c;
+            for (degree_moments, degree_polynomials) in moments.iter_mut().zip(&polynomials) {
+                for (polynomial, parts) in degree_polynomials.iter().zip(&c) {
+                    for (moment, part) in degree_moments.iter_mut().zip(parts) {
+                        *moment += polynomial * part;
                     }
                 }
             }

@@ -1,11 +1,10 @@
 //! Dynamic stiffness of a rigid strip on layered ground.
 //!
-//! F(iω) are the element compliances. The columns of A are the resultants of unit tractions (horizontal,
-//! vertical, rocking), which also describe the rigid motions. Then K = Aᵀ F⁻¹ A.
+//! F(iω) are the element compliances. The columns of A are the resultants of unit tractions (horizontal, vertical,
+//! rocking), which are also the rigid motions. The stiffness is K = Aᵀ F⁻¹ A.
 //!
-//! Without damping, poles lie on the path of the integrals at s = iω. K(s) is nevertheless analytic there,
-//! except at the frequencies at which guided waves begin. It is therefore evaluated at iω + η, 2η, … 8η and
-//! extrapolated.
+//! Without damping, poles lie on the path of the integrals at s = iω. K(s) is still analytic at this s, except at the
+//! frequencies at which guided waves begin. It is therefore computed at iω + η, iω + 2η, … iω + 8η and extrapolated.
 
 use basemat_fourier::num_complex::Complex64;
 
@@ -22,8 +21,8 @@ use crate::soil::{Bedrock, SoilProfile};
 /// Dynamic stiffness of a rigid, massless strip for motions e^(iωt), per metre of its length.
 ///
 /// x to the right, y down; a positive rotation lowers the right end; forces act on the soil. The reference
-/// point is the middle of the patch, and of the base of a body in a trench. The real part is stiffness (less the
-/// inertia of soil that moves along). The imaginary part is damping, by radiation and in the soil.
+/// point is the middle of the elements; for a body in a trench, the middle of its base. The real part is the stiffness
+/// minus the inertia of the soil. The imaginary part is the damping by radiation and in the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -42,7 +41,7 @@ pub struct StripImpedance {
 }
 
 impl StripImpedance {
-    /// The entries, in the order of the fields.
+    /// Entries of the stiffness in the order of the fields.
     fn entries(&self) -> [Complex; 4] {
         [self.horizontal, self.vertical, self.rocking, self.coupling]
     }
@@ -68,24 +67,24 @@ pub enum StripContact {
     /// Soil and strip move together.
     #[default]
     Bonded,
-    /// Vertical motions cause no shear, horizontal motions no pressure; no coupling.
+    /// Vertical motions cause no shear, horizontal motions no pressure; the coupling is zero.
     Relaxed,
 }
 
-/// Relative tolerance of the element compliances; the error of the elements themselves is much larger.
+/// Relative tolerance of the element compliances: far below the discretisation error.
 const COMPLIANCE_TOLERANCE: f64 = 1e-9;
-/// Largest Im μ/|μ| of a layer that counts as undamped.
+/// Largest Im μ/|μ| of an undamped layer: poles are then too close to the path.
 const UNDAMPED_LOSS_RATIO: f64 = 1e-6;
-/// Number of points of the extrapolation.
+/// Number of points of the extrapolation for a frequency.
 const POINTS_PER_FREQUENCY: usize = 8;
-/// Largest distance between these points, relative to ω.
+/// Largest distance between these points, relative to ω, for an accurate extrapolation.
 const MAX_SPACING_PER_FREQUENCY: f64 = 0.04;
-/// Largest distance between these points, times the travel time of waves.
+/// Largest distance between these points, times the travel time of waves, for an accurate extrapolation.
 const MAX_SPACING_BY_TRAVEL_TIME: f64 = 0.1;
-/// Largest relative difference between the extrapolations from 8 and from 7 points.
+/// Largest relative difference between the extrapolations from 8 and from 7 points: engineering accuracy.
 const EXTRAPOLATION_TOLERANCE: f64 = 1e-3;
 
-/// Progress of impedances at `frequencies`; its parts are points of the Laplace plane, eight per frequency.
+/// Reporter of progress for impedances at `frequencies`: it counts Laplace variables, eight per frequency.
 pub(in crate::bem) fn impedance_progress<'a>(
     frequencies: &[f64],
     observer: &'a mut Observer<'_>,
@@ -99,17 +98,17 @@ pub(in crate::bem) fn strip_impedances(
     elements: &[ContactElement],
     frequencies: &[f64],
     contact: StripContact,
-    watch: &mut ProgressReporter,
+    progress: &mut ProgressReporter,
 ) -> Result<Vec<StripImpedance>> {
     let strip = RigidStripSystem::new(profile, elements, contact)?;
     let mut variables = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
-        require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
+        let is_defined = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
+        require("frequency of an impedance on a half-plane", *frequency, is_defined, "above zero")?;
         variables.push(laplace_variables(profile, strip.classes.span(), *frequency)?);
     }
     let stiffnesses =
-        extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
+        extrapolated_stiffnesses(&variables, &[0, 1, 2], progress, |s| strip.stiffness(s))?;
     let mut impedances = Vec::with_capacity(frequencies.len());
     for (&frequency, entries) in frequencies.iter().zip(stiffnesses) {
         impedances.push(StripImpedance {
@@ -148,7 +147,7 @@ pub(in crate::bem) fn laplace_variables(
 
 /// K(iω) of each frequency from its samples at the [`laplace_variables`] of the frequency.
 ///
-/// `stiffness` returns a sample; `watch` is notified of each. The entries in `checked_entries` must agree between the
+/// `stiffness` returns a sample; each is reported to `progress`. The entries in `checked_entries` must agree between the
 /// extrapolations from all samples and from all but the last.
 ///
 /// # Errors
@@ -156,25 +155,25 @@ pub(in crate::bem) fn laplace_variables(
 pub(in crate::bem) fn extrapolated_stiffnesses<const N: usize>(
     variables: &[Vec<Complex>],
     checked_entries: &[usize],
-    watch: &mut ProgressReporter,
+    progress: &mut ProgressReporter,
     mut stiffness: impl FnMut(Complex) -> Result<[Complex; N]>,
 ) -> Result<Vec<[Complex; N]>> {
     let mut stiffnesses = Vec::with_capacity(variables.len());
-    for (number, points) in variables.iter().enumerate() {
-        let mut samples = Vec::with_capacity(points.len());
-        for s in points {
+    for (index, frequency_variables) in variables.iter().enumerate() {
+        let mut samples = Vec::with_capacity(frequency_variables.len());
+        for s in frequency_variables {
             samples.push(stiffness(*s)?);
-            if samples.len() < points.len() {
-                watch.reach(POINTS_PER_FREQUENCY * number + samples.len())?;
+            if samples.len() < frequency_variables.len() {
+                progress.reach(POINTS_PER_FREQUENCY * index + samples.len())?;
             }
         }
-        stiffnesses.push(extrapolate(&samples, checked_entries, points[0].im)?);
-        watch.reach(POINTS_PER_FREQUENCY * (number + 1))?;
+        stiffnesses.push(extrapolate(&samples, checked_entries, frequency_variables[0].im)?);
+        progress.reach(POINTS_PER_FREQUENCY * (index + 1))?;
     }
     Ok(stiffnesses)
 }
 
-/// K(iω) at one frequency from its samples.
+/// K(iω) at one frequency, extrapolated from its samples.
 fn extrapolate<const N: usize>(
     samples: &[[Complex; N]],
     checked_entries: &[usize],
@@ -183,32 +182,32 @@ fn extrapolate<const N: usize>(
     if let [sample] = samples {
         return Ok(*sample);
     }
-    let limit = polynomial_at_zero(samples);
-    let coarse_limit = polynomial_at_zero(&samples[..samples.len() - 1]);
+    let stiffness = polynomial_at_zero(samples);
+    let coarse_stiffness = polynomial_at_zero(&samples[..samples.len() - 1]);
     for &entry in checked_entries {
-        let change = (limit[entry] - coarse_limit[entry]).abs();
-        if change.is_nan() || change > EXTRAPOLATION_TOLERANCE * limit[entry].abs() {
+        let change = (stiffness[entry] - coarse_stiffness[entry]).abs();
+        if change.is_nan() || change > EXTRAPOLATION_TOLERANCE * stiffness[entry].abs() {
             return Err(unresolved(Complex::new(0.0, omega), 0.0));
         }
     }
-    Ok(limit)
+    Ok(stiffness)
 }
 
-/// Lagrange's polynomial through samples at 1, 2, …, at zero.
+/// Value at zero of the Lagrange polynomial through samples at 1, 2, ….
 fn polynomial_at_zero<const N: usize>(samples: &[[Complex; N]]) -> [Complex; N] {
-    let count = samples.len();
-    let mut sum = [Complex::default(); N];
-    for (j, sample) in (1..=count).zip(samples) {
-        let others = (1..=count).filter(|m| *m != j);
-        let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
-        for (sum, value) in sum.iter_mut().zip(sample) {
+    let sample_count = samples.len();
+    let mut sums = [Complex::default(); N];
+    for (j, sample) in (1..=sample_count).zip(samples) {
+        let other_points = (1..=sample_count).filter(|m| *m != j);
+        let weight: f64 = other_points.map(|m| m as f64 / (m as f64 - j as f64)).product();
+        for (sum, value) in sums.iter_mut().zip(sample) {
             *sum += value.scale(weight);
         }
     }
-    sum
+    sums
 }
 
-/// A rigid strip on a layered ground.
+/// Rigid strip on a layered ground, for its stiffness.
 struct RigidStripSystem<'a> {
     profile: &'a SoilProfile,
     contact: StripContact,
@@ -229,13 +228,13 @@ impl<'a> RigidStripSystem<'a> {
         let layout = classes.layout();
         let middle = 0.5 * (elements[0].left() + elements[elements.len() - 1].right());
         let mut motions = vec![Complex64::default(); 3 * layout.len()];
-        for (p, element) in elements.iter().enumerate() {
+        for (e, element) in elements.iter().enumerate() {
             let length = element.length();
-            let vertical = layout.place(0, p);
-            let horizontal = layout.place(1, p);
-            motions[3 * horizontal].re = length;
-            motions[3 * vertical + 1].re = length;
-            motions[3 * vertical + 2].re = length * (element.center()[0] - middle);
+            let vertical_row = layout.place(0, e);
+            let horizontal_row = layout.place(1, e);
+            motions[3 * horizontal_row].re = length;
+            motions[3 * vertical_row + 1].re = length;
+            motions[3 * vertical_row + 2].re = length * (element.center()[0] - middle);
         }
         Ok(Self { profile, contact, classes, integrals, motions })
     }
@@ -243,7 +242,7 @@ impl<'a> RigidStripSystem<'a> {
     /// Entries hh, vv, rr and hr of Aᵀ F⁻¹ A.
     fn stiffness(&self, s: Complex) -> Result<[Complex; 4]> {
         let compliances = if s == Complex::default() {
-            static_compliance::pairs(self.profile, &self.classes)?
+            static_compliance::pair_compliances(self.profile, &self.classes)?
         } else {
             let mut values = vec![[Complex::default(); STRIP_KINDS]; self.classes.count()];
             self.integrals.compliance(
@@ -258,9 +257,9 @@ impl<'a> RigidStripSystem<'a> {
         let layout = self.classes.layout();
         let order = layout.len();
         if self.contact == StripContact::Relaxed {
-            for (place, value) in matrix.iter_mut().enumerate() {
+            for (index, value) in matrix.iter_mut().enumerate() {
                 // Displacements in another direction than the traction are set to zero.
-                if layout.origin(place / order)[0] != layout.origin(place % order)[0] {
+                if layout.origin(index / order)[0] != layout.origin(index % order)[0] {
                     *value = Complex64::default();
                 }
             }

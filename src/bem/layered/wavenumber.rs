@@ -1,57 +1,56 @@
 //! Element compliances of a layered ground by integrals over the wavenumber.
 //!
-//! `F_zz` = (1/π) ∫₀^∞ `C_zz` `S_p` `S_q` cos kX dk, `F_xx` alike, and
+//! `F_zz` = (1/π) ∫₀^∞ `C_zz` `S_p` `S_q` cos kX dk, `F_xx` with `C_xx` in place of `C_zz`, and
 //! `F_zx` = −(1/π) ∫₀^∞ `C_zx` `S_p` `S_q` sin kX dk (down due to shear, receiver X to the right),
 //! integrals over receiver and source, m²/Pa × m.
 //!
-//! For Re s > 0 and passive layers no pole lies on the real axis, so the path is the axis itself. A path in
-//! the complex plane would need the poles of backward waves. Panels of 16 Gauss points are halved until C is
-//! a polynomial there. The first panels are as wide as C permits, for any elements; wide panels have weights
-//! that contain the form factors. Halves of the narrowest panels contribute to the pairs through Legendre
-//! moments over the whole panel, so that only C is evaluated more often. Beyond K the integral is a
-//! [series](super::tail).
+//! For Re s > 0 and passive layers no pole lies on the real axis, so that the path is the axis itself. A path in the
+//! complex plane would need the poles of backward waves. Panels of 16 Gauss points are halved until C is a polynomial on
+//! each. The first panels are as wide as C permits, for any elements: the weights of wide panels contain the form factors.
+//! Halves of the narrowest panels enter through Legendre moments over the whole panel, so that form factors need no
+//! further evaluation. Beyond K the integral is a [series](super::tail).
 
 use super::compliance::{LayeredCompliance, SurfaceCompliance};
 use super::form_factors::{
     FormFactors, LEGENDRE_DEGREES, PAIR_LANES, PANEL_POINTS, Panel, Sums, accumulate, legendre,
 };
-use super::tail::{TAIL_START_RATIO, TAIL_TERMS, Tails, on_grid, surface_series};
+use super::tail::{TAIL_START_RATIO, TAIL_TERMS, Tails, rounded_panel_count, surface_series};
 use crate::error::{Error, GroundError, ProgressReporter, Result};
 use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Number of decay lengths in the top layer beyond which its bottom has no effect: e^(−2·20) is 4e-18.
+/// Depth, in decay lengths, at which the bottom of the top layer does not affect the surface: e^(−2·20) is 4e-18.
 const OPAQUE_DECAY_LENGTHS: f64 = 20.0;
-/// Smallest K × shortest element for which the second differences of the tail keep their digits.
+/// Smallest K × shortest element for which the second differences of the tail are accurate.
 pub(super) const MIN_TAIL_PHASE: f64 = 0.05;
-/// Largest number of panels of one integral.
+/// Largest number of panels of one integral, to limit computing time and memory.
 const MAX_PANEL_COUNT: f64 = 65_536.0;
-/// Largest number of panels required by short elements.
-const MAX_PANELS_FOR_SHORT: f64 = 100.0;
+/// Largest number of panels required by short elements: their errors are small relative to longer elements.
+const MAX_PANELS_FOR_SHORT_ELEMENTS: f64 = 100.0;
 
-/// Element compliances F(s) of classes of pairs, with several kinds for each class.
-pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
+/// Element compliances F(s) of classes of pairs, with `KINDS` components for each class.
+pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Workspace of one thread.
     type Workspace: Default;
 
-    /// Sum of the errors of late weights, divided by the 2/3 power of the tolerance and the sum of all weights.
+    /// Sum of the errors of late weights, relative to the sum of all weights times the 2/3 power of the tolerance.
     const LATE_ERROR_FACTOR: f64 = 0.0;
 
     /// Number of points of the passivity check.
     const PASSIVITY_POINTS: usize = 40;
 
-    /// Computes the data common to all compliances, if they are missing.
+    /// Computes the data common to all compliances at the first call.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped).
-    fn make_ready(&self, _watch: &mut ProgressReporter) -> Result<()> {
+    fn make_ready(&self, _progress: &mut ProgressReporter) -> Result<()> {
         Ok(())
     }
 
     /// Overwrites `values`, one per class, with the compliances at `s`, integrals over receiver and source.
     ///
-    /// Re s > 0, or damped layers.
+    /// Re s must be above zero, or all layers damped.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`GroundError::Unresolved`].
@@ -59,13 +58,13 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Self::Workspace,
-        values: &mut [[Complex; STRIP_KINDS]],
+        workspace: &mut Self::Workspace,
+        values: &mut [[Complex; KINDS]],
     ) -> Result<()>;
 
-    /// Appends the surface compliance at a few wavenumbers, a cheap substitute for the compliances at `s`.
+    /// Appends a surrogate of the compliances at `s` that needs a hundredth of their time.
     ///
-    /// [`SURROGATE_COMPONENTS`] numbers each, in a hundredth of the time.
+    /// The surrogate is the surface compliance at a few wavenumbers, [`SURROGATE_COMPONENTS`] numbers for each.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
@@ -73,28 +72,31 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Self::Workspace,
+        workspace: &mut Self::Workspace,
         values: &mut Vec<Complex>,
     ) -> Result<()>;
 }
 
-/// Wavenumbers of an outlook, times the length of the patch.
+/// Wavenumbers of a surrogate, times the span of the elements.
 ///
-/// The first is always used, the others if a slab carries waves along the patch.
+/// The first is always used, the others if a slab transmits waves along the elements.
 const SURROGATE_WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
-/// Number of components of the surface compliance in an outlook: zz, xx, xz.
+/// Number of components of the surface compliance in a surrogate: zz, xx, xz.
 pub(crate) const SURROGATE_COMPONENTS: usize = 3;
 
-/// Integrals over the wavenumber for the pairs of a patch.
+/// Integrals over the wavenumber for all pairs of elements.
 #[derive(Debug)]
 pub(crate) struct Wavenumbers {
     pub(crate) forms: FormFactors,
     tails: Tails,
     /// Legendre polynomials at the Gauss points.
     pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
+    /// Length of all elements together, m.
     pub(crate) span: f64,
-    pub(crate) shortest: f64,
-    pub(super) longest: f64,
+    /// Length of the shortest element, m.
+    pub(crate) min_length: f64,
+    /// Length of the longest element, m.
+    pub(super) max_length: f64,
     /// Accuracy relative to the compliance of an element with itself.
     pub(super) tolerance: f64,
 }
@@ -106,18 +108,21 @@ pub(crate) struct StripWorkspace {
     pub(super) panels: IntegralBuffers,
 }
 
-/// Workspace for the panels of successive integrals.
+/// Buffers for the panels of successive integrals.
 #[derive(Debug, Default)]
 pub(super) struct IntegralBuffers {
+    /// C at the points of the widest panels.
     pub(super) samples: Vec<(Panel, [SurfaceCompliance; PANEL_POINTS])>,
     sums: Vec<Sums>,
-    pub(super) wide: Vec<Panel>,
-    pub(super) stack: Vec<(f64, f64, u32)>,
-    /// Number of evaluations of C so far.
-    pub(super) evaluations: usize,
+    /// Stack of panels to be sampled.
+    pub(super) panel_stack: Vec<Panel>,
+    /// Stack of [`by_halves`](super::halving::by_halves).
+    pub(super) part_stack: Vec<(f64, f64, u32)>,
+    /// Number of evaluations of C.
+    pub(super) evaluation_count: usize,
 }
 
-/// Result on a panel: C at its points, or the moments of its halves.
+/// Result on a panel: C at its points, or moments from its halves.
 pub(super) enum PanelResult<'a> {
     Samples(&'a [SurfaceCompliance; PANEL_POINTS]),
     Moments(&'a [[f64; 6]; LEGENDRE_DEGREES]),
@@ -131,58 +136,57 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Self::Workspace,
+        workspace: &mut Self::Workspace,
         values: &mut [[Complex; STRIP_KINDS]],
     ) -> Result<()> {
-        let StripWorkspace { compliance, panels: buffers } = work;
+        let StripWorkspace { compliance, panels: buffers } = workspace;
         compliance.set(profile, s)?;
         // The series of the tail converges from this wavenumber on.
         let min_k = TAIL_START_RATIO * compliance.root();
-        let panels = self.panels(min_k.max(top_layer_wavenumber(profile)))?;
-        self.sum_panels(panels, buffers, &mut |k| compliance.at(k))
+        let panel_count = self.panel_count(min_k.max(top_layer_wavenumber(profile)))?;
+        self.sum_panels(panel_count, buffers, &mut |k| compliance.at(k))
             .map_err(|k| unresolved(s, k))?;
-        self.add_tail(compliance, panels, buffers);
+        self.add_tail(compliance, panel_count, buffers);
         self.copy_sums(buffers, values);
         Ok(())
     }
 
-    /// Appends the surface compliance at small wavenumbers, and for waves along the shortest element and the
-    /// patch.
     fn append_surrogate(
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Self::Workspace,
+        workspace: &mut Self::Workspace,
         values: &mut Vec<Complex>,
     ) -> Result<()> {
-        work.compliance.set(profile, s)?;
-        let lengths = [self.shortest, self.span];
-        work.panels.evaluations +=
-            append_surface_surrogate(profile, &mut work.compliance, lengths, values);
+        workspace.compliance.set(profile, s)?;
+        let lengths = [self.min_length, self.span];
+        workspace.panels.evaluation_count +=
+            append_surface_surrogate(profile, &mut workspace.compliance, lengths, values);
         Ok(())
     }
 }
 
-/// Appends the surface compliance at small wavenumbers, and for waves along shortest element and patch.
+/// Appends the surrogate of the compliances of elements: surface compliances, weighted by waves along the elements.
 ///
-/// Returns the number of evaluations.
+/// `lengths`: of the shortest element and of all elements, m. Returns the number of evaluations.
 pub(crate) fn append_surface_surrogate(
     profile: &SoilProfile,
     compliance: &mut LayeredCompliance,
-    [shortest, span]: [f64; 2],
+    lengths: [f64; 2],
     values: &mut Vec<Complex>,
 ) -> usize {
+    let span = lengths[1];
     let mut wavenumbers = &SURROGATE_WAVENUMBERS[..1];
-    if let Some((top, (below, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
-        // A slab stiffer along the patch than the ground below it transmits waves along the patch.
+    if let Some((top, (lower_soil, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
+        // A slab that is stiffer along the elements than the ground below transmits waves along them.
         let slab_stiffness = top.soil.shear_modulus() * top.thickness;
-        if slab_stiffness > below.shear_modulus() * span {
+        if slab_stiffness > lower_soil.shear_modulus() * span {
             wavenumbers = &SURROGATE_WAVENUMBERS[..];
         }
     }
     let root = compliance.top().q2.sqrt();
     let one = Complex::real(1.0);
-    let waves = [shortest, span].map(|distance| {
+    let waves = lengths.map(|distance| {
         let exponent = root.scale(distance);
         (-exponent).exp() / (one + exponent)
     });
@@ -198,18 +202,18 @@ impl Wavenumbers {
     /// Integrals for all classes of pairs.
     pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
         let forms = FormFactors::new(classes);
-        let mut shortest = f64::INFINITY;
-        let mut longest = 0.0_f64;
+        let mut min_length = f64::INFINITY;
+        let mut max_length = 0.0_f64;
         for element in classes.elements() {
-            shortest = shortest.min(element.length());
-            longest = longest.max(element.length());
+            min_length = min_length.min(element.length());
+            max_length = max_length.max(element.length());
         }
         Self {
             polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
             tails: Tails::default(),
             span: classes.span(),
-            shortest,
-            longest,
+            min_length,
+            max_length,
             tolerance,
             forms,
         }
@@ -217,28 +221,29 @@ impl Wavenumbers {
 
     /// Overwrites `values` with the compliances at s = 0.
     ///
-    /// `surface` returns C up to a wavenumber of at least `min_k` (1/m). Beyond, the static tail of the top layer of
-    /// `compliance` is used.
+    /// `surface_at` returns C up to a wavenumber of at least `min_k` (1/m). The static tail of the top layer of
+    /// `compliance` is used beyond.
     pub(super) fn static_compliance(
         &self,
         compliance: &LayeredCompliance,
         min_k: f64,
-        work: &mut IntegralBuffers,
+        buffers: &mut IntegralBuffers,
         values: &mut [[Complex; STRIP_KINDS]],
-        surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
+        surface_at: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
-        let panels = self.panels(min_k)?;
-        self.sum_panels(panels, work, surface)
+        let panel_count = self.panel_count(min_k)?;
+        self.sum_panels(panel_count, buffers, surface_at)
             .map_err(|k| unresolved(Complex::default(), k))?;
-        self.add_tail(compliance, panels, work);
-        self.copy_sums(work, values);
+        self.add_tail(compliance, panel_count, buffers);
+        self.copy_sums(buffers, values);
         Ok(())
     }
 
     /// Number of panels up to K ≥ `min_k`.
-    fn panels(&self, min_k: f64) -> Result<usize> {
+    fn panel_count(&self, min_k: f64) -> Result<usize> {
         let width = self.forms.width;
-        let min_k_of_tail = (MIN_TAIL_PHASE / self.shortest).min(MAX_PANELS_FOR_SHORT * width);
+        let min_k_of_tail =
+            (MIN_TAIL_PHASE / self.min_length).min(MAX_PANELS_FOR_SHORT_ELEMENTS * width);
         let count = (min_k / width).max(min_k_of_tail / width).ceil().max(1.0);
         if count > MAX_PANEL_COUNT {
             let span = self.span;
@@ -247,43 +252,55 @@ impl Wavenumbers {
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         let count = count as usize;
-        Ok(on_grid(count))
+        Ok(rounded_panel_count(count))
     }
 
-    /// Sums the panels up to K into `work.sums`; returns the wavenumber where halving stopped as the error.
+    /// Overwrites `buffers.sums` with the sums over the panels up to K.
+    ///
+    /// # Errors
+    /// The wavenumber at which halving stopped without success.
     fn sum_panels(
         &self,
-        panels: usize,
-        work: &mut IntegralBuffers,
-        surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
+        panel_count: usize,
+        buffers: &mut IntegralBuffers,
+        surface_at: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> std::result::Result<(), f64> {
         let forms = &self.forms;
-        let mut sums = std::mem::take(&mut work.sums);
+        let mut sums = std::mem::take(&mut buffers.sums);
         sums.clear();
-        sums.resize(forms.blocks(), Sums::default());
+        sums.resize(forms.block_count(), Sums::default());
         let outcome =
-            self.integrate_panels(panels, work, surface, &mut |panel, result| match result {
-                PanelResult::Samples(samples) => {
-                    let half_width = 0.5 * forms.extent(panel)[1];
-                    let coefficients: [[f64; 6]; PANEL_POINTS] = std::array::from_fn(|i| {
-                        weighted_parts(&samples[i], half_width * forms.rule.weights[i])
-                    });
-                    forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut sums));
-                }
-                PanelResult::Moments(moments) => {
-                    forms.with_legendre(panel.index, |rows| accumulate(rows, moments, &mut sums));
+            self.integrate_panels(panel_count, buffers, surface_at, &mut |panel, result| {
+                match result {
+                    PanelResult::Samples(samples) => {
+                        let half_width = 0.5 * forms.start_and_width(panel)[1];
+                        let coefficients: [[f64; 6]; PANEL_POINTS] = std::array::from_fn(|i| {
+                            weighted_parts(&samples[i], half_width * forms.rule.weights[i])
+                        });
+                        forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut sums));
+                    }
+                    PanelResult::Moments(moments) => {
+                        forms.with_legendre(panel.index, |rows| {
+                            accumulate(rows, moments, &mut sums)
+                        });
+                    }
                 }
             });
-        work.sums = sums;
+        buffers.sums = sums;
         outcome
     }
 
-    /// Adds the series for wavenumbers beyond the last panel.
-    fn add_tail(&self, compliance: &LayeredCompliance, panels: usize, work: &mut IntegralBuffers) {
+    /// Adds the integrals beyond the last panel to the sums.
+    fn add_tail(
+        &self,
+        compliance: &LayeredCompliance,
+        panel_count: usize,
+        buffers: &mut IntegralBuffers,
+    ) {
         let top = compliance.top();
         let series = surface_series(top.a2);
-        let limit = panels as f64 * self.forms.width;
-        let ratio = top.q2.scale(1.0 / (limit * limit));
+        let max_k = panel_count as f64 * self.forms.width;
+        let ratio = top.q2.scale(1.0 / (max_k * max_k));
         let mut power = top.modulus.inverse();
         let mut coefficients = [[0.0; 6]; TAIL_TERMS];
         for (j, coefficient) in coefficients.iter_mut().enumerate() {
@@ -292,17 +309,17 @@ impl Wavenumbers {
             *coefficient = weighted_parts(&compliance, 1.0);
             power = power * ratio;
         }
-        accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);
+        accumulate(self.tails.rows(&self.forms, panel_count), &coefficients, &mut buffers.sums);
     }
 
-    /// Overwrites the compliances zz, xx and zx of each class with 1/π × the sums; zx with the opposite sign.
-    fn copy_sums(&self, work: &IntegralBuffers, values: &mut [[Complex; STRIP_KINDS]]) {
-        for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
-            let sums = &work.sums[class / PAIR_LANES];
+    /// Overwrites `values` with the compliances zz, xx and zx of each class: 1/π × the sums, zx with the opposite sign.
+    fn copy_sums(&self, buffers: &IntegralBuffers, values: &mut [[Complex; STRIP_KINDS]]) {
+        for (class, class_values) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
+            let sums = &buffers.sums[class / PAIR_LANES];
             let lane = class % PAIR_LANES;
-            for (kind, value) in value.iter_mut().enumerate() {
-                let sum = Complex::new(sums[2 * kind][lane], sums[2 * kind + 1][lane]);
-                let sign = if kind == 2 { -1.0 } else { 1.0 };
+            for (component, value) in class_values.iter_mut().enumerate() {
+                let sum = Complex::new(sums[2 * component][lane], sums[2 * component + 1][lane]);
+                let sign = if component == 2 { -1.0 } else { 1.0 };
                 *value = sum.scale(sign * std::f64::consts::FRAC_1_PI);
             }
         }
@@ -314,12 +331,12 @@ pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
     GroundError::Unresolved { re: s.re, im: s.im, wavenumber: k }.into()
 }
 
-/// Smallest K at which the bottom of the top layer has no effect on the surface, 1/m.
+/// Smallest wavenumber at which only the top layer affects the surface, 1/m.
 pub(crate) fn top_layer_wavenumber(profile: &SoilProfile) -> f64 {
     profile.layers().first().map_or(0.0, |layer| OPAQUE_DECAY_LENGTHS / layer.thickness)
 }
 
-/// zz, xx, xz, real and imaginary, times a weight.
+/// Real and imaginary parts of zz, xx and xz, times a weight, for the sums over form factors.
 pub(super) fn weighted_parts(c: &SurfaceCompliance, weight: f64) -> [f64; 6] {
     [c.zz.re, c.zz.im, c.xx.re, c.xx.im, c.xz.re, c.xz.im].map(|x| weight * x)
 }

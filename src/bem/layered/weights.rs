@@ -1,11 +1,11 @@
-//! Convolution weights by quadrature, in blocks of lags that are computed when first needed.
+//! Convolution weights by quadrature, in blocks of lags that are computed at their first use.
 
 use std::ops::Range;
 use std::path::PathBuf;
 
 use super::block_file::LagBlock;
-use super::block_store::{BlockStore, copy_lags, last_block};
-use super::coefficients::{Quadrature, Samples};
+use super::block_store::{BlockStore, block_index, copy_weights};
+use super::coefficients::{Quadrature, SampleProgress};
 use super::passivity;
 use super::runge_kutta::Stages;
 use super::threads::thread_count;
@@ -20,10 +20,10 @@ use crate::soil::SoilProfile;
 pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     pub(in crate::bem) quadrature: Quadrature<I, KINDS>,
     pub(in crate::bem) classes: PairClasses,
-    /// Elements whose passivity is checked, if not all.
-    sample: Option<PairClasses>,
-    /// Numbers that distinguish the mesh from others.
-    mesh: Vec<f64>,
+    /// Pairs of the elements whose passivity is checked; `None` for all elements.
+    checked_classes: Option<PairClasses>,
+    /// Numbers that identify the mesh.
+    mesh_numbers: Vec<f64>,
     blocks: BlockStore,
     spectra: SharedSpectra,
 }
@@ -51,77 +51,85 @@ impl StripWeights {
         profile.check_causal()?;
         let classes = PairClasses::new(elements.to_vec())?;
         let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
-        let mesh = elements.iter().flat_map(|element| [element.left(), element.right()]).collect();
-        Ok(Self::new(quadrature, classes, None, mesh, file))
+        let mesh_numbers =
+            elements.iter().flat_map(|element| [element.left(), element.right()]).collect();
+        Ok(Self::new(quadrature, classes, None, mesh_numbers, file))
     }
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
-    /// Weights of `classes`, not yet computed; passivity is checked on the elements of `sample`, or on all for `None`.
+    /// Weights of `classes`, not yet computed.
+    ///
+    /// Passivity is checked on the elements of `checked_classes`, or on all for `None`.
     pub(in crate::bem) fn new(
         quadrature: Quadrature<I, KINDS>,
         classes: PairClasses,
-        sample: Option<PairClasses>,
-        mesh: Vec<f64>,
+        checked_classes: Option<PairClasses>,
+        mesh_numbers: Vec<f64>,
         file: Option<PathBuf>,
     ) -> Self {
         let blocks = BlockStore::new(classes.count(), KINDS, file);
         let spectra = SharedSpectra::default();
-        Self { quadrature, classes, sample, mesh, blocks, spectra }
+        Self { quadrature, classes, checked_classes, mesh_numbers, blocks, spectra }
     }
 
-    /// Block `number`; computed now if it is not stored.
+    /// Stored or newly computed block.
+    ///
+    /// `expected_range`: expected numbers of samples at the start of this block and at its end.
     fn block(
         &self,
-        number: usize,
-        watch: &mut ProgressReporter,
-        expected: Range<usize>,
+        index: usize,
+        progress: &mut ProgressReporter,
+        expected_range: Range<usize>,
     ) -> Result<&LagBlock> {
-        self.blocks.block(number, watch, |watch| {
-            self.quadrature.block(number, thread_count(), Samples::new(watch, expected))
+        self.blocks.block(index, progress, |progress| {
+            let sample_progress = SampleProgress::new(progress, expected_range);
+            self.quadrature.block(index, thread_count(), sample_progress)
         })
     }
 
     /// Checks passivity once, and returns the fingerprint of the weights.
-    pub(in crate::bem) fn check_passivity(&self, watch: &mut ProgressReporter) -> Result<u64> {
-        self.blocks.fingerprint(watch, |watch| {
-            self.quadrature.integrals.make_ready(watch)?;
-            let checked = self.sample.as_ref().unwrap_or(&self.classes);
-            passivity::check(&self.quadrature, checked, &self.mesh, watch)
+    pub(in crate::bem) fn check_passivity(&self, progress: &mut ProgressReporter) -> Result<u64> {
+        self.blocks.fingerprint(progress, |progress| {
+            self.quadrature.integrals.make_ready(progress)?;
+            let checked_classes = self.checked_classes.as_ref().unwrap_or(&self.classes);
+            passivity::check(&self.quadrature, checked_classes, &self.mesh_numbers, progress)
         })
     }
 
-    /// Returns an error unless the blocks up to the last of `missing` fit into memory.
+    /// Error unless the blocks up to the last of the `missing` blocks fit into memory.
     fn check_memory(&self, missing: &Range<usize>) -> Result<()> {
         if missing.is_empty() {
             return Ok(());
         }
-        let lags = LagBlock::last_lag(missing.end - 1) as f64;
-        Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
+        let last_lag = LagBlock::last_lag(missing.end - 1) as f64;
+        let memory_bytes = self.quadrature.memory_bytes(missing.end);
+        Ok(memory::check("lags of a layered ground", last_lag, memory_bytes)?)
     }
 
-    /// Computes the blocks of lags up to `lags`.
-    fn compute(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let last = last_block(lags.max(1))?;
+    /// Computes the missing blocks up to `last_lag`.
+    fn compute(&self, last_lag: usize, observer: &mut Observer<'_>) -> Result<()> {
+        let last = block_index(last_lag.max(1))?;
         let missing = self.blocks.missing(0..last + 1);
         self.check_memory(&missing)?;
-        // Upper limits: with panels of the contour, a long block needs far fewer samples.
+        // Upper limits: with panels of the circle, a long block needs far fewer samples.
         let mut sample_counts = vec![0; last + 1];
-        for number in missing {
-            sample_counts[number] = self.quadrature.max_samples(number);
+        for index in missing {
+            sample_counts[index] = self.quadrature.max_samples(index);
         }
-        let total = I::PASSIVITY_POINTS + sample_counts.iter().sum::<usize>();
-        let mut watch =
-            ProgressReporter::new("convolution weights of layered ground", total, observer);
-        let fingerprint = self.check_passivity(&mut watch)?;
+        let total_count = I::PASSIVITY_POINTS + sample_counts.iter().sum::<usize>();
+        let mut progress =
+            ProgressReporter::new("convolution weights of layered ground", total_count, observer);
+        let fingerprint = self.check_passivity(&mut progress)?;
         let is_complete = self.blocks.missing(0..last + 1).is_empty();
-        let mut done = I::PASSIVITY_POINTS;
-        watch.reach(done)?;
-        for (number, count) in sample_counts.into_iter().enumerate() {
-            self.block(number, &mut watch, done..done + count)?;
-            done += count;
+        let mut completed_count = I::PASSIVITY_POINTS;
+        progress.reach(completed_count)?;
+        for (index, sample_count) in sample_counts.into_iter().enumerate() {
+            let expected_range = completed_count..completed_count + sample_count;
+            self.block(index, &mut progress, expected_range)?;
+            completed_count += sample_count;
         }
-        watch.reach(done)?;
+        progress.reach(completed_count)?;
         if is_complete { Ok(()) } else { self.blocks.write(fingerprint) }
     }
 }
@@ -131,8 +139,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         &self.classes
     }
 
-    fn prepare(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        self.compute(lags, observer)
+    fn prepare(&self, last_lag: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.compute(last_lag, observer)
     }
 
     fn coefficients(
@@ -141,14 +149,14 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         first_lag: usize,
         values: &mut [&mut [f64]],
     ) -> Result<()> {
-        let values: &mut [_; KINDS] = by_kind(values)?;
+        let components: &mut [_; KINDS] = by_kind(values)?;
         in_bounds("class of element pairs", class, self.classes.count())?;
-        copy_lags(class, first_lag, values, |number| {
-            if !self.blocks.has(number) {
-                self.check_memory(&(number..number + 1))?;
+        copy_weights(class, first_lag, components, |index| {
+            if !self.blocks.has_block(index) {
+                self.check_memory(&(index..index + 1))?;
                 self.check_passivity(&mut ProgressReporter::unobserved())?;
             }
-            self.block(number, &mut ProgressReporter::unobserved(), 0..0)
+            self.block(index, &mut ProgressReporter::unobserved(), 0..0)
         })
     }
 

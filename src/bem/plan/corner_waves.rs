@@ -15,8 +15,7 @@
 //!
 //! On the path, the trapezoidal rule at (n + ½)h converges like e^(−π²/(kRh²)). Poles beside the path add, in closed
 //! form, the residues of q e^(…)/(1 + e^(∓2πip/h)); a double pole on the path, A/p², adds Aπ²/h (Trefethen and
-//! Weideman, "The exponentially convergent trapezoidal rule", SIAM Review 56, 2014). With these terms the sum is exact to
-//! rounding, at any distance of the poles.
+//! Weideman, "The exponentially convergent trapezoidal rule", SIAM Review 56, 2014). The sum is then exact to rounding.
 //!
 //! Amplitudes, without e^(ikR), are smooth in k. They are interpolated by polynomials on bands of k. Each band reaches
 //! from its first wavenumber to twice this wavenumber, so that the time for a form is the same at any wavenumber.
@@ -210,8 +209,7 @@ impl CornerWaves {
         let column_height = self.lattice.extent()[1] + 1;
         let pitch = self.lattice.pitch;
         let corner_count = self.distances.len();
-        let mut coefficients = vec![];
-        coefficients.resize(BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corner_count, 0.0);
+        let mut coefficients = vec![0.0; BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corner_count];
         for node in 0..BAND_NODE_COUNT {
             let angle = PI * (node as f64 + 0.5) / BAND_NODE_COUNT as f64;
             let k = band_start * (1.0 + 0.5 * (1.0 + angle.cos()));
@@ -226,9 +224,8 @@ impl CornerWaves {
                         continue;
                     }
                     for degree in 0..BAND_NODE_COUNT {
-                        let normalisation =
-                            if degree == 0 { 1.0 } else { 2.0 } / BAND_NODE_COUNT as f64;
-                        let factor = normalisation * (degree as f64 * angle).cos();
+                        let norm = if degree == 0 { 1.0 } else { 2.0 } / BAND_NODE_COUNT as f64;
+                        let factor = norm * (degree as f64 * angle).cos();
                         let index = (degree * CORNER_WAVE_COUNT + wave) * 2 * corner_count + corner;
                         coefficients[index] += factor * amplitude.re;
                         coefficients[index + corner_count] += factor * amplitude.im;
@@ -383,10 +380,8 @@ mod tests {
             let mut means = AngularMeans::new(&lattice);
             let mut buffers = WaveBuffers::default();
             for wavenumber_ratio in [1.0, 1.37, 1.999, 2.0, 3.7, 31.0] {
-                let wavenumbers = [
-                    wavenumber_ratio * min_wavenumber,
-                    wavenumber_ratio * min_wavenumber * (1.0 + 1e-4),
-                ];
+                let wavenumbers =
+                    [1.0, 1.0 + 1e-4].map(|factor| wavenumber_ratio * min_wavenumber * factor);
                 waves.fill_forms(&wavenumbers, &mut buffers);
                 // Forms of a row or column decrease like k⁻³.
                 let scale = (pitch[0] * pitch[1]).powi(2)

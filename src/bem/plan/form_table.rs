@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 use super::corner_waves::{CornerWaves, WaveBuffers};
 use super::forms::{AngularMeans, FORM_COUNT, integrals};
 use crate::bem::layered::{
-    LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, thread_count,
+    LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_threads, rounded_panel_count, thread_count,
 };
 use crate::error::{GroundError, ProgressReporter, Result, memory};
 use crate::geometry::Lattice;
@@ -232,7 +232,7 @@ impl FormTable {
         let min_k = resolved_wavenumber.max(self.top_layer_wavenumber).max(MIN_K_PER_ROOT * root);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let count = (min_k / self.panel_width).ceil() as usize;
-        on_grid(count)
+        rounded_panel_count(count)
     }
 
     /// Wavenumber at a `node` in −1 … 1 of a panel, 1/m.
@@ -291,7 +291,7 @@ impl FormTable {
                     weight *= (scale / k).powi(2);
                 }
             }
-            if panels_to_k.contains(&panel) && on_grid(panel) == panel {
+            if panels_to_k.contains(&panel) && rounded_panel_count(panel) == panel {
                 let forms = sums.forms.clone();
                 tabulated.tails.push((panel, FormRows { forms, class_count }));
             }

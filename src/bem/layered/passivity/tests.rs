@@ -1,4 +1,4 @@
-//! The mobility of random grounds is accretive, and the check detects a mobility that is not.
+//! The mobility of random grounds is accretive, and the check detects a mobility that is not accretive.
 
 use basemat_testkit::random::Random;
 
@@ -17,8 +17,9 @@ fn quadrature(profile: SoilProfile, classes: &PairClasses, time_step: f64) -> Qu
     Quadrature::new(profile, classes, Stages::Two, time_step, 1e-10)
 }
 
-fn law(kind: u8, ratio: f64) -> std::sync::Arc<dyn Relaxation> {
-    match kind {
+/// Damping law of one of four types, with this damping ratio.
+fn law(law_type: u8, ratio: f64) -> std::sync::Arc<dyn Relaxation> {
+    match law_type {
         0 => std::sync::Arc::new(Elastic),
         1 => std::sync::Arc::new(KelvinVoigt::new(0.1 * ratio).unwrap()),
         2 => std::sync::Arc::new(Kjartansson::new(ratio, 1.0).unwrap()),
@@ -46,18 +47,21 @@ fn mobility_of_random_grounds_is_accretive() {
         let mut layers: Vec<_> =
             (0..random.pick(&[1, 2, 3, 4])).map(|_| random_layer(&mut random)).collect();
         let last = layers.pop().unwrap();
-        let base = if random.chance(0.5) && !layers.is_empty() {
+        let bedrock = if random.chance(0.5) && !layers.is_empty() {
             crate::soil::Bedrock::Rigid
         } else {
             crate::soil::Bedrock::HalfPlane { soil: last.soil, damping: last.damping }
         };
-        let profile = SoilProfile::new(layers, base).unwrap();
-        let elements = random.pick(&[1, 2, 3, 4, 5, 6]);
-        let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine).unwrap();
+        let profile = SoilProfile::new(layers, bedrock).unwrap();
+        let element_count = random.pick(&[1, 2, 3, 4, 5, 6]);
+        let strip = Strip::new(-1.0..1.0, element_count, Grading::Cosine).unwrap();
         let classes = PairClasses::new(strip.elements()).unwrap();
-        let size = 10.0_f64.powf(random.within(-2.0, 1.5));
-        let real = size * 10.0_f64.powf(random.within(-3.0, 0.0));
-        let s = Complex::new(real, (size * size - real * real).max(0.0).sqrt());
+        let magnitude = 10.0_f64.powf(random.within(-2.0, 1.5));
+        let real_part = magnitude * 10.0_f64.powf(random.within(-3.0, 0.0));
+        let s = Complex::new(
+            real_part,
+            (magnitude * magnitude - real_part * real_part).max(0.0).sqrt(),
+        );
         let integrals = Wavenumbers::new(&classes, 1e-10);
         let mut values = vec![[Complex::default(); 3]; classes.count()];
         integrals
@@ -72,7 +76,7 @@ fn mobility_of_random_grounds_is_accretive() {
 }
 
 #[test]
-fn tables_profiles_pass_for_all_steps() {
+fn table_profiles_are_passive_for_all_steps() {
     let strip = Strip::new(-1.0..1.0, 6, Grading::Cosine).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
     for profile in [p1(gmb(5), gmb(1)), p1(Elastic, Elastic), p3(gmb(5)), p3(Elastic)] {
@@ -88,11 +92,11 @@ fn tables_profiles_pass_for_all_steps() {
     }
 }
 
-/// A modulus with negative damping: stiffness falls with frequency.
+/// Modulus with negative damping: the stiffness decreases with frequency.
 #[derive(Debug)]
-struct Active;
+struct ActiveLaw;
 
-impl Relaxation for Active {
+impl Relaxation for ActiveLaw {
     fn modulus(&self, s: Complex) -> Complex {
         Complex::real(1.0) - s.scale(0.3) / (s + Complex::real(2.0))
     }
@@ -102,64 +106,67 @@ impl Relaxation for Active {
 fn active_damping_is_an_error() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let found = check(
-        &quadrature(p1(Active, Elastic), &classes, 0.1),
+    let outcome = check(
+        &quadrature(p1(ActiveLaw, Elastic), &classes, 0.1),
         &classes,
         &[],
         &mut ProgressReporter::unobserved(),
     );
     assert!(
-        matches!(found, Err(Error::Soil(SoilError::Modulus { layer: 1, quantity: "Re(mu/s)/|mu/s|", value, .. })) if value < 0.0),
-        "{found:?}"
+        matches!(outcome, Err(Error::Soil(SoilError::Modulus { layer: 1, quantity: "Re(mu/s)/|mu/s|", value, .. })) if value < 0.0),
+        "{outcome:?}"
     );
 }
 
-/// Hermitian parts are real parts: matrices of all pairs are symmetric, also with unequal elements.
+/// Matrices of all pairs are symmetric, also with unequal elements, so that Hermitian parts are real parts.
 #[test]
 fn mobilities_are_reciprocal() {
     let strip = Strip::new(-1.0..1.0, 5, Grading::Cosine).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
     let quadrature = quadrature(p3(gmb(5)), &classes, 0.1);
     let mut values = vec![[Complex::default(); 3]; classes.count()];
-    let mut scratch = values.clone();
-    let place = [CHECK_RADIUS.ln(), 0.4];
+    let mut compliances = values.clone();
+    let log_z = [CHECK_RADIUS.ln(), 0.4];
     quadrature
-        .mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values)
+        .mobility(log_z, &mut StripWorkspace::default(), &mut compliances, &mut values)
         .unwrap();
     let matrix = assembled(&classes, &values);
     let order = classes.layout().len();
-    let mut largest_imaginary = 0.0_f64;
-    for (place, value) in matrix.iter().enumerate() {
-        let transposed = matrix[place % order * order + place / order];
+    let mut max_imaginary_part = 0.0_f64;
+    for (index, value) in matrix.iter().enumerate() {
+        let transposed = matrix[index % order * order + index / order];
         assert_eq!(*value, transposed);
-        largest_imaginary = largest_imaginary.max(value.im.abs());
+        max_imaginary_part = max_imaginary_part.max(value.im.abs());
     }
     let scales: Vec<_> =
-        (0..order).map(|place| 1.0 / matrix[place * (order + 1)].norm().sqrt()).collect();
+        (0..order).map(|index| 1.0 / matrix[index * (order + 1)].norm().sqrt()).collect();
     let scaled: Vec<_> = (0..order * order)
-        .map(|place| matrix[place] * scales[place / order] * scales[place % order])
+        .map(|index| matrix[index] * scales[index / order] * scales[index % order])
         .collect();
-    let smallest = crate::linalg::hermitian_range(&scaled, order).unwrap()[0];
-    let found = margin(&classes, &values);
-    assert!(largest_imaginary > 0.0 && (smallest - found).abs() < 1e-13, "{smallest} {found}");
-    for (bound, expected) in [(smallest - 1e-10, true), (smallest + 1e-10, false)] {
-        let exceeds =
-            classes.exceeds(bound, self_mobility(&values), |_, pair| real(&values[pair.class]));
+    let min_eigenvalue = crate::linalg::hermitian_range(&scaled, order).unwrap()[0];
+    let computed_margin = margin(&classes, &values);
+    assert!(
+        max_imaginary_part > 0.0 && (min_eigenvalue - computed_margin).abs() < 1e-13,
+        "{min_eigenvalue} {computed_margin}"
+    );
+    for (limit, expected) in [(min_eigenvalue - 1e-10, true), (min_eigenvalue + 1e-10, false)] {
+        let exceeds = classes
+            .exceeds(limit, self_mobility(&values), |_, pair| real_parts(&values[pair.class]));
         assert_eq!(exceeds, expected);
     }
 }
 
-/// The check with a limit that no ground satisfies, and the eigenvalue that it reports.
+/// The check reports the smallest eigenvalue, also for a limit that no ground satisfies.
 #[test]
 fn the_check_reports_the_smallest_eigenvalue() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
     let quadrature = quadrature(p1(gmb(5), gmb(1)), &classes, 0.1);
     let mut values = vec![[Complex::default(); 3]; classes.count()];
-    let mut scratch = values.clone();
-    let place = [CHECK_RADIUS.ln(), 1.0];
+    let mut compliances = values.clone();
+    let log_z = [CHECK_RADIUS.ln(), 1.0];
     quadrature
-        .mobility(place, &mut StripWorkspace::default(), &mut scratch, &mut values)
+        .mobility(log_z, &mut StripWorkspace::default(), &mut compliances, &mut values)
         .unwrap();
     assert!(margin(&classes, &values) > 0.0);
     // With the mobilities of the elements scaled to one, the sign of the coupling between elements decides.
@@ -169,14 +176,14 @@ fn the_check_reports_the_smallest_eigenvalue() {
             values[class] = values[class].map(|value| -value);
         }
     }
-    let broken = margin(&classes, &values);
-    assert!(broken < -0.5, "{broken}");
+    let negative_margin = margin(&classes, &values);
+    assert!(negative_margin < -0.5, "{negative_margin}");
     values[0][0] = Complex::real(f64::NAN);
     assert!(margin(&classes, &values).is_nan());
-    let strict = Quadrature { tolerance: -0.25, ..quadrature };
-    let found = check(&strict, &classes, &[], &mut ProgressReporter::unobserved());
-    let Err(Error::NotPassive { margin, allowed, radius, .. }) = found else {
-        panic!("{found:?}");
+    let strict_quadrature = Quadrature { tolerance: -0.25, ..quadrature };
+    let outcome = check(&strict_quadrature, &classes, &[], &mut ProgressReporter::unobserved());
+    let Err(Error::NotPassive { margin, allowed, radius, .. }) = outcome else {
+        panic!("{outcome:?}");
     };
     assert!(margin > 0.0 && margin < allowed && allowed == 1.0 && radius == 0.99, "{margin}");
 }

@@ -1,4 +1,4 @@
-//! Element compliances against tables, closed forms and each other.
+//! Element compliances against a table, a closed form and finer tolerances.
 
 use super::*;
 use crate::bem::layered::passivity::assembled;
@@ -7,11 +7,11 @@ use crate::bem::{Grading, Strip};
 use crate::fundamental::HalfPlane;
 use crate::soil::Soil;
 
-/// Compliances, and what they cost.
+/// Compliances, and the number of evaluations of the ground.
 struct PairCompliances {
     values: Vec<[Complex; 3]>,
     /// Number of wavenumbers at which the ground was evaluated.
-    evaluations: usize,
+    evaluation_count: usize,
 }
 
 fn compliances(
@@ -22,13 +22,13 @@ fn compliances(
 ) -> PairCompliances {
     let classes = PairClasses::new(strip.elements()).unwrap();
     let integrals = Wavenumbers::new(&classes, tolerance);
-    let mut work = StripWorkspace::default();
+    let mut workspace = StripWorkspace::default();
     let mut values = vec![[Complex::default(); 3]; classes.count()];
-    integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    PairCompliances { values, evaluations: work.panels.evaluations }
+    integrals.compliance(profile, s, &mut workspace, &mut values).unwrap();
+    PairCompliances { values, evaluation_count: workspace.panels.evaluation_count }
 }
 
-/// `F_s_P1_gmb_Q3.csv`: another program, tolerance 1e-12.
+/// The values of `F_s_P1_gmb_Q3.csv` are from another program, with a tolerance of 1e-12.
 #[test]
 fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let strip = Strip::uniform(-1.0..1.0, 3).unwrap();
@@ -36,72 +36,74 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let integrals = Wavenumbers::new(&classes, 1e-11);
     let profile = p1(gmb(5), gmb(1));
     let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
-    let mut worst = 0.0_f64;
-    let mut largest = 0.0_f64;
-    let mut rows = 0;
+    let mut max_error = 0.0_f64;
+    let mut max_compliance = 0.0_f64;
+    let mut row_count = 0;
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     for line in table.lines().skip(2) {
-        let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
-        let s = Complex::new(n[0], n[1]);
+        let numbers: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let s = Complex::new(numbers[0], numbers[1]);
         integrals
             .compliance(&profile, s, &mut StripWorkspace::default(), &mut values)
             .unwrap();
         let mut indices = line.split(',').skip(2).map(str::parse::<usize>);
         let row = indices.next().unwrap().unwrap();
         let column = indices.next().unwrap().unwrap();
-        let found = assembled(&classes, &values);
+        let matrix = assembled(&classes, &values);
         if (row, column) == (0, 0) {
             // u_xx of an element due to its own traction.
-            largest = found[3 * 6 + 3].norm();
+            max_compliance = matrix[3 * 6 + 3].norm();
         }
-        worst = worst
-            .max((found[row * 6 + column] - Complex::new(n[4], n[5]).inner()).norm() / largest);
-        rows += 1;
+        max_error = max_error.max(
+            (matrix[row * 6 + column] - Complex::new(numbers[4], numbers[5]).inner()).norm()
+                / max_compliance,
+        );
+        row_count += 1;
     }
-    println!("{rows} entries, {worst:e} of the largest");
-    assert_eq!(rows, 252);
-    assert!(worst < 1e-8, "{worst:e}");
+    println!("{row_count} entries, {max_error:e} of the largest");
+    assert_eq!(row_count, 252);
+    assert!(max_error < 1e-8, "{max_error:e}");
 }
 
-/// s ∫ e^(−st) u(t) dt with the closed form of the half-plane, for a traction that is switched on.
+/// Compliances of a half-plane equal s ∫ e^(−st) u(t) dt, u the closed form for a suddenly applied traction.
 #[test]
-fn homogeneous_ground_is_the_closed_form() {
+fn homogeneous_ground_agrees_with_the_closed_form() {
     let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
     let strip = Strip::new(-1.0..1.0, 4, Grading::Cosine).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let mut many = SoilProfile::on_half_plane(soil);
-    for h in [0.4, 1.1] {
-        many = many.with_layer(soil, h).unwrap();
+    let mut layered = SoilProfile::on_half_plane(soil);
+    for thickness in [0.4, 1.1] {
+        layered = layered.with_layer(soil, thickness).unwrap();
     }
     // With panels of one width, and with wide panels.
     for (s, end) in [(1.3, 30.0), (150.0, 0.26)] {
-        agrees_with(soil, &strip, &classes, &many, s, end);
+        check_closed_form(soil, &strip, &classes, &layered, s, end);
     }
 }
 
-/// Integrals up to the time `end`.
-fn agrees_with(
+/// Compares compliances at `s` with integrals of the closed form up to the time `end`.
+fn check_closed_form(
     soil: Soil,
     strip: &Strip,
     classes: &PairClasses,
-    many: &SoilProfile,
+    layered: &SoilProfile,
     s: f64,
     end: f64,
 ) {
-    let plane = HalfPlane::new(soil);
-    let found =
+    let half_plane = HalfPlane::new(soil);
+    let computed =
         compliances(&SoilProfile::on_half_plane(soil), strip, Complex::real(s), 1e-11).values;
-    let layers = compliances(many, strip, Complex::real(s), 1e-11).values;
+    let layered_values = compliances(layered, strip, Complex::real(s), 1e-11).values;
     let rule = crate::linalg::gauss::largest();
-    let largest = found.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
-    let mut worst = 0.0_f64;
+    let max_compliance = computed.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
+    let mut max_error = 0.0_f64;
     for class in 0..classes.count() {
         let [source, receiver] = classes.representative(class).unwrap();
         let mut sum = [0.0; 3];
-        // Waves reach the elements' ends at these times; between them the integrand is smooth enough.
-        let pieces = 2000;
-        for piece in 0..pieces {
-            let h = end / f64::from(pieces);
+        // Pieces are so short that the kinks at arrivals of waves do not matter.
+        let piece_count = 2000;
+        for piece in 0..piece_count {
+            let piece_length = end / f64::from(piece_count);
             for (node, weight) in rule
                 .nodes
                 .iter()
@@ -109,33 +111,34 @@ fn agrees_with(
                 .step_by(2)
                 .chain(rule.nodes.iter().zip(&rule.weights).skip(1).step_by(2))
             {
-                let t = h * (f64::from(piece) + 0.5 * (1.0 + node));
-                let u = plane.element_mean(receiver, source, t).unwrap();
-                let factor = 0.5 * h * weight * s * (-s * t).exp() * receiver.length();
+                let t = piece_length * (f64::from(piece) + 0.5 * (1.0 + node));
+                let u = half_plane.element_mean(receiver, source, t).unwrap();
+                let factor = 0.5 * piece_length * weight * s * (-s * t).exp() * receiver.length();
                 for (sum, u) in sum.iter_mut().zip([u.zz, u.xx, u.zx]) {
                     *sum += factor * u;
                 }
             }
         }
         // At large s, separate elements do not interact.
-        let size = found[class][0].re.max(0.01 * largest);
+        let pair_compliance = computed[class][0].re.max(0.01 * max_compliance);
         for component in 0..3 {
-            worst = worst.max((found[class][component].re - sum[component]).abs() / size);
-            let same = (found[class][component] - layers[class][component]).abs();
-            assert!(same < 1e-11 * size, "{class} {component} {same:e}");
+            max_error = max_error
+                .max((computed[class][component].re - sum[component]).abs() / pair_compliance);
+            let difference = (computed[class][component] - layered_values[class][component]).abs();
+            assert!(difference < 1e-11 * pair_compliance, "{class} {component} {difference:e}");
         }
     }
-    println!("{worst:e} of each pair's zz");
-    assert!(worst < 1e-7, "{worst:e}");
+    println!("{max_error:e} of each pair's zz");
+    assert!(max_error < 1e-7, "{max_error:e}");
 }
 
-/// The tolerance holds for every kind of s, relative to the compliances of each pair's elements.
+/// Errors are below the tolerance for small and large s, relative to the compliances of each pair's elements.
 #[test]
-fn tolerance_holds() {
+fn errors_are_below_the_tolerance() {
     let strip = Strip::new(-1.0..1.0, 12, Grading::Cosine).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
     let elastic = p1(crate::soil::Elastic, crate::soil::Elastic);
-    let mut worst = [0.0_f64; 3];
+    let mut max_error_ratios = [0.0_f64; 3];
     for profile in [p1(gmb(5), gmb(1)), elastic] {
         for s in [
             Complex::real(1e-3),
@@ -148,7 +151,7 @@ fn tolerance_holds() {
             Complex::new(90.0, 700.0),
             Complex::real(3000.0),
         ] {
-            let fine = compliances(&profile, &strip, s, 1e-14);
+            let reference = compliances(&profile, &strip, s, 1e-14);
             // Smaller compliance of an element of this length with itself.
             let self_compliance = |length: f64| {
                 let is_self_pair = |class: &usize| {
@@ -156,27 +159,31 @@ fn tolerance_holds() {
                     pair[0] == pair[1] && (pair[0].length() / length - 1.0).abs() < 1e-9
                 };
                 let class = (0..classes.count()).find(is_self_pair).unwrap();
-                fine.values[class][0].abs().min(fine.values[class][1].abs())
+                reference.values[class][0].abs().min(reference.values[class][1].abs())
             };
-            for (tolerance, worst) in [1e-8, 1e-10, 1e-12].into_iter().zip(&mut worst) {
-                let found = compliances(&profile, &strip, s, tolerance);
-                let mut largest = 0.0_f64;
+            for (tolerance, max_error_ratio) in
+                [1e-8, 1e-10, 1e-12].into_iter().zip(&mut max_error_ratios)
+            {
+                let coarse = compliances(&profile, &strip, s, tolerance);
+                let mut max_error = 0.0_f64;
                 for class in 0..classes.count() {
-                    let lengths = classes.representative(class).unwrap().map(|e| e.length());
-                    let unit = (self_compliance(lengths[0]) * self_compliance(lengths[1])).sqrt();
+                    let lengths =
+                        classes.representative(class).unwrap().map(|element| element.length());
+                    let pair_compliance =
+                        (self_compliance(lengths[0]) * self_compliance(lengths[1])).sqrt();
                     for c in 0..3 {
-                        let difference = found.values[class][c] - fine.values[class][c];
-                        largest = largest.max(difference.abs() / unit);
+                        let difference = coarse.values[class][c] - reference.values[class][c];
+                        max_error = max_error.max(difference.abs() / pair_compliance);
                     }
                 }
                 println!(
-                    "{s:?} tolerance {tolerance:e}: {largest:e}, {} of {}",
-                    found.evaluations, fine.evaluations
+                    "{s:?} tolerance {tolerance:e}: {max_error:e}, {} of {}",
+                    coarse.evaluation_count, reference.evaluation_count
                 );
-                *worst = worst.max(largest / tolerance);
+                *max_error_ratio = max_error_ratio.max(max_error / tolerance);
             }
         }
     }
-    println!("{worst:?}");
-    assert!(worst.iter().all(|w| *w < 1.0), "{worst:?}");
+    println!("{max_error_ratios:?}");
+    assert!(max_error_ratios.iter().all(|ratio| *ratio < 1.0), "{max_error_ratios:?}");
 }
