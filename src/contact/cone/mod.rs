@@ -52,7 +52,7 @@ use search::search;
 use status::{Normal, Status, Tangential};
 
 /// Residual at which the tangents of curves first move, relative to the largest force.
-const TANGENT_TOLERANCE: f64 = 1e-5;
+const TANGENT_TOLERANCE: f64 = 1e-4;
 /// Error of a solution in units of the residual at which it is accepted.
 const ROUNDING_FACTOR: f64 = 10.0;
 /// Gap at which a bond breaks, relative to the largest displacement.

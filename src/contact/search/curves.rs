@@ -2,10 +2,12 @@
 
 use super::ModeSearch;
 use crate::contact::SearchMethod;
-use crate::contact::linearisation::{Linearisation, TangentSolution};
+use crate::contact::linearisation::{Linearisation, TangentSolution, settlement_on_curve};
 use crate::contact::problem::ContactInput;
+use crate::contact::response::ContactResponse;
 use crate::error::{LawError, StepError};
 use crate::interface::{Mode, Tolerance};
+use crate::linalg::dot;
 
 impl ModeSearch {
     /// Finds modes with other tangents until the pressures are on the curves of their laws.
@@ -14,6 +16,7 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<SearchMethod, StepError> {
+        self.predict_settlements(input, modes)?;
         let mut last_method = SearchMethod::ActiveSet;
         let mut linearisation = Linearisation::new();
         loop {
@@ -30,6 +33,54 @@ impl ModeSearch {
             if linearisation.is_done()? {
                 return Ok(last_method);
             }
+        }
+    }
+
+    /// Linearises the laws at the settlements that each element alone would have under its present tractions.
+    ///
+    /// Of elements that yielded in the step before.
+    fn predict_settlements(
+        &mut self,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+    ) -> Result<(), LawError> {
+        let size = self.solver.response.layout.len();
+        let mut has_tractions = false;
+        for (e, _) in modes.iter().enumerate().filter(|(_, mode)| mode.is_yield()) {
+            let Ok(limits) = input.limits(e, 0.0) else { continue };
+            let Some(trial_settlement) = input.trial_settlements.get(e) else { continue };
+            if limits.hardening == 0.0 {
+                continue;
+            }
+            if !has_tractions {
+                self.set_present_tractions(input);
+                has_tractions = true;
+            }
+            let row = &input.delassus[e * size..(e + 1) * size];
+            let gap = input.free_jump[e] + dot(row, &self.solver.response.traction);
+            let pressure = input.start.state(e).pressure;
+            let layer = input.law(e).compliance(Mode::Stick, &input.start_of(e))[0];
+            let settlement = limits.gap_offset - gap - layer * pressure;
+            let solution = TangentSolution {
+                element: e,
+                pressure,
+                settlement,
+                yields: true,
+                stiffness: (row[e] + layer).recip(),
+                pressure_rounding: 0.0,
+                settlement_rounding: 0.0,
+            };
+            trial_settlement.set(settlement_on_curve(input, &solution, limits, 0.0)?);
+        }
+        Ok(())
+    }
+
+    /// Sets the changes of traction from the static state to those at the start of the step.
+    fn set_present_tractions(&mut self, input: &ContactInput<'_>) {
+        let ContactResponse { layout, traction, .. } = &mut self.solver.response;
+        for (i, traction) in traction.iter_mut().enumerate() {
+            let [component, e] = layout.origin(i);
+            *traction = input.start.state(e).traction()[component] - input.static_traction[i];
         }
     }
 
