@@ -58,10 +58,10 @@ fn a_resultant_beyond_the_last_middle_is_named_with_its_place() {
             block_on_soil(elements, graded).interface(Coulomb::new(2.0).unwrap()).load(push)
         };
         with_resultant_at(0.99 * outer_middle).build().unwrap();
-        let range = format!("from x = -{:.4}", 0.5 * BLOCK_WIDTH * outer_middle);
+        let range = format!("x = -{:.4}", 0.5 * BLOCK_WIDTH * outer_middle);
         let ratio = 1.005 * outer_middle;
         let place = format!("passes at x = {:.4}", 0.5 * BLOCK_WIDTH * ratio);
-        let words = [&place[..], &range, "middles of the outermost"];
+        let words = [&place[..], &range, "middles of the outer elements"];
         assert_refused_with(&words, with_resultant_at(ratio));
         assert_refused_with(&["overturn"], with_resultant_at(1.02));
     }

@@ -83,7 +83,7 @@ fn assert_refused(result: &Result<()>) {
     let Err(Error::Scene { quantity: "kernel source", needed }) = result else {
         panic!("{result:?}")
     };
-    assert!(needed.contains("that it is making"), "{needed}");
+    assert!(needed.contains("that it is computing"), "{needed}");
 }
 
 #[test]
