@@ -91,7 +91,9 @@ impl ModeSearch {
             return Ok((1, SearchMethod::ActiveSet));
         }
         let trial_settlements = std::mem::take(&mut self.trial_settlements);
-        trial_settlements.iter().for_each(|settlement| settlement.set(0.0));
+        for settlement in &trial_settlements {
+            settlement.set(0.0);
+        }
         let linearised = ContactInput { trial_settlements: &trial_settlements, ..*input };
         let method = self.follow_curves(&linearised, modes);
         self.trial_settlements = trial_settlements;
