@@ -15,7 +15,7 @@ const WITHOUT_ROWS: [(&str, &str); 4] = [
         "the paper's scheme, which grows by itself: full_plane.rs, and tests/full_plane",
     ),
     ("FixedGround", "private: the ground of a fixed base"),
-    ("RigidBase", "private: the structure of a fixed base"),
+    ("StructureOnRigidFoundations", "private: the structure of a fixed base"),
     ("OutOfPhase", "private: part of a travelling wave beyond the critical angle"),
 ];
 
