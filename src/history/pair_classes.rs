@@ -14,6 +14,9 @@ use crate::linalg::{MatrixScalar, hermitian_range, indefinite_pivot};
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const STRIP_KINDS: usize = 3;
 
+/// Kind of the coupling in the plane; it may end, unlike the other kinds.
+pub(crate) const COUPLING_KIND: usize = 2;
+
 /// Largest number of kinds in the plane: two couplings, where they are not equal up to the sign.
 pub(crate) const MAX_PLANE_KINDS: usize = STRIP_KINDS + 1;
 
@@ -186,6 +189,12 @@ impl PairClasses {
     /// Whether the couplings of normal and tangential components are of two kinds.
     pub(crate) fn has_two_couplings(&self) -> bool {
         !self.exchanged.is_empty()
+    }
+
+    /// Whether receiver and source of a pair are the source and the receiver of its class.
+    #[inline]
+    pub(crate) fn is_exchanged(&self, pair_index: usize) -> bool {
+        self.exchanged.get(pair_index).is_some_and(|is_exchanged| *is_exchanged)
     }
 
     /// The elements, from left to right; cells in plan in the order given.

@@ -76,14 +76,19 @@ impl WithSimd for Scatter<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self {
-            coefficients: Coefficients { classes, short_lags, .. }, rows, stride, now, ..
+            coefficients: Coefficients { classes, short_lags, .. },
+            rows,
+            stride,
+            now,
+            ahead,
+            coupled,
         } = self;
-        let ahead = self.ahead;
-        let count = classes.elements().len();
-        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+        let element_count = classes.elements().len();
+        let [normal, tangential, couplings, second_couplings] = &**short_lags;
+        let has_two_couplings = classes.has_two_couplings();
+        for (p, pairs) in classes.pairs().chunks_exact(element_count).enumerate() {
             let scale = pairs[p].scale;
-            for (component, table) in short_lags.iter().enumerate().take(COMPONENTS_IN_PLANE) {
-                let first_row = component * count;
+            for (first_row, table) in [(0, normal), (element_count, tangential)] {
                 let row = first_row + p;
                 let mut q = 0;
                 let mut groups = pairs.chunks_exact(4);
@@ -103,19 +108,30 @@ impl WithSimd for Scatter<'_> {
                     q += 1;
                 }
             }
-            for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
-                let places = [(p, count + q), (count + p, q)];
-                for ((kind, sign), (row, source)) in
-                    classes.coupling(p * count + q).into_iter().zip(places)
-                {
-                    let coupling = &short_lags[kind][class];
-                    let reach = self.coupled.min(coupling.len() - 1);
-                    if sign == 0.0 || reach == 0 {
-                        continue;
+            for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                let coupling = &couplings[class];
+                let reach = coupled.min(coupling.len() - 1);
+                if sign == 0.0 || reach == 0 {
+                    continue;
+                }
+                // Of the normal displacement due to shear, and of the tangential displacement due to pressure.
+                let mut shear_lags = &coupling[1..=reach];
+                let mut pressure_lags = shear_lags;
+                let mut pressure_sign = -sign;
+                if has_two_couplings {
+                    pressure_lags = &second_couplings[class][1..=reach];
+                    pressure_sign = sign;
+                    if classes.is_exchanged(p * element_count + q) {
+                        std::mem::swap(&mut shear_lags, &mut pressure_lags);
                     }
+                }
+                for (row, source, sign, lags) in [
+                    (p, element_count + q, sign, shear_lags),
+                    (element_count + p, q, pressure_sign, pressure_lags),
+                ] {
                     let value = sign * scale * rows[source * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..reach];
-                    add_row(simd, value, &coupling[1..=reach], output);
+                    add_row(simd, value, lags, output);
                 }
             }
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ring::Ring;
 use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::pair_classes::{MAX_PLANE_KINDS, Pair, PairClasses};
+use crate::history::pair_classes::{COUPLING_KIND, MAX_PLANE_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
 use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
@@ -198,6 +198,7 @@ impl PairLevel {
     ) {
         let frequencies = self.size + 1;
         let count = classes.elements().len();
+        let couples = part != Components::Even && !self.spectra[COUPLING_KIND].is_empty();
         let tiles = frequencies.div_ceil(FREQUENCIES_PER_TILE);
         let width = frequencies.div_ceil(tiles);
         let TransformScratch { spectra, inputs, outputs, .. } = work;
@@ -211,18 +212,15 @@ impl PairLevel {
             outputs[..components * 2 * width].fill(0.0);
             // Adds the product of a class's spectrum with the source's tile to the receiver's tile.
             let mut add = |(kind, sign): (usize, f64), class: usize, source, receiver| {
-                let stored = &self.spectra[kind];
-                if sign == 0.0 || stored.is_empty() {
-                    return;
-                }
-                let factor =
-                    [0, 1].map(|part| &stored[(class * 2 + part) * frequencies + begin..][..width]);
+                let factor = [0, 1].map(|part| {
+                    &self.spectra[kind][(class * 2 + part) * frequencies + begin..][..width]
+                });
                 let multiply =
                     if sign > 0.0 { multiply_add::<true> } else { multiply_add::<false> };
                 multiply(&mut outputs[range_of(receiver)], factor, &inputs[range_of(source)]);
             };
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
-                for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
+                for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                     match part {
                         Components::Even => add((kind, 1.0), class, q, p),
                         Components::Coupling => {}
@@ -231,7 +229,7 @@ impl PairLevel {
                             add((1, 1.0), class, count + q, count + p);
                         }
                     }
-                    if part != Components::Even {
+                    if couples && sign != 0.0 {
                         let coupling = classes.coupling(p * count + q);
                         add(coupling[0], class, count + q, p);
                         add(coupling[1], class, q, count + p);

@@ -7,7 +7,7 @@ use super::level::Components;
 use super::ring::Ring;
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::history::pair_classes::STRIP_KINDS;
+use crate::history::pair_classes::{COUPLING_KIND, STRIP_KINDS};
 use basemat_fourier::RealPlanner;
 use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexPlanner, Fft};
@@ -21,9 +21,6 @@ pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
     let rows = COMPONENT_KINDS[usize::from(N == 3)];
     std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
 }
-
-/// Kind that ends on a strip: the coupling.
-pub(super) const COUPLING_KIND: usize = 2;
 
 /// Coefficients of a leaf, kind by kind: for each d = 0 … leaf − 1 the wavenumbers with spectra.
 pub(super) type LeafCoefficients = Vec<Vec<f64>>;

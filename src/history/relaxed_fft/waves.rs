@@ -12,9 +12,10 @@ use super::element_grid::ElementGrid;
 use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::Components;
 use super::ring::{LEAF_STEPS, Ring, widened};
-use super::wave_level::{COUPLING_KIND, LeafCoefficients, Levels, WaveLevel};
+use super::wave_level::{LeafCoefficients, Levels, WaveLevel};
 use crate::error::{ProgressReporter, Result, unobserved};
 use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::pair_classes::COUPLING_KIND;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
