@@ -1,4 +1,4 @@
-//! Coefficients of short lags.
+//! Direct sums over short lags, for all pairs of elements.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -15,7 +15,7 @@ use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 /// Pairs of a patch, with their coefficients of short lags.
 pub(super) struct Coefficients {
     pub(super) classes: PairClasses,
-    /// Last d at which the coupling of each class is not zero; the largest number if it never ends.
+    /// Last d at which the coupling of each class is not zero; `usize::MAX` if it never ends.
     reaches: Vec<usize>,
     /// Largest reach of all classes.
     pub(super) coupling_reach: usize,
@@ -28,7 +28,9 @@ pub(super) struct Coefficients {
 }
 
 impl Coefficients {
-    /// Coefficients of `kernel`; a coupling that ends at `max_direct` or before is summed directly.
+    /// Coefficients of `kernel`, without tables.
+    ///
+    /// A coupling that ends at d = `max_direct` or before is summed directly.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
         let mut reaches = Vec::with_capacity(classes.count());
@@ -58,9 +60,9 @@ impl Coefficients {
     }
 }
 
-/// Adds the effect of input `now` to the outputs after it.
+/// Adds the effect of the input in column `now` to the outputs after it.
 ///
-/// The diagonal components act on the other `ahead` outputs of the leaf, the coupling on `coupled` outputs.
+/// The diagonal components act on the remaining `ahead` outputs of the leaf, the coupling on `coupled` outputs.
 pub(super) struct Scatter<'a> {
     pub(super) coefficients: &'a Coefficients,
     pub(super) rows: &'a mut [f64],
