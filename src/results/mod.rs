@@ -1,7 +1,7 @@
 //! Results for engineers: time series, peaks with their times, envelopes, factors of safety.
 //!
 //! [`Simulation::run`](crate::Simulation::run) returns a [`Run`]: peaks, envelopes and factors of safety, which
-//! print as a page for the report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
+//! print as one page of a report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
 //! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run. [`Rocking`] has moment,
 //! rotation and settlement of one foundation, and the equivalent damping of a cycle.
 //!

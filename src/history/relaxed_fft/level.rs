@@ -1,4 +1,4 @@
-//! Blocks of one size over pairs of elements: their transforms, and the spectra of their coefficients.
+//! Blocks of one size over pairs of elements, with the spectra of their coefficients.
 
 use std::ops::Range;
 use std::sync::Arc;

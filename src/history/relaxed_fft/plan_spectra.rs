@@ -84,9 +84,9 @@ pub(super) fn coefficients_in_plan(
     Ok(())
 }
 
-/// Overwrites `tables`, kind by kind, with the lags from `chunk_start` + 1 on of all offsets; `lags` is scratch of as many lags.
+/// Overwrites `tables`, kind by kind, with the lags from `chunk_start` + 1 on of all offsets.
 ///
-/// The first `skipped_lags` lags are left as they are in `lags`.
+/// `lags` is scratch for as many lags. The first `skipped_lags` lags are left as they are in `lags`.
 fn read_tables(
     lattice: &Lattice,
     kernel: &dyn ConvolutionWeights,

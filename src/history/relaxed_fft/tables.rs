@@ -1,6 +1,7 @@
 //! Tables of coefficients over short delays.
 //!
-//! The index d of a coefficient counts the steps after the step of the traction: it is the lag d + 1 of the convolution weights.
+//! The index d of a coefficient counts the steps after the step of the traction.
+//! It is the lag d + 1 of the convolution weights.
 
 use crate::history::pair_classes::MAX_PLANE_KINDS;
 
