@@ -23,7 +23,7 @@ pub struct HistoryChoice {
     pub memory: usize,
     /// Bound of the relative error of the coefficients; zero if the method is exact.
     ///
-    /// For exponentials the measured error; for transforms the fraction of the coefficients' sum that may be left out.
+    /// For exponentials the measured error; for transforms the fraction of the coefficients' sum that may be neglected.
     pub error_bound: f64,
     /// Number of Runge–Kutta stages of the convolution quadrature; `None` for closed forms.
     pub stages: Option<usize>,
@@ -90,7 +90,7 @@ impl ChosenHistory {
         Self::new(history, HistoryMethod::Direct, steps, 0.0, Self::DIRECT_IDENTITY)
     }
 
-    /// Wraps transforms that leave out up to the fraction `neglected` of the coefficients' sum.
+    /// Wraps transforms that neglect up to the fraction `neglected` of the coefficients' sum.
     pub(super) fn transforms(
         history: RelaxedFftHistory,
         steps: Option<usize>,

@@ -35,7 +35,7 @@ pub trait ConvolutionWeights: Send + Sync {
     /// Computes the lags up to `lags` of all classes; nothing for a closed form (the default).
     ///
     /// Histories call this method often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
-    /// `lags`: a kernel that computes lags in blocks takes fixed blocks, such as N + 1 … 2N for powers of two.
+    /// `lags`: a kernel that computes lags in blocks uses fixed blocks, such as N + 1 … 2N for powers of two.
     /// A history requests powers of two where the number of steps leaves a choice.
     ///
     /// # Errors
@@ -85,7 +85,7 @@ pub trait ConvolutionWeights: Send + Sync {
     /// Largest sum of the errors of late coefficients, relative to the sum of all coefficients.
     ///
     /// Zero (the default) if they are exact. It is the smallest [tolerance](super::HistoryOptions) at which late
-    /// weights are left out.
+    /// weights are neglected.
     fn late_error(&self) -> f64 {
         0.0
     }

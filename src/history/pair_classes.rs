@@ -294,7 +294,7 @@ impl PairClasses {
 
     /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `diagonal`.
     ///
-    /// `pair_values` gives the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` gives a magnitude for
+    /// `pair_values` returns the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` returns a magnitude for
     /// each element on itself. NaN if the symbol is not finite.
     ///
     /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can create energy: by Parseval

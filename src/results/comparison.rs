@@ -208,7 +208,7 @@ impl Comparison {
         Table { heading, repeated: 2, rows }
     }
 
-    /// Probes of the first case, if all cases have the same ones.
+    /// Probes of the first case, if all cases have the same probes.
     fn common_probes(&self) -> &[ProbeExtremes] {
         fn labels(run: &Run) -> impl Iterator<Item = (&str, &str)> {
             run.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))

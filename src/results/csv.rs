@@ -35,7 +35,7 @@ impl TimeSeries {
 
     /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
     ///
-    /// A heading and a line for every frame and element; elements count from 0 and are given with their ends.
+    /// A heading and a line for every frame and element; elements count from 0, and each line has the ends of its element.
     ///
     /// ```
     /// # use basemat::bem::SpringGround;

@@ -357,7 +357,7 @@ fn add_outline(cells: &mut Vec<Vec<usize>>, first_point: usize, point_count: usi
     }
 }
 
-/// Largest number of columns drawn between two floors: more lines would hide the floors.
+/// Largest number of columns drawn between two floors.
 const MAX_COLUMNS: usize = 8;
 
 /// Adds lines from points of one polygon to the points of the next, at most [`MAX_COLUMNS`].

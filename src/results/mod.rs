@@ -54,7 +54,7 @@
 //!
 //! # Memory
 //!
-//! Results that are not requested cost nothing. Scalar time series take 27 numbers and one per probe at every kept
+//! Results that are not requested use no memory. Scalar time series take 27 numbers and one per probe at every kept
 //! step (216 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
 //! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
 //! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.

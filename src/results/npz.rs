@@ -26,8 +26,8 @@ const MAX_NAME_BYTES: usize = 60_000;
 const HEADER_ALIGNMENT: usize = 64;
 /// Bytes of magic number, version and length before the header, and of the line end after it.
 const HEADER_EXTRA_BYTES: usize = 11;
-/// Bytes that an entry of an archive takes beside its contents, at most.
-const ENTRY_EXTRA_BYTES: usize = 1024;
+/// Margin below the size from which an entry needs 64-bit lengths, bytes.
+const LARGE_FILE_MARGIN: usize = 1024;
 
 impl Archive {
     /// Adds an array of NumPy's type `data_type`, its numbers row by row.
@@ -53,7 +53,7 @@ impl Archive {
         let header_length = u16::try_from(header.len()).map_err(io::Error::other)?;
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
-            .large_file(bytes.len() >= u32::MAX as usize - ENTRY_EXTRA_BYTES);
+            .large_file(bytes.len() >= u32::MAX as usize - LARGE_FILE_MARGIN);
         self.0.start_file(format!("{name}.npy"), options)?;
         self.0.write_all(b"\x93NUMPY\x01\x00")?;
         self.0.write_all(&header_length.to_le_bytes())?;

@@ -8,7 +8,7 @@ use crate::error::{Error, Result, at_least, finite, require, require_part, same_
 
 /// Largest distance between the ends of a closed cycle, over the range of the cycle.
 ///
-/// Measured cycles of a yielding foundation do not close exactly.
+/// A cycle that leaves residual rotation does not close exactly.
 const MAX_OPEN_FRACTION: f64 = 0.25;
 /// Distance from an extreme of the rotation within which a cycle turns, over the range of the cycle.
 ///
@@ -143,7 +143,7 @@ impl Rocking<'_> {
         let end_step = self.times.partition_point(|time| *time <= times.end + rounding);
         at_least("list of kept steps between two times", end_step.saturating_sub(first_step), 1)?;
         let steps = first_step..end_step;
-        // The slices are public and may have been replaced by shorter ones.
+        // The slices are public and may have been replaced by shorter slices.
         Ok(Self {
             times: self.times.get(steps.clone()).unwrap_or_default(),
             rotation: self.rotation.get(steps.clone()).unwrap_or_default(),

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::fem::{Element, ElementFace, Mesh};
 
-/// Form of a cell; its number is the one of VTK (vtkCellType.h).
+/// Form of a cell; its number is that of VTK (vtkCellType.h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CellForm {
     Point = 1,

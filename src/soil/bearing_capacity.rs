@@ -252,7 +252,7 @@ impl ShallowFooting {
 
     /// Capacity of the footing to resist rocking under a `vertical` force (N; of a strip N/m).
     ///
-    /// The soil carries the force by its bearing pressure q (Pa) on the critical contact area A_c at the edge, so that
+    /// The force is resisted by the bearing pressure q (Pa) on the critical contact area A_c at the edge, so that
     /// the moment of a rectangle of length L is (V L/2)(1 − A_c/A) (Gajan and Kutter, Journal of Geotechnical and
     /// Geoenvironmental Engineering 134 (2008), 1129–1141); for a circle A_c is a segment. Eccentricity and
     /// inclination of the footing's load have no effect.

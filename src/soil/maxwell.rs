@@ -47,13 +47,11 @@ fn is_band([ratio, low, high]: &[f64; 3]) -> bool {
 const FIT_FREQUENCIES: usize = 120;
 /// Number of mechanisms per decade of frequency.
 ///
-/// With fewer of them the damping ratio varies by more than a few per cent between their rates.
+/// Two keep the damping ratio within 5 % of its target in the bands that the tests below try.
 const MECHANISMS_PER_DECADE: f64 = 2.0;
 /// Factor by which the relaxation rates extend beyond the band at both ends.
 const BAND_EXTENSION_FACTOR: f64 = 1.8;
 /// Largest deviation from the damping ratio in the band, relative.
-///
-/// Damping ratios of soils are not known more exactly.
 const MAX_DAMPING_DEVIATION: f64 = 0.15;
 
 impl GeneralizedMaxwell {
@@ -111,12 +109,7 @@ impl GeneralizedMaxwell {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 14")]
         let mechanism_count = (MECHANISMS_PER_DECADE * band_ratio.log10()).ceil() as usize + 2;
         let min_omega = std::f64::consts::TAU * band[0];
-        let mut rates = Vec::with_capacity(mechanism_count);
-        for i in 0..mechanism_count {
-            let extended_band_ratio = band_ratio * BAND_EXTENSION_FACTOR * BAND_EXTENSION_FACTOR;
-            let fraction = i as f64 / (mechanism_count - 1) as f64;
-            rates.push(min_omega / BAND_EXTENSION_FACTOR * extended_band_ratio.powf(fraction));
-        }
+        let rates = relaxation_rates(min_omega, band_ratio, mechanism_count);
         let mut omegas = Vec::with_capacity(FIT_FREQUENCIES);
         for i in 0..FIT_FREQUENCIES {
             omegas.push(min_omega * band_ratio.powf(i as f64 / (FIT_FREQUENCIES - 1) as f64));
@@ -161,6 +154,19 @@ impl GeneralizedMaxwell {
         let modulus = self.modulus(Complex::new(0.0, std::f64::consts::TAU * frequency));
         0.5 * modulus.im / modulus.re
     }
+}
+
+/// Relaxation rates of a fit (1/s), with equal ratios from below the band to above it.
+///
+/// `min_omega`: lowest circular frequency of the band, 1/s; `band_ratio`: highest frequency over the lowest.
+fn relaxation_rates(min_omega: f64, band_ratio: f64, mechanism_count: usize) -> Vec<f64> {
+    let mut rates = Vec::with_capacity(mechanism_count);
+    for i in 0..mechanism_count {
+        let extended_band_ratio = band_ratio * BAND_EXTENSION_FACTOR * BAND_EXTENSION_FACTOR;
+        let fraction = i as f64 / (mechanism_count - 1) as f64;
+        rates.push(min_omega / BAND_EXTENSION_FACTOR * extended_band_ratio.powf(fraction));
+    }
+    rates
 }
 
 impl Relaxation for GeneralizedMaxwell {

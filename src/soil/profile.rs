@@ -75,8 +75,6 @@ validated! {
 }
 
 /// Largest number of layers of a profile.
-///
-/// More layers are a mistake in units: no ground needs them.
 const MAX_LAYERS: usize = 1000;
 
 impl SoilProfile {

@@ -8,7 +8,7 @@ use crate::error::{Result, not_negative, require};
 ///
 /// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from it.
 /// The wall pressures are those of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
-/// friction they are Rankine's. Strengths and stresses are effective ones.
+/// friction they are Rankine's. Strengths and stresses are effective values.
 ///
 /// ```
 /// use basemat::soil::SoilStrength;

@@ -35,7 +35,7 @@ pub(super) const DEFAULT_MEMORY: usize = 1 << 30;
 /// time with a common set of poles, and of a few functions over the patch in space. All tractions before the last 2W
 /// are stored as a few hundred numbers, whatever the number of steps.
 ///
-/// The kernel must give its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
+/// The kernel must provide its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
 /// Rayleigh wave has crossed the patch three times. By then only normal and tangential components are left. These are
 /// integrals of decaying exponentials, which the trapezoidal rule in the logarithm of the rate turns into sums. The
 /// functions in space are Legendre polynomials over the patch.

@@ -77,14 +77,8 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self {
-            coefficients: Coefficients { classes, short_lags, .. },
-            rows,
-            stride,
-            now,
-            ahead,
-            coupled,
-        } = self;
+        let Self { coefficients, rows, stride, now, ahead, coupled } = self;
+        let Coefficients { classes, short_lags, .. } = coefficients;
         let element_count = classes.elements().len();
         let [normal, tangential, couplings, second_couplings] = &**short_lags;
         let has_two_couplings = classes.has_two_couplings();

@@ -211,7 +211,7 @@ impl ElementGrid {
         debug_assert!(done.is_ok());
     }
 
-    /// Transforms one value per element (missing ones count as zero) to real and imaginary parts.
+    /// Transforms one value per element to real and imaginary parts; missing values are zero.
     pub(super) fn forward(
         &mut self,
         component: usize,

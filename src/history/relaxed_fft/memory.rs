@@ -8,7 +8,7 @@ use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Bytes of the blocks for `steps` steps, which grow by powers of two.
 ///
-/// The factors add up the tables of [`RelaxedFftHistory`](super::RelaxedFftHistory): 16 bytes for a complex number.
+/// In the plane the factors are the sums over the table of costs of [`RelaxedFftHistory`](super::RelaxedFftHistory).
 pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> Result<f64> {
     let lag_count = (steps as f64).max(2.0 * LEAF_STEPS as f64).log2().ceil().exp2();
     let classes = kernel.classes();

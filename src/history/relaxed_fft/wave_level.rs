@@ -280,7 +280,7 @@ fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Comple
     multiply_matrix::<N, true>(high, spectra);
 }
 
-/// Multiplies the lower frequencies, or the upper ones.
+/// Multiplies the lower frequencies, or the upper frequencies.
 fn multiply_matrix<const N: usize, const UPPER: bool>(
     mut blocks: [&mut [Complex<f64>]; N],
     spectra: [[&[Complex<f64>]; N]; N],

@@ -275,7 +275,7 @@ impl HistoryBlocks for WaveBlocks {
         }
         let leaves = steps.div_ceil(LEAF_STEPS).max(1);
         let largest = leaves.next_power_of_two();
-        // The first request is met exactly; later ones double the memory.
+        // The first request is met exactly; later requests double the memory.
         let capacity = LEAF_STEPS * if self.capacity == 0 { leaves } else { largest };
         let level_count = largest.ilog2() as usize;
         self.take_levels(kernel, level_count, reporter)?;
