@@ -23,7 +23,7 @@ pub struct HistoryChoice {
     pub memory: usize,
     /// Bound of the relative error of the coefficients; zero if the method is exact.
     ///
-    /// For exponentials the measured error; for transforms the fraction of the coefficients' sum that may be left out.
+    /// For exponentials the measured error; for transforms the fraction of the coefficients' sum that may be neglected.
     pub error_bound: f64,
     /// Number of Runge–Kutta stages of the convolution quadrature; `None` for closed forms.
     pub stages: Option<usize>,
@@ -31,13 +31,13 @@ pub struct HistoryChoice {
 
 impl fmt::Display for HistoryChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = match self.kind {
+        let method_name = match self.kind {
             HistoryMethod::Direct => "direct sum",
             HistoryMethod::RelaxedFft => "relaxed transforms",
             HistoryMethod::Exponentials => "exponentials",
             HistoryMethod::Auto => "chosen by rule",
         };
-        write!(f, "history: {name}, ")?;
+        write!(f, "history: {method_name}, ")?;
         match self.steps {
             Some(steps) => write!(f, "{steps} steps")?,
             None => write!(f, "no known end of the run")?,
@@ -58,7 +58,9 @@ pub(crate) struct ChosenHistory {
     pub(crate) history: Box<dyn ConvolutionHistory>,
     /// Description; `None` for a history that the caller supplied.
     choice: Option<HistoryChoice>,
-    /// Number that identifies the history in a checkpoint: a constant, or the horizon (steps) of exponentials.
+    /// Number that identifies the history in a checkpoint.
+    ///
+    /// It is a constant, or the horizon (steps) of exponentials.
     identity: usize,
 }
 
@@ -88,7 +90,7 @@ impl ChosenHistory {
         Self::new(history, HistoryMethod::Direct, steps, 0.0, Self::DIRECT_IDENTITY)
     }
 
-    /// Wraps transforms that leave out up to the fraction `neglected` of the coefficients' sum.
+    /// Wraps transforms that neglect up to the fraction `neglected` of the coefficients' sum.
     pub(super) fn transforms(
         history: RelaxedFftHistory,
         steps: Option<usize>,
@@ -122,23 +124,24 @@ impl ChosenHistory {
     /// # Errors
     /// [`CheckpointError::OtherScene`] for a history of another kind; as for [`ConvolutionHistory::restore`].
     pub(crate) fn restore(&mut self, steps: usize, values: &[f64]) -> Result<Option<usize>> {
-        let corrupt = CheckpointError::Corrupt { quantity: "kind of history" };
-        let [identity, values @ ..] = values else { return Err(corrupt.into()) };
+        let corrupt_error = CheckpointError::Corrupt { quantity: "kind of history" };
+        let [identity, values @ ..] = values else { return Err(corrupt_error.into()) };
         if *identity == self.identity as f64 {
             self.history.restore(steps, values)?;
             return Ok(None);
         }
-        let horizons =
+        let horizon_range =
             ExponentialHistory::DEFAULT_HORIZON as f64..=ExponentialHistory::MAX_HORIZON as f64;
-        let is_horizon = horizons.contains(identity) && identity.fract() == 0.0;
+        let is_horizon = horizon_range.contains(identity) && identity.fract() == 0.0;
         if is_horizon && self.identity > Self::TRANSFORMS_IDENTITY {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
             return Ok(Some(*identity as usize));
         }
-        let identities =
+        let constant_identities =
             [Self::SUPPLIED_IDENTITY, Self::DIRECT_IDENTITY, Self::TRANSFORMS_IDENTITY];
-        let is_known = is_horizon || identities.iter().any(|known| *known as f64 == *identity);
-        let other_scene = CheckpointError::OtherScene { quantity: "kind of history" };
-        Err(if is_known { other_scene } else { corrupt }.into())
+        let is_valid_identity = is_horizon
+            || constant_identities.iter().any(|valid_identity| *valid_identity as f64 == *identity);
+        let other_scene_error = CheckpointError::OtherScene { quantity: "kind of history" };
+        Err(if is_valid_identity { other_scene_error } else { corrupt_error }.into())
     }
 }

@@ -7,23 +7,25 @@ use crate::error::{CheckpointError, Observer, Result};
 /// Contact vectors are laid out as in [`crate::bem`].
 #[auto_impl::auto_impl(Box)]
 pub trait ConvolutionHistory: Send {
-    /// Inputs accepted so far.
+    /// Number of inputs accepted so far.
     fn steps(&self) -> usize;
 
-    /// Prepares weights and memory for `steps` inputs in all.
+    /// Prepares weights and memory for `steps` inputs in total.
     ///
     /// # Errors
     /// [`Error::Stopped`](crate::Error::Stopped) by the observer; [`Error::Memory`](crate::Error::Memory) if the steps
-    /// need more memory than allowed; if weights cannot be computed. The history is then unchanged.
+    /// need more memory than allowed; an error if the weights cannot be computed. The history is then unchanged.
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()>;
 
     /// Overwrites `displacement` with the history at the end of the next step.
     ///
     /// # Errors
-    /// If the slice has the wrong length or a kernel cannot be evaluated.
+    /// An error if the slice has the wrong length or the convolution weights cannot be computed.
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (Pa) of the step that ends now: all components of all elements.
+    /// Accepts the tractions (Pa) of the step that ends now.
+    ///
+    /// `traction` contains all components of all elements.
     fn push(&mut self, traction: &[f64]);
 
     /// Bytes used by coefficients, tractions and scratch; zero (the default) if not known.
@@ -51,7 +53,7 @@ pub trait ConvolutionHistory: Send {
     /// All later results are then the same to the last bit. The history is unchanged on an error.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that `steps` inputs cannot have given, [`CheckpointError::Unsupported`]
+    /// [`CheckpointError::Corrupt`] for values that do not belong to `steps` inputs, [`CheckpointError::Unsupported`]
     /// unless a history implements it.
     ///
     /// [`save`]: ConvolutionHistory::save
@@ -60,9 +62,9 @@ pub trait ConvolutionHistory: Send {
     }
 }
 
-/// Returns an error unless `values` are `steps` inputs of `size` numbers each.
-pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
-    if steps.checked_mul(size) == Some(values.len()) {
+/// Returns an error unless `values` are `steps` inputs of `input_width` numbers each.
+pub(super) fn check_inputs(steps: usize, input_width: usize, values: &[f64]) -> Result<()> {
+    if steps.checked_mul(input_width) == Some(values.len()) {
         Ok(())
     } else {
         Err(CheckpointError::Corrupt { quantity: "tractions of the history" }.into())

@@ -23,23 +23,23 @@ use crate::geometry::SERIES_PER_OFFSET;
 /// | down | shear | sign · scale · coupling |
 /// | to the right | pressure | −sign · scale · coupling |
 ///
-/// A history stores tables made from [`ConvolutionWeights::coefficients`], so that a step calls nothing here unless
-/// memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the division
-/// of a run into parts changes nothing.
+/// A history stores tables made from [`ConvolutionWeights::coefficients`], so that a step calls none of these methods
+/// unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the division
+/// of a run into parts does not change the results.
 ///
-/// The example of [`WeightsGround`](crate::bem::WeightsGround) is a kernel in twenty lines.
+/// The example of [`WeightsGround`](crate::bem::WeightsGround) implements this trait in twenty lines.
 pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;
 
     /// Computes the lags up to `lags` of all classes; nothing for a closed form (the default).
     ///
-    /// This is called often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
-    /// `lags`: a kernel that computes lags in blocks takes fixed blocks, such as N + 1 … 2N for powers of two.
+    /// Histories call this method often, so it must be cheap where all lags are ready. The bits of a lag must not depend on
+    /// `lags`: a kernel that computes lags in blocks uses fixed blocks, such as N + 1 … 2N for powers of two.
     /// A history requests powers of two where the number of steps leaves a choice.
     ///
     /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped) by the observer; if coefficients cannot be computed.
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer; an error if coefficients cannot be computed.
     fn prepare(&self, _lags: usize, _observer: &mut Observer<'_>) -> Result<()> {
         Ok(())
     }
@@ -85,7 +85,7 @@ pub trait ConvolutionWeights: Send + Sync {
     /// Largest sum of the errors of late coefficients, relative to the sum of all coefficients.
     ///
     /// Zero (the default) if they are exact. It is the smallest [tolerance](super::HistoryOptions) at which late
-    /// weights are left out.
+    /// weights are neglected.
     fn late_error(&self) -> f64 {
         0.0
     }
@@ -107,7 +107,7 @@ pub trait ConvolutionWeights: Send + Sync {
         let classes = self.classes();
         same_length("step compliance", matrix.len(), classes.layout().square())?;
         self.prepare(1, &mut unobserved)?;
-        // Of each class, kind by kind; zero for kinds that the elements do not have.
+        // Coefficients of each class, kind by kind; zero for kinds that the elements do not have.
         let mut coefficients = vec![[0.0; SERIES_PER_OFFSET]; classes.count()];
         for (class, coefficients) in coefficients.iter_mut().enumerate() {
             let mut values: Vec<_> = coefficients.chunks_mut(1).take(classes.kinds()).collect();
@@ -158,7 +158,7 @@ pub trait LateWeights: Send + Sync {
     /// too large.
     ///
     /// # Errors
-    /// If there are no such exponentials.
+    /// An error if there are no such exponentials.
     fn exponentials(&self, window: usize, horizon: usize, tolerance: f64)
     -> Result<ExponentialSum>;
 }

@@ -26,9 +26,9 @@ pub struct DirectHistory {
     /// The coupling is stored only while it is not zero.
     coefficients: Vec<Vec<Vec<f64>>>,
     /// Tractions of all steps, for each contact component.
-    traction: Vec<Vec<f64>>,
+    tractions: Vec<Vec<f64>>,
     steps: usize,
-    /// Bytes.
+    /// Memory allowed, bytes.
     memory_limit: f64,
 }
 
@@ -37,13 +37,13 @@ short_debug! {
 }
 
 impl DirectHistory {
-    /// History of `kernel`, empty.
+    /// Makes an empty history of `kernel`.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
         let coefficients = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
-        let traction = vec![Vec::new(); classes.layout().len()];
+        let tractions = vec![Vec::new(); classes.layout().len()];
         let memory_limit = memory_limit() as f64;
-        Self { kernel, capacity: 0, coefficients, traction, steps: 0, memory_limit }
+        Self { kernel, capacity: 0, coefficients, tractions, steps: 0, memory_limit }
     }
 
     /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
@@ -56,13 +56,14 @@ impl DirectHistory {
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let old_capacity = self.capacity;
         let capacity = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
-        let numbers = self.coefficients.len() * self.kernel.classes().count() + self.traction.len();
-        let needed = 8.0 * numbers as f64 * capacity as f64;
-        if needed > self.memory_limit {
+        let series_count =
+            self.coefficients.len() * self.kernel.classes().count() + self.tractions.len();
+        let needed_bytes = 8.0 * series_count as f64 * capacity as f64;
+        if needed_bytes > self.memory_limit {
             return Err(Error::Memory(MemoryError {
                 quantity: "steps of the convolution history",
                 asked: lags as f64,
-                needed,
+                needed: needed_bytes,
                 limit: self.memory_limit,
                 remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
             }));
@@ -72,14 +73,14 @@ impl DirectHistory {
         self.kernel.prepare(capacity, observer)?;
         for class in 0..self.kernel.classes().count() {
             let last_lag = self.kernel.last_coupling_lag(class)?;
-            let last = last_lag.unwrap_or(capacity).min(capacity);
+            let coupling_end = last_lag.unwrap_or(capacity).min(capacity);
             let mut values: Vec<_> = new_lags.iter_mut().map(Vec::as_mut_slice).collect();
             self.kernel.coefficients(class, old_capacity + 1, &mut values)?;
             for (kind, (stored, lags)) in self.coefficients.iter_mut().zip(&new_lags).enumerate() {
                 if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);
-                } else if last > stored[class].len() {
-                    let coupled_lags = last - old_capacity.min(last);
+                } else if coupling_end > stored[class].len() {
+                    let coupled_lags = coupling_end - old_capacity.min(coupling_end);
                     prepend_reversed(&mut stored[class], &lags[..coupled_lags]);
                 }
             }
@@ -89,10 +90,10 @@ impl DirectHistory {
     }
 }
 
-/// Puts the lags `next`, which follow the stored ones, in front of `stored`, reversed.
-fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
-    let mut grown = Vec::with_capacity(stored.len() + next.len());
-    grown.extend(next.iter().rev());
+/// Puts `later_lags`, which follow the stored lags, in front of `stored`, reversed.
+fn prepend_reversed(stored: &mut Vec<f64>, later_lags: &[f64]) {
+    let mut grown = Vec::with_capacity(stored.len() + later_lags.len());
+    grown.extend(later_lags.iter().rev());
     grown.extend_from_slice(stored);
     *stored = grown;
 }
@@ -103,16 +104,16 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn memory(&self) -> usize {
-        let coefficients: usize = self.coefficients.iter().flatten().map(Vec::capacity).sum();
-        let traction: usize = self.traction.iter().map(Vec::capacity).sum();
-        (coefficients + traction) * size_of::<f64>()
+        let coefficient_count: usize = self.coefficients.iter().flatten().map(Vec::capacity).sum();
+        let traction_count: usize = self.tractions.iter().map(Vec::capacity).sum();
+        (coefficient_count + traction_count) * size_of::<f64>()
     }
 
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
         if steps > self.capacity {
             self.grow(steps, observer)?;
         }
-        for component in &mut self.traction {
+        for component in &mut self.tractions {
             component.reserve(steps.saturating_sub(component.len()));
         }
         Ok(())
@@ -123,26 +124,27 @@ impl ConvolutionHistory for DirectHistory {
         let layout = classes.layout();
         same_length("displacement of the history", displacement.len(), layout.len())?;
         displacement.fill(0.0);
-        let past = self.steps;
-        if past == 0 {
+        let past_steps = self.steps;
+        if past_steps == 0 {
             return Ok(());
         }
-        if past + 1 > self.capacity {
-            self.grow(past + 1, &mut unobserved)?;
+        if past_steps + 1 > self.capacity {
+            self.grow(past_steps + 1, &mut unobserved)?;
         }
-        // Input m (from 0) acts with lag past + 1 − m.
-        for begin in (0..past).step_by(STEPS_PER_CHUNK) {
-            let end = (begin + STEPS_PER_CHUNK).min(past);
+        // Input m (from 0) acts with lag past_steps + 1 − m.
+        for chunk_start in (0..past_steps).step_by(STEPS_PER_CHUNK) {
+            let chunk_end = (chunk_start + STEPS_PER_CHUNK).min(past_steps);
             self.kernel.classes().each(|[receiver, source], pair, terms| {
                 for term in terms {
                     let factor = term.factor * pair.scale;
                     let lags = &self.coefficients[term.kind][pair.class];
-                    let first = (past + 1).saturating_sub(lags.len()).max(begin);
-                    if first < end && factor != 0.0 {
-                        let range = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
-                        let traction = &self.traction[layout.place(term.components[1], source)];
+                    let first_step = (past_steps + 1).saturating_sub(lags.len()).max(chunk_start);
+                    if first_step < chunk_end && factor != 0.0 {
+                        let lag_range = lags.len() - (past_steps + 1 - first_step)
+                            ..lags.len() - (past_steps + 1 - chunk_end);
+                        let tractions = &self.tractions[layout.place(term.components[1], source)];
                         displacement[layout.place(term.components[0], receiver)] +=
-                            factor * dot(&lags[range], &traction[first..end]);
+                            factor * dot(&lags[lag_range], &tractions[first_step..chunk_end]);
                     }
                 }
             });
@@ -151,7 +153,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn push(&mut self, traction: &[f64]) {
-        for (i, stored) in self.traction.iter_mut().enumerate() {
+        for (i, stored) in self.tractions.iter_mut().enumerate() {
             stored.push(traction.get(i).copied().unwrap_or(0.0));
         }
         self.steps += 1;
@@ -159,17 +161,17 @@ impl ConvolutionHistory for DirectHistory {
 
     /// Returns all tractions, step by step.
     fn save(&self) -> Result<Vec<f64>> {
-        Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
+        Ok((0..self.steps).flat_map(|m| self.tractions.iter().map(move |row| row[m])).collect())
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        let size = self.traction.len();
-        check_inputs(steps, size, values)?;
-        for row in &mut self.traction {
+        let component_count = self.tractions.len();
+        check_inputs(steps, component_count, values)?;
+        for row in &mut self.tractions {
             row.clear();
         }
         self.steps = 0;
-        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        values.chunks_exact(component_count).for_each(|traction| self.push(traction));
         Ok(())
     }
 }

@@ -23,10 +23,10 @@ pub struct ExponentialSum {
 
 /// Product of a function of the traction and a function of the displacement, with its weights.
 ///
-/// It stands for both orders of the two functions.
+/// It applies to both orders of the two functions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TailProduct {
-    /// Numbers i and j of the functions in [`ExponentialSum`].
+    /// Indices i and j of the functions in [`ExponentialSum`].
     pub functions: [usize; 2],
     /// Weights of the normal components, 1/(m Pa), for the first few rates.
     pub normal: Vec<f64>,
@@ -57,8 +57,8 @@ impl ExponentialSum {
                 finite("mean of a function over an element", *mean)?;
             }
         }
-        for TailProduct { functions: pair, normal, tangential } in &products {
-            for index in pair {
+        for TailProduct { functions: function_pair, normal, tangential } in &products {
+            for index in function_pair {
                 in_bounds("function of a product", *index, functions.len())?;
             }
             same_length("tangential weights", tangential.len(), normal.len())?;

@@ -1,12 +1,14 @@
-//! Last lag that is not negligible in plan, where the effect of a traction dies out.
+//! Last lag that is not negligible in plan.
+//!
+//! The effect of a traction there decays to zero.
 
 use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
-use crate::geometry::{Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 
 /// Smallest number of lags that are not neglected.
 const MIN_KEPT_LAGS: usize = 64;
-/// Sum of the lags beyond 2M, relative to the sum of the lags M + 1 … 2M.
+/// Sum of the coefficients beyond lag 2M, relative to the sum over the lags M + 1 … 2M.
 ///
 /// The coupling falls like n⁻³, all other coefficients fall faster.
 const REMAINDER_RATIO: f64 = 1.0 / 3.0;
@@ -37,47 +39,48 @@ impl LastLag {
         let area = lattice.pitch[0] * lattice.pitch[1];
         // Σ |G| for each class and kind.
         let mut sums = vec![[0.0; SERIES_PER_OFFSET]; kernel.classes().count()];
-        let mut lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; MIN_KEPT_LAGS]);
-        let mut done = 0;
+        let mut kind_lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; MIN_KEPT_LAGS]);
+        let mut summed_lags = 0;
         let mut lag = MIN_KEPT_LAGS;
         while lag <= max_lags / 2 {
-            kernel.prepare(2 * lag, &mut |Progress { task, done: parts, total, .. }| {
-                let lags = done + (2 * lag - done) * parts / total.max(1);
-                observer(Progress::new(task, lags, max_lags))
+            kernel.prepare(2 * lag, &mut |Progress { task, done, total, .. }| {
+                let done_lags = summed_lags + (2 * lag - summed_lags) * done / total.max(1);
+                observer(Progress::new(task, done_lags, max_lags))
             })?;
             let mut late_sums = vec![[0.0; SERIES_PER_OFFSET]; sums.len()];
-            let mut changes = late_sums.clone();
-            let mut previous = late_sums.clone();
-            for begin in (done..2 * lag).step_by(MIN_KEPT_LAGS) {
-                let is_late = begin >= lag;
-                let target = if is_late { &mut late_sums } else { &mut sums };
-                for (class, sums) in target.iter_mut().enumerate() {
-                    let mut values = lags.each_mut().map(Vec::as_mut_slice);
-                    kernel.coefficients(class, begin + 1, &mut values)?;
-                    for (sum, lags) in sums.iter_mut().zip(&lags) {
+            let mut change_sums = late_sums.clone();
+            let mut previous_values = late_sums.clone();
+            for skipped_lags in (summed_lags..2 * lag).step_by(MIN_KEPT_LAGS) {
+                let is_late = skipped_lags >= lag;
+                let class_sums = if is_late { &mut late_sums } else { &mut sums };
+                for (class, kind_sums) in class_sums.iter_mut().enumerate() {
+                    let mut slices = kind_lags.each_mut().map(Vec::as_mut_slice);
+                    kernel.coefficients(class, skipped_lags + 1, &mut slices)?;
+                    for (sum, lags) in kind_sums.iter_mut().zip(&kind_lags) {
                         *sum += lags.iter().map(|value| value.abs()).sum::<f64>();
                     }
                     if !is_late {
                         continue;
                     }
-                    let kinds = changes[class].iter_mut().zip(&mut previous[class]);
-                    for ((change, previous), lags) in kinds.zip(&lags) {
+                    let kinds = change_sums[class].iter_mut().zip(&mut previous_values[class]);
+                    for ((change_sum, previous_value), lags) in kinds.zip(&kind_lags) {
                         for value in lags {
-                            *change += (value - *previous).abs();
-                            *previous = *value;
+                            *change_sum += (value - *previous_value).abs();
+                            *previous_value = *value;
                         }
                     }
                 }
             }
-            let remainder = (1.0 + REMAINDER_RATIO) * largest_row(lattice, &late_sums);
-            for (sum, late) in sums.as_flattened_mut().iter_mut().zip(late_sums.as_flattened()) {
-                *sum += late;
+            let remainder = (1.0 + REMAINDER_RATIO) * max_row_sum(lattice, &late_sums);
+            let late_sums = late_sums.as_flattened();
+            for (sum, late_sum) in sums.as_flattened_mut().iter_mut().zip(late_sums) {
+                *sum += late_sum;
             }
-            if remainder <= tolerance * largest_row(lattice, &sums) {
-                let change = (1.0 + REMAINDER_RATIO) * largest_row(lattice, &changes) / area;
+            if remainder <= tolerance * max_row_sum(lattice, &sums) {
+                let change = (1.0 + REMAINDER_RATIO) * max_row_sum(lattice, &change_sums) / area;
                 return Ok(Some(Self { lag, change }));
             }
-            done = 2 * lag;
+            summed_lags = 2 * lag;
             lag *= 2;
         }
         Ok(None)
@@ -85,15 +88,15 @@ impl LastLag {
 }
 
 /// Largest row sum of the matrix, from sums for each class and kind.
-fn largest_row(lattice: &Lattice, sums: &[[f64; SERIES_PER_OFFSET]]) -> f64 {
+fn max_row_sum(lattice: &Lattice, sums: &[[f64; SERIES_PER_OFFSET]]) -> f64 {
     let offsets = (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
-    let mut rows = [0.0; 3];
+    let mut row_sums = [0.0; COMPONENTS_IN_SPACE];
     for offset in offsets {
-        let images: f64 = offset.map(|n| if n == 0 { 1.0 } else { 2.0 }).iter().product();
+        let image_count: f64 = offset.map(|n| if n == 0 { 1.0 } else { 2.0 }).iter().product();
         let block = lattice.block(sums, offset.map(usize::cast_signed));
-        for (row, values) in rows.iter_mut().zip(block) {
-            *row += images * values.map(f64::abs).iter().sum::<f64>();
+        for (row_sum, values) in row_sums.iter_mut().zip(block) {
+            *row_sum += image_count * values.map(f64::abs).iter().sum::<f64>();
         }
     }
-    rows.into_iter().fold(0.0, f64::max)
+    row_sums.into_iter().fold(0.0, f64::max)
 }

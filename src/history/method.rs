@@ -29,7 +29,7 @@ pub enum HistoryMethod {
     /// Transforms of blocks, [`RelaxedFftHistory`](super::RelaxedFftHistory).
     RelaxedFft,
     /// A window of exact lags and a sum of exponentials, [`ExponentialHistory`](super::ExponentialHistory): memory that
-    /// does not grow, small checkpoints. The kernel must give its [late lags](super::ConvolutionWeights::late_weights).
+    /// does not grow, small checkpoints. The kernel must provide its [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
     /// One of the above by one rule, whatever the number of steps:
     ///

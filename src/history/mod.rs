@@ -1,6 +1,6 @@
 //! Convolution histories: response to all past tractions at the end of the next step.
 //!
-//! A [`ConvolutionWeights`] gives the coefficients of a ground, lag by lag. A history sums them over all past
+//! A [`ConvolutionWeights`] provides the coefficients of a ground, lag by lag. A history sums them over all past
 //! tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance ([`ExponentialHistory`]).
 //! [`HistoryOptions`] chooses the method by one rule. Nothing here depends on the soil.
 

@@ -45,7 +45,7 @@ pub struct HistoryOptions {
     /// Unless given, the fraction is 1e-8, or the [error](ConvolutionWeights::late_error) of late coefficients if that
     /// is larger.
     pub tolerance: Option<f64>,
-    /// Memory that the history may take, bytes; 1 GiB by default.
+    /// Memory that the history may use, bytes; 1 GiB by default.
     ///
     /// A run that needs more returns [`Error::Memory`](crate::Error::Memory) when its number of steps becomes known
     /// ([`expected_steps`](crate::coupled::SimulationBuilder::expected_steps), [`run`](crate::Simulation::run)), or
@@ -74,14 +74,14 @@ impl HistoryOptions {
 
     /// Makes an empty history of `weights`.
     ///
-    /// `steps`: their number in all; `None` if no end is known.
+    /// `steps`: number of steps of the run; `None` if its end is not known.
     pub(crate) fn history(
         self,
         weights: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<ChosenHistory> {
-        let count = weights.classes().elements().len() as f64;
-        memory::check("contact elements", count, bytes_of_blocks(&**weights, LEAF_STEPS)?)?;
+        let element_count = weights.classes().elements().len() as f64;
+        memory::check("contact elements", element_count, bytes_of_blocks(&**weights, LEAF_STEPS)?)?;
         Ok(match self.method {
             HistoryMethod::Direct => {
                 let history = DirectHistory::new(Arc::clone(weights)).within_memory(self.memory);

@@ -14,15 +14,19 @@ use crate::linalg::{MatrixScalar, hermitian_range, indefinite_pivot};
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const STRIP_KINDS: usize = 3;
 
+/// Kind of the coupling in the plane; it may end, unlike the other kinds.
+pub(crate) const COUPLING_KIND: usize = 2;
+
 /// Largest number of kinds in the plane: two couplings, where they are not equal up to the sign.
 pub(crate) const MAX_PLANE_KINDS: usize = STRIP_KINDS + 1;
 
-/// Length in units of 1e-12 of the patch, as an integer.
-///
-/// Rounding of the nodes therefore does not split a class.
+/// Number of units of a key in the length of the patch: rounding of the nodes does not split a class.
+const LENGTH_KEY_UNITS: f64 = 1e12;
+
+/// Length as an integer, for comparison without rounding.
 #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn length_key(length: f64, span: f64) -> i64 {
-    (length / span * 1e12).round() as i64
+    (length / span * LENGTH_KEY_UNITS).round() as i64
 }
 
 /// Effect of one traction component of the source on one displacement component of the receiver.
@@ -95,22 +99,22 @@ impl PairClasses {
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         let quantity = "length of the shortest contact element over that of the patch";
         require(quantity, shortest / span, shortest >= MIN_LENGTH_RATIO * span, "at least 1e-8")?;
-        let mut numbers = HashMap::new();
+        let mut class_indices = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());
         for (p, receiver) in elements.iter().enumerate() {
             for (q, source) in elements.iter().enumerate() {
-                let left = if p < q { receiver } else { source };
-                let right = if p < q { source } else { receiver };
-                let left_length = length_key(left.length(), span);
-                let right_length = length_key(right.length(), span);
-                let key = (
+                let left_element = if p < q { receiver } else { source };
+                let right_element = if p < q { source } else { receiver };
+                let left_length = length_key(left_element.length(), span);
+                let right_length = length_key(right_element.length(), span);
+                let class_key = (
                     left_length.min(right_length),
                     left_length.max(right_length),
-                    length_key(right.center()[0] - left.center()[0], span),
+                    length_key(right_element.center()[0] - left_element.center()[0], span),
                 );
-                let class = *numbers.entry(key).or_insert_with(|| {
-                    representatives.push([*left, *right]);
+                let class = *class_indices.entry(class_key).or_insert_with(|| {
+                    representatives.push([*left_element, *right_element]);
                     representatives.len() - 1
                 });
                 let sign = match p.cmp(&q) {
@@ -188,6 +192,12 @@ impl PairClasses {
         !self.exchanged.is_empty()
     }
 
+    /// Whether receiver and source of a pair are the source and the receiver of its class.
+    #[inline]
+    pub(crate) fn is_exchanged(&self, pair_index: usize) -> bool {
+        self.exchanged.get(pair_index).is_some_and(|is_exchanged| *is_exchanged)
+    }
+
     /// The elements, from left to right; cells in plan in the order given.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
@@ -228,21 +238,22 @@ impl PairClasses {
     pub(crate) fn each(&self, mut visit: impl FnMut([usize; 2], &Pair, &[Term])) {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
-        for (place, pair) in self.pairs.iter().enumerate() {
-            let coupling = self.coupling(place);
+        for (pair_index, pair) in self.pairs.iter().enumerate() {
+            let coupling = self.coupling(pair_index);
             terms[0] = Term { kind: 0, components: [0, 0], factor: 1.0 };
             terms[1] = Term { kind: 1, components: [1, 1], factor: 1.0 };
             terms[2] = Term { kind: coupling[0].0, components: [0, 1], factor: coupling[0].1 };
             terms[3] = Term { kind: coupling[1].0, components: [1, 0], factor: coupling[1].1 };
-            visit([place / count, place % count], pair, &terms[..4]);
+            visit([pair_index / count, pair_index % count], pair, &terms[..4]);
         }
         let Some((lattice, cells)) = &self.plan else { return };
         let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
         for (p, receiver) in cells.iter().enumerate() {
             for (q, source) in cells.iter().enumerate() {
-                let (class, block) = lattice.terms(offset(*receiver, *source));
-                for (place, (kind, factor)) in block.into_iter().flatten().enumerate() {
-                    terms[place] = Term { kind, components: [place / 3, place % 3], factor };
+                let (class, block_terms) = lattice.terms(offset(*receiver, *source));
+                for (term_index, (kind, factor)) in block_terms.into_iter().flatten().enumerate() {
+                    terms[term_index] =
+                        Term { kind, components: [term_index / 3, term_index % 3], factor };
                 }
                 visit([p, q], &Pair { class, scale, sign: 1.0 }, &terms);
             }
@@ -250,9 +261,9 @@ impl PairClasses {
     }
 
     /// Kind and factor of a pair's coupling: normal displacement due to shear, tangential due to pressure.
-    pub(crate) fn coupling(&self, place: usize) -> [(usize, f64); 2] {
-        let sign = self.pairs[place].sign;
-        if let Some(exchanged) = self.exchanged.get(place) {
+    pub(crate) fn coupling(&self, pair_index: usize) -> [(usize, f64); 2] {
+        let sign = self.pairs[pair_index].sign;
+        if let Some(exchanged) = self.exchanged.get(pair_index) {
             let kinds = if *exchanged { [3, 2] } else { [2, 3] };
             return kinds.map(|kind| (kind, sign));
         }
@@ -261,18 +272,18 @@ impl PairClasses {
 
     /// Overwrites `matrix` (row-major) with the coefficients of all pairs.
     ///
-    /// `of_pair` returns the coefficients of a receiver and a source, kind by kind, the coupling as if the receiver
+    /// `pair_values` returns the coefficients of a receiver and a source, kind by kind, the coupling as if the receiver
     /// were to the right of the source and behind it.
     pub(crate) fn scatter<T, const N: usize>(
         &self,
         matrix: &mut [T],
-        mut of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
+        mut pair_values: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) where
         T: Copy + Mul<f64, Output = T>,
     {
         let layout = self.layout();
         self.each(|[receiver, source], pair, terms| {
-            let values = of_pair([receiver, source], pair);
+            let values = pair_values([receiver, source], pair);
             for Term { kind, components: [displacement, traction], factor } in terms {
                 let row = layout.place(*displacement, receiver);
                 let column = layout.place(*traction, source);
@@ -283,7 +294,7 @@ impl PairClasses {
 
     /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `diagonal`.
     ///
-    /// `of_pair` gives the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` gives a magnitude for
+    /// `pair_values` returns the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` returns a magnitude for
     /// each element on itself. NaN if the symbol is not finite.
     ///
     /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can create energy: by Parseval
@@ -291,12 +302,12 @@ impl PairClasses {
     pub(crate) fn smallest_eigenvalue<T, const N: usize>(
         &self,
         diagonal: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
+        pair_values: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) -> f64
     where
         T: MatrixScalar + Default + Mul<f64, Output = T>,
     {
-        let matrix = self.scaled(diagonal, of_pair);
+        let matrix = self.scaled_matrix(diagonal, pair_values);
         hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[smallest, _]| smallest)
     }
 
@@ -307,29 +318,29 @@ impl PairClasses {
         &self,
         bound: f64,
         diagonal: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [f64; N],
+        pair_values: impl FnMut([usize; 2], &Pair) -> [f64; N],
     ) -> bool {
-        let mut matrix = self.scaled(diagonal, of_pair);
+        let mut matrix = self.scaled_matrix(diagonal, pair_values);
         let order = self.layout().len();
         matrix.iter_mut().step_by(order + 1).for_each(|value| *value -= bound);
         matrix.iter().all(|value| value.is_finite()) && indefinite_pivot(&matrix, order).is_none()
     }
 
     /// Matrix of a symbol with rows and columns divided by the square roots of `diagonal`.
-    fn scaled<T, const N: usize>(
+    fn scaled_matrix<T, const N: usize>(
         &self,
         diagonal: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
+        pair_values: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) -> Vec<T>
     where
         T: Copy + Default + Mul<f64, Output = T>,
     {
         let layout = self.layout();
         let mut matrix = vec![T::default(); layout.square()];
-        self.scatter(&mut matrix, of_pair);
+        self.scatter(&mut matrix, pair_values);
         let mut scales = Vec::with_capacity(layout.len());
-        for place in 0..layout.len() {
-            let [component, element] = layout.origin(place);
+        for matrix_index in 0..layout.len() {
+            let [component, element] = layout.origin(matrix_index);
             // The first class of a lattice is a cell on itself.
             let self_pair = self.pairs.get(element * (self.elements.len() + 1));
             scales.push(1.0 / diagonal(self_pair.map_or(0, |pair| pair.class), component).sqrt());

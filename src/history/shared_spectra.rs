@@ -33,8 +33,10 @@ pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl SharedSpectra {
-    /// Whether the store belongs to these elements; an empty store belongs to them from now on.
-    pub(super) fn are_of(&self, elements: &[ContactElement]) -> bool {
+    /// Whether the store belongs to these elements.
+    ///
+    /// An empty store belongs to them from now on.
+    pub(super) fn belong_to(&self, elements: &[ContactElement]) -> bool {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }
 
@@ -42,12 +44,12 @@ impl SharedSpectra {
     pub(super) fn tables<T: Default + Send + 'static>(&self) -> Shared<T> {
         let mut tables = lock(&self.stores.tables);
         let stored = tables.iter().find(|(id, _)| *id == TypeId::of::<T>());
-        if let Some(stored) = stored.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
+        if let Some(stored) = stored.and_then(|(_, table)| Arc::clone(table).downcast().ok()) {
             return stored;
         }
-        let added = Shared::<T>::default();
-        tables.push((TypeId::of::<T>(), added.clone()));
-        added
+        let new_tables = Shared::<T>::default();
+        tables.push((TypeId::of::<T>(), new_tables.clone()));
+        new_tables
     }
 }
 

@@ -25,12 +25,12 @@ pub(super) const MOTION_COLUMNS: [&str; 5] = [
 impl TimeSeries {
     /// Ends of the elements, with their heights if there are walls.
     pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
-        let names = [["left_m", "right_m"], ["front_m", "back_m"]];
+        let end_names = [["left_m", "right_m"], ["front_m", "back_m"]];
         let mut columns = Vec::new();
         for axis in ContactLayout::for_elements(self.elements()).axes() {
             for end in [0, 1] {
                 let values = self.elements().iter().map(|element| element.ends()[axis][end]);
-                columns.push((names[axis][end], values.collect()));
+                columns.push((end_names[axis][end], values.collect()));
             }
         }
         if ContactElement::any_wall(self.elements()) {
@@ -58,19 +58,22 @@ impl TimeSeries {
         let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];
         columns.extend(Quantity::recorded(in_plan).map(|quantity| quantity.column(in_plan)));
-        for foundation in 0..self.foundations.kept() {
+        for foundation in 0..self.foundations.kept_count() {
             columns.extend(
                 Quantity::recorded(in_plan).map(|quantity| {
                     format!("foundation_{foundation}_{}", quantity.column(in_plan))
                 }),
             );
         }
-        let mut taken = columns.clone();
-        taken.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
-        taken.extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
-        taken.extend(self.element_ends().into_iter().map(|(name, _)| format!("element_{name}")));
-        taken.extend(self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}")));
-        columns.extend(distinct(&taken, self.probes.iter().map(Probe::column)));
+        let mut used_names = columns.clone();
+        used_names.extend(EnergyTerm::ALL_TERMS.into_iter().map(|term| term.column(in_plan)));
+        used_names
+            .extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
+        used_names
+            .extend(self.element_ends().into_iter().map(|(name, _)| format!("element_{name}")));
+        used_names
+            .extend(self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}")));
+        columns.extend(distinct(&used_names, self.probes.iter().map(Probe::column)));
         columns
     }
 

@@ -85,17 +85,17 @@ const DERIVED_RESULTS: [DerivedResult; 10] = [
 
 /// Makes all rows: quantities, some with their times, then derived results and energies.
 ///
-/// `dimensions`: of the runs, `true` for in plan.
-fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
-    let any_in_plan = dimensions.contains(&true);
+/// `run_kinds`: `true` for runs in plan, `false` for runs in the plane.
+fn comparison_rows(run_kinds: &[bool]) -> Vec<ComparisonRow> {
+    let has_plan_runs = run_kinds.contains(&true);
     let mut rows = Vec::new();
-    for quantity in Quantity::shown(ShownIn::Comparison, any_in_plan) {
+    for quantity in Quantity::shown(ShownIn::Comparison, has_plan_runs) {
         let has_one_unit = quantity.unit(true) == quantity.unit(false);
-        let in_plan_only = quantity.is_shown(ShownIn::Plan);
-        let with_quantity = dimensions.iter().filter(|in_plan| **in_plan || !in_plan_only);
-        for &in_plan in with_quantity.take(if has_one_unit { 1 } else { 2 }) {
+        let is_in_plan_only = quantity.is_shown(ShownIn::Plan);
+        let kinds_with_quantity = run_kinds.iter().filter(|in_plan| **in_plan || !is_in_plan_only);
+        for &in_plan in kinds_with_quantity.take(if has_one_unit { 1 } else { 2 }) {
             let value = move |run: &Run| {
-                let has_value = run.in_plan == in_plan || has_one_unit && !in_plan_only;
+                let has_value = run.in_plan == in_plan || has_one_unit && !is_in_plan_only;
                 let peak = run.whole.peak(quantity).value;
                 Some(peak).filter(|peak| has_value && !peak.is_nan())
             };
@@ -115,14 +115,14 @@ fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
                 column: format!("{quantity}_time_s"),
                 factor: 1.0,
                 value: Box::new(move |run: &Run| {
-                    let has_value = run.in_plan || !in_plan_only;
+                    let has_value = run.in_plan || !is_in_plan_only;
                     Some(run.whole.peak(quantity).time).filter(|_| has_value)
                 }),
             });
         }
     }
     for (name, unit, column, factor, value) in DERIVED_RESULTS {
-        if any_in_plan || !column.contains("across") {
+        if has_plan_runs || !column.contains("across") {
             rows.push(ComparisonRow {
                 name: name.to_owned(),
                 unit,
@@ -132,7 +132,7 @@ fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
             });
         }
     }
-    rows.extend(dimensions.iter().map(|&in_plan| energy_input_row(in_plan)));
+    rows.extend(run_kinds.iter().map(|&in_plan| energy_input_row(in_plan)));
     let lost_terms = EnergyTerm::ALL_TERMS.into_iter().filter(|term| term.is_lost());
     rows.extend(lost_terms.map(energy_fraction_row));
     rows
@@ -172,13 +172,13 @@ impl Comparison {
 
     /// Rows of the comparison, for the kinds of runs among its cases.
     fn rows(&self) -> Vec<ComparisonRow> {
-        let mut dimensions = Vec::new();
+        let mut run_kinds = Vec::new();
         for in_plan in [false, true] {
             if self.cases.iter().any(|(_, run)| run.in_plan == in_plan) {
-                dimensions.push(in_plan);
+                run_kinds.push(in_plan);
             }
         }
-        comparison_rows(if dimensions.is_empty() { &[false] } else { &dimensions })
+        comparison_rows(if run_kinds.is_empty() { &[false] } else { &run_kinds })
     }
 
     fn table(&self) -> Table {
@@ -186,7 +186,7 @@ impl Comparison {
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
         let mut rows = Vec::new();
         for row in self.rows() {
-            // A quantity without a value in any case gets no row.
+            // A quantity without a value in any case has no row.
             let has_value = self.cases.iter().any(|(_, run)| (row.value)(run).is_some());
             if has_value || self.cases.is_empty() {
                 let mut cells = vec![row.name.clone(), row.unit.to_owned()];
@@ -208,14 +208,16 @@ impl Comparison {
         Table { heading, repeated: 2, rows }
     }
 
-    /// Probes of the first case, if all cases have the same ones.
+    /// Probes of the first case, if all cases have the same probes.
     fn common_probes(&self) -> &[ProbeExtremes] {
         fn labels(run: &Run) -> impl Iterator<Item = (&str, &str)> {
             run.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))
         }
-        let Some(((_, first), others)) = self.cases.split_first() else { return &[] };
-        let are_same = others.iter().all(|(_, other)| labels(other).eq(labels(first)));
-        if are_same { &first.probes } else { &[] }
+        let Some(((_, first_run), other_cases)) = self.cases.split_first() else {
+            return &[];
+        };
+        let are_same = other_cases.iter().all(|(_, run)| labels(run).eq(labels(first_run)));
+        if are_same { &first_run.probes } else { &[] }
     }
 
     /// The table as Markdown.

@@ -6,14 +6,14 @@ use crate::motion::SpectralOrdinate;
 use crate::text::column::{NumberCell, cell_line, column};
 use crate::text::csv::Csv;
 
-/// A heading and lines; each begins with a text, then its numbers.
+/// Joins a heading and lines, each with a text followed by its numbers.
 fn csv_lines<N: IntoIterator<Item = f64>>(
     heading: &str,
     rows: impl IntoIterator<Item = (String, N)>,
 ) -> Csv {
     let mut text = format!("{heading}\n");
-    for (start, numbers) in rows {
-        text += &start;
+    for (line_start, numbers) in rows {
+        text += &line_start;
         text += &cell_line(numbers.into_iter().map(NumberCell));
     }
     Csv(text)
@@ -35,7 +35,7 @@ impl TimeSeries {
 
     /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
     ///
-    /// A heading and a line for every frame and element; elements count from 0 and are given with their ends.
+    /// A heading and a line for every frame and element; elements count from 0, and each line has the ends of its element.
     ///
     /// ```
     /// # use basemat::bem::SpringGround;
@@ -71,10 +71,12 @@ impl TimeSeries {
         let mut text = format!("{}\n", heading.join(","));
         for frame in self.contact_frames() {
             for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
-                let places = ends.iter().map(|(_, places)| NumberCell(places[element]).to_string());
-                let places = places.collect::<Vec<_>>().join(",");
-                let start = format!("{},{element},{places},{mode},", NumberCell(frame.time));
-                text += &start;
+                let end_cells: Vec<_> = ends
+                    .iter()
+                    .map(|(_, coordinates)| NumberCell(coordinates[element]).to_string())
+                    .collect();
+                let time = NumberCell(frame.time);
+                text += &format!("{time},{element},{},{mode},", end_cells.join(","));
                 text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
             }
         }
@@ -127,9 +129,9 @@ impl Run {
             .collect();
         let mut heading = vec!["element".to_owned()];
         heading.extend(columns.iter().map(|(word, unit, ..)| column(word, unit)));
-        let rows = self.envelope.iter().enumerate().map(|(number, element)| {
+        let rows = self.envelope.iter().enumerate().map(|(element_index, element)| {
             let values = columns.iter().map(move |(.., value)| value(element));
-            (format!("{number},"), values)
+            (format!("{element_index},"), values)
         });
         csv_lines(&heading.join(","), rows)
     }

@@ -7,7 +7,7 @@ use crate::structure::{
     Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
 
-/// A point of a [`DeformedShape`]: its place and its displacement.
+/// A point of a [`DeformedShape`]: its coordinates and its displacement.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShapePoint {
     /// Coordinates at rest, m: x, and the height above the surface.
@@ -62,8 +62,8 @@ impl DeformedShape {
             for value in point.position.into_iter().chain([point.away]) {
                 finite("coordinate of a deformed shape", value)?;
             }
-            let rows = [&point.horizontal, &point.vertical, &point.across];
-            for &(_, weight) in rows.into_iter().flatten() {
+            let displacements = [&point.horizontal, &point.vertical, &point.across];
+            for &(_, weight) in displacements.into_iter().flatten() {
                 finite("weight of a deformed shape", weight)?;
             }
         }
@@ -83,17 +83,21 @@ impl DeformedShape {
     /// their outer sides; files for ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
         let mesh = model.mesh();
-        let up = if mesh.has_depth() { Direction::Z } else { Direction::Y };
+        let up_direction = if mesh.has_depth() { Direction::Z } else { Direction::Y };
         let surface = model.surface_height();
         let mut points = Vec::with_capacity(mesh.nodes().len());
         for (node, &[x, y, z]) in mesh.nodes().iter().enumerate() {
             // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
-            let [along_x, along_y, upwards] = [Direction::X, Direction::Y, up]
-                .map(|direction| model.row(node, direction).unwrap_or_default());
+            let [x_displacement, y_displacement, z_displacement] =
+                [Direction::X, Direction::Y, up_direction]
+                    .map(|direction| model.row(node, direction).unwrap_or_default());
             points.push(if mesh.has_depth() {
-                ShapePoint::in_space([x, y, z - surface], [along_x, along_y, upwards])
+                ShapePoint::in_space(
+                    [x, y, z - surface],
+                    [x_displacement, y_displacement, z_displacement],
+                )
             } else {
-                ShapePoint::in_plane([x, y - surface], along_x, upwards)
+                ShapePoint::in_plane([x, y - surface], x_displacement, z_displacement)
             });
         }
         Self {
@@ -126,7 +130,7 @@ impl DeformedShape {
     /// [`Error::Input`](crate::Error::Input) unless the height is positive; as for [`DofCombination::of_base`].
     pub fn of_block(block: &dyn Structure, height: f64) -> Result<Self> {
         positive("height of the rectangle", height)?;
-        // Checks the base.
+        // The result is not needed: the call checks the base.
         DofCombination::of_base(block, [0.0, 0.0, height])?;
         let mut points = Vec::new();
         let mut cells = Vec::new();
@@ -138,15 +142,20 @@ impl DeformedShape {
             }
             Base::Lines(lines) => {
                 let nodes = lines.concat();
-                if let [first, .., last] = &nodes[..] {
-                    let middle = 0.5 * (first.x + last.x);
-                    let bottom = nodes.iter().fold(0.0_f64, |bottom, node| bottom.min(node.z));
-                    let corners =
-                        [(first.x, 0.0), (last.x, 0.0), (last.x, height), (first.x, height)];
-                    for (x, height) in corners {
+                if let [first_node, .., last_node] = &nodes[..] {
+                    let center_x = 0.5 * (first_node.x + last_node.x);
+                    let lowest_z =
+                        nodes.iter().fold(0.0_f64, |lowest_z, node| lowest_z.min(node.z));
+                    let corners = [
+                        (first_node.x, 0.0),
+                        (last_node.x, 0.0),
+                        (last_node.x, height),
+                        (first_node.x, height),
+                    ];
+                    for (x, corner_height) in corners {
                         let [horizontal, _, vertical] =
-                            DofCombination::of_base(block, [x - middle, 0.0, height])?;
-                        let position = [x, bottom + height];
+                            DofCombination::of_base(block, [x - center_x, 0.0, corner_height])?;
+                        let position = [x, lowest_z + corner_height];
                         points.push(ShapePoint::in_plane(position, horizontal, vertical));
                     }
                     cells.push(vec![0, 1, 2, 3]);
@@ -164,22 +173,22 @@ impl DeformedShape {
     /// None for a valid building.
     pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
         let center = building.center();
-        let base = building.base().into_nodes();
-        let mut points: Vec<ShapePoint> = base.iter().map(point_at).collect();
+        let base_nodes = building.base().into_nodes();
+        let mut points: Vec<ShapePoint> = base_nodes.iter().map(point_at).collect();
         let mut cells = Vec::new();
-        add_outline(&mut cells, 0, base.len());
+        add_outline(&mut cells, 0, base_nodes.len());
         let mut height = 0.0;
         for (storey, storey_height) in building.heights().enumerate() {
             height += storey_height;
-            let first = points.len();
-            for corner in &base {
-                let place = [corner.x - center[0], corner.y - center[1]];
-                let [along, across, _] = building.floor(storey, place)?;
-                let rows = [along, across, corner.vertical.clone()];
-                points.push(ShapePoint::in_space([corner.x, corner.y, height], rows));
+            let first_point = points.len();
+            for corner in &base_nodes {
+                let floor_position = [corner.x - center[0], corner.y - center[1]];
+                let [x_displacement, y_displacement, _] = building.floor(storey, floor_position)?;
+                let displacements = [x_displacement, y_displacement, corner.vertical.clone()];
+                points.push(ShapePoint::in_space([corner.x, corner.y, height], displacements));
             }
-            add_outline(&mut cells, first, base.len());
-            add_columns(&mut cells, first - base.len(), base.len());
+            add_outline(&mut cells, first_point, base_nodes.len());
+            add_columns(&mut cells, first_point - base_nodes.len(), base_nodes.len());
         }
         Self::new(points, cells)
     }
@@ -189,25 +198,25 @@ impl DeformedShape {
     /// # Errors
     /// None for a valid building.
     pub fn of_building(building: &ShearBuilding) -> Result<Self> {
-        let base = building.base().into_nodes();
+        let base_nodes = building.base().into_nodes();
         let mut points = Vec::new();
         let mut cells = Vec::new();
         let mut height = 0.0;
         for level in 0..=building.storeys().len() {
-            for end in &base {
+            for base_node in &base_nodes {
                 let horizontal = match level.checked_sub(1) {
-                    None => end.horizontal.clone(),
+                    None => base_node.horizontal.clone(),
                     Some(storey) => building.floor(storey)?.into(),
                 };
-                let vertical = end.vertical.clone();
-                points.push(ShapePoint::in_plane([end.x, height], horizontal, vertical));
+                let vertical = base_node.vertical.clone();
+                points.push(ShapePoint::in_plane([base_node.x, height], horizontal, vertical));
             }
-            let first = 2 * level;
-            cells.push(vec![first, first + 1]);
+            let first_point = 2 * level;
+            cells.push(vec![first_point, first_point + 1]);
             if let Some(storey) = building.storeys().get(level) {
                 height += storey.height;
-                cells.push(vec![first, first + 2]);
-                cells.push(vec![first + 1, first + 3]);
+                cells.push(vec![first_point, first_point + 2]);
+                cells.push(vec![first_point + 1, first_point + 3]);
             }
         }
         Self::new(points, cells)
@@ -306,7 +315,7 @@ impl ShapePoint {
         Self { position: [x, height], horizontal, vertical, away, across }
     }
 
-    /// Place at rest (x, height, y), m.
+    /// Coordinates at rest (x, height, y), m.
     pub(crate) fn place(&self) -> [f64; 3] {
         [self.position[0], self.position[1], self.away]
     }
@@ -314,8 +323,8 @@ impl ShapePoint {
 
 /// Point of the shape at a node of the base.
 fn point_at(node: &BaseNode) -> ShapePoint {
-    let rows = [&node.horizontal, &node.across, &node.vertical].map(DofCombination::clone);
-    ShapePoint::in_space([node.x, node.y, 0.0], rows)
+    let displacements = [&node.horizontal, &node.across, &node.vertical].map(DofCombination::clone);
+    ShapePoint::in_space([node.x, node.y, 0.0], displacements)
 }
 
 /// Adds a prism of this height on a face of the base.
@@ -325,29 +334,34 @@ fn add_prism(
     face: &[BaseNode],
     height: f64,
 ) {
-    let first = points.len();
-    let count = face.len();
+    let first_point = points.len();
+    let node_count = face.len();
     points.extend(face.iter().map(point_at));
     for node in face {
-        let rows = BaseNode::carried(face, node.place(), height);
-        points.push(ShapePoint::in_space([node.x, node.y, height], rows));
+        let displacements = BaseNode::carried(face, node.place(), height);
+        points.push(ShapePoint::in_space([node.x, node.y, height], displacements));
     }
-    add_outline(cells, first, count);
-    add_outline(cells, first + count, count);
-    add_columns(cells, first, count);
+    add_outline(cells, first_point, node_count);
+    add_outline(cells, first_point + node_count, node_count);
+    add_columns(cells, first_point, node_count);
 }
 
-/// Adds a polygon of points from `first` on; single lines if a cell of this many points would be curved.
-fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
-    if matches!(count, 6 | 8 | 9) {
-        cells.extend((0..count).map(|k| vec![first + k, first + (k + 1) % count]));
+/// Adds a polygon of points from `first_point` on; single lines if a cell of this many points would be curved.
+fn add_outline(cells: &mut Vec<Vec<usize>>, first_point: usize, point_count: usize) {
+    if matches!(point_count, 6 | 8 | 9) {
+        cells.extend(
+            (0..point_count).map(|k| vec![first_point + k, first_point + (k + 1) % point_count]),
+        );
     } else {
-        cells.push((first..first + count).collect());
+        cells.push((first_point..first_point + point_count).collect());
     }
 }
 
-/// Adds lines from points of one polygon to the points of the next, eight at most.
-fn add_columns(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
-    let columns = (0..count).step_by(count.div_ceil(8).max(1));
-    cells.extend(columns.map(|k| vec![first + k, first + count + k]));
+/// Largest number of columns drawn between two floors.
+const MAX_COLUMNS: usize = 8;
+
+/// Adds lines from points of one polygon to the points of the next, at most [`MAX_COLUMNS`].
+fn add_columns(cells: &mut Vec<Vec<usize>>, first_point: usize, point_count: usize) {
+    let columns = (0..point_count).step_by(point_count.div_ceil(MAX_COLUMNS).max(1));
+    cells.extend(columns.map(|k| vec![first_point + k, first_point + point_count + k]));
 }

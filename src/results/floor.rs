@@ -24,18 +24,18 @@ impl TimeSeries {
         require_part(quantity, has_acceleration_only, needed)?;
         let keeps_every_step = self.recorder.every == 1;
         require_part(quantity, keeps_every_step, "the recorder must keep every step")?;
-        let recorded = (self.times().len().max(1) - 1) as f64 * self.time_step;
-        let duration = self.sequence.end() - self.times()[0];
-        let is_complete = (recorded - duration).abs() <= 0.5 * self.time_step;
+        let recorded_duration = (self.times().len().max(1) - 1) as f64 * self.time_step;
+        let run_duration = self.sequence.end() - self.times()[0];
+        let is_complete = (recorded_duration - run_duration).abs() <= 0.5 * self.time_step;
         require_part(quantity, is_complete, "every step of the run must have been recorded")?;
         Record::new(self.time_step, self.probe_values[index].clone())
     }
 
     /// Floor (in-structure) response spectrum at the point of an acceleration probe.
     ///
-    /// The largest response of oscillators on that point, at `periods` (s) with the damping ratio `damping`. After the
-    /// end of the time series each oscillator vibrates freely for one period, and the peaks of this vibration count
-    /// too. In this period the point stands still: run until the floor is at rest.
+    /// Returns the largest response of oscillators on that point, at `periods` (s) with the damping ratio `damping`. After
+    /// the end of the time series each oscillator vibrates freely for one period, and the peaks of this vibration are
+    /// included. In this period the point does not move: run until the floor is at rest.
     /// Periods of fewer than ten time steps are not exact: at a period of 0.05 s a step of 0.02 s reduces the
     /// response by 11 %. [`Record::coarse_spectrum`] warns of them. Use a shorter time step for such periods.
     ///
@@ -88,10 +88,10 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
 pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<SpectralOrdinate>> {
     not_negative("fraction of broadening", fraction)?;
     require("fraction of broadening", fraction, fraction < 1.0, "below one")?;
-    let mut last = 0.0;
+    let mut previous_period = 0.0;
     for ordinate in spectrum {
-        positive("step to the next period of a spectrum", ordinate.period - last)?;
-        last = ordinate.period;
+        positive("step to the next period of a spectrum", ordinate.period - previous_period)?;
+        previous_period = ordinate.period;
     }
     Ok(spectrum
         .iter()
@@ -105,38 +105,49 @@ fn broadened_ordinate(
     centre: &SpectralOrdinate,
     fraction: f64,
 ) -> SpectralOrdinate {
-    let from = centre.period * (1.0 - fraction);
-    let to = centre.period * (1.0 + fraction);
-    let mut largest = SpectralOrdinate {
+    let min_period = centre.period * (1.0 - fraction);
+    let max_period = centre.period * (1.0 + fraction);
+    let mut band_maximum = SpectralOrdinate {
         period: centre.period,
         displacement: 0.0,
         pseudo_velocity: 0.0,
         pseudo_acceleration: 0.0,
         acceleration: 0.0,
     };
-    let inside = spectrum.iter().filter(|ordinate| (from..=to).contains(&ordinate.period));
-    let at_ends = [from, to].into_iter().filter_map(|period| interpolated(spectrum, period));
-    for ordinate in inside.copied().chain(at_ends) {
-        largest.displacement = largest.displacement.max(ordinate.displacement);
-        largest.pseudo_velocity = largest.pseudo_velocity.max(ordinate.pseudo_velocity);
-        largest.pseudo_acceleration = largest.pseudo_acceleration.max(ordinate.pseudo_acceleration);
-        largest.acceleration = largest.acceleration.max(ordinate.acceleration);
+    let inner_ordinates = spectrum
+        .iter()
+        .filter(|ordinate| (min_period..=max_period).contains(&ordinate.period));
+    let end_ordinates = [min_period, max_period]
+        .into_iter()
+        .filter_map(|period| interpolated(spectrum, period));
+    for ordinate in inner_ordinates.copied().chain(end_ordinates) {
+        band_maximum.displacement = band_maximum.displacement.max(ordinate.displacement);
+        band_maximum.pseudo_velocity = band_maximum.pseudo_velocity.max(ordinate.pseudo_velocity);
+        band_maximum.pseudo_acceleration =
+            band_maximum.pseudo_acceleration.max(ordinate.pseudo_acceleration);
+        band_maximum.acceleration = band_maximum.acceleration.max(ordinate.acceleration);
     }
-    largest
+    band_maximum
 }
 
 /// The ordinate at `period`; `None` outside the spectrum.
 fn interpolated(spectrum: &[SpectralOrdinate], period: f64) -> Option<SpectralOrdinate> {
-    let pair = spectrum
+    let neighbours = spectrum
         .windows(2)
-        .find(|pair| period >= pair[0].period && period <= pair[1].period)?;
-    let fraction = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
-    let between = |shorter: f64, longer: f64| (1.0 - fraction) * shorter + fraction * longer;
+        .find(|neighbours| period >= neighbours[0].period && period <= neighbours[1].period)?;
+    let fraction =
+        (period / neighbours[0].period).ln() / (neighbours[1].period / neighbours[0].period).ln();
+    let interpolate = |shorter_value: f64, longer_value: f64| {
+        (1.0 - fraction) * shorter_value + fraction * longer_value
+    };
     Some(SpectralOrdinate {
         period,
-        displacement: between(pair[0].displacement, pair[1].displacement),
-        pseudo_velocity: between(pair[0].pseudo_velocity, pair[1].pseudo_velocity),
-        pseudo_acceleration: between(pair[0].pseudo_acceleration, pair[1].pseudo_acceleration),
-        acceleration: between(pair[0].acceleration, pair[1].acceleration),
+        displacement: interpolate(neighbours[0].displacement, neighbours[1].displacement),
+        pseudo_velocity: interpolate(neighbours[0].pseudo_velocity, neighbours[1].pseudo_velocity),
+        pseudo_acceleration: interpolate(
+            neighbours[0].pseudo_acceleration,
+            neighbours[1].pseudo_acceleration,
+        ),
+        acceleration: interpolate(neighbours[0].acceleration, neighbours[1].acceleration),
     })
 }

@@ -4,7 +4,9 @@ use super::Quantity;
 use crate::coupled::State;
 use crate::error::{Result, in_bounds, require_part};
 
-/// Distance from the point of the base moment to the middle of a foundation that counts as rounding, over its width.
+/// Distance that counts as rounding, over the width of a foundation.
+///
+/// It is the distance from the point of the base moment to the middle of the foundation.
 const SAME_POINT_TOLERANCE: f64 = 1e-12;
 
 /// Scalars of each foundation at the kept steps, if the recorder keeps them.
@@ -22,21 +24,21 @@ pub(super) struct FoundationSeries {
 }
 
 impl FoundationSeries {
-    /// Empty lists of this number of `quantities`, if these are kept.
-    pub(super) fn new(state: &State, quantities: usize, is_kept: bool) -> Self {
+    /// Makes empty lists of `quantity_count` quantities, if these are kept.
+    pub(super) fn new(state: &State, quantity_count: usize, is_kept: bool) -> Self {
         let footings = &state.context.footings;
         let count = footings.len();
         let is_whole_base = count == 1
             && [0, 1].into_iter().all(|axis| {
-                let [low, high] = footings[0].ends[axis];
-                footings[0].center[axis].abs() <= SAME_POINT_TOLERANCE * (high - low)
+                let [min_end, max_end] = footings[0].ends[axis];
+                footings[0].center[axis].abs() <= SAME_POINT_TOLERANCE * (max_end - min_end)
             });
-        let list_count = if is_kept { count * quantities } else { 0 };
+        let list_count = if is_kept { count * quantity_count } else { 0 };
         Self { count, is_whole_base, lists: vec![Vec::new(); list_count] }
     }
 
     /// Number of foundations whose scalars are kept.
-    pub(super) fn kept(&self) -> usize {
+    pub(super) fn kept_count(&self) -> usize {
         if self.lists.is_empty() { 0 } else { self.count }
     }
 
@@ -52,8 +54,8 @@ impl FoundationSeries {
 
     /// Appends the values of a kept step.
     pub(super) fn store(&mut self, state: &State) {
-        let quantities = self.lists.len() / self.count.max(1);
-        for (foundation, lists) in self.lists.chunks_mut(quantities.max(1)).enumerate() {
+        let quantity_count = self.lists.len() / self.count.max(1);
+        for (foundation, lists) in self.lists.chunks_mut(quantity_count.max(1)).enumerate() {
             state.append_values(Some(foundation), lists);
         }
     }
@@ -63,22 +65,26 @@ impl FoundationSeries {
     /// Empty in the plane for quantities of three directions.
     pub(super) fn find(&self, foundation: usize, quantity: Quantity) -> Result<Option<&[f64]>> {
         in_bounds("foundation", foundation, self.count)?;
-        let quantities = self.lists.len() / self.count;
-        if quantities == 0 {
+        let quantity_count = self.lists.len() / self.count;
+        if quantity_count == 0 {
             let needed = "kept: tell the recorder to keep `foundations`, for there are several or a \
                           moment center is set";
             require_part("time series of a foundation", self.is_whole_base, needed)?;
             return Ok(None);
         }
-        let lists = &self.lists[foundation * quantities..(foundation + 1) * quantities];
+        let lists = &self.lists[foundation * quantity_count..(foundation + 1) * quantity_count];
         Ok(Some(lists.get(quantity as usize).map_or(&[], Vec::as_slice)))
     }
 
-    /// Error unless there are no lists or this number of `quantities` of each foundation.
+    /// Returns an error unless there are no lists, or `quantity_count` lists of each foundation.
     #[cfg(feature = "serde")]
-    pub(super) fn check(&self, quantities: usize) -> Result<()> {
-        let needed = self.kept().saturating_mul(quantities);
-        crate::error::same_length("list of scalars of the foundations", self.lists.len(), needed)?;
+    pub(super) fn check(&self, quantity_count: usize) -> Result<()> {
+        let needed_lists = self.kept_count().saturating_mul(quantity_count);
+        crate::error::same_length(
+            "list of scalars of the foundations",
+            self.lists.len(),
+            needed_lists,
+        )?;
         Ok(())
     }
 }

@@ -58,29 +58,36 @@ impl ContactFrames {
         self.modes.extend_from_slice(&state.modes);
     }
 
-    /// Reserves memory for `frames` more frames of `count` elements each.
-    pub(super) fn reserve(&mut self, frames: usize, count: usize) -> Result<(), TryReserveError> {
-        reserve(&mut self.times, frames)?;
-        reserve(&mut self.states, frames.saturating_mul(count))?;
-        reserve(&mut self.modes, frames.saturating_mul(count))
+    /// Reserves memory for `frame_count` more frames of `element_count` elements each.
+    pub(super) fn reserve(
+        &mut self,
+        frame_count: usize,
+        element_count: usize,
+    ) -> Result<(), TryReserveError> {
+        reserve(&mut self.times, frame_count)?;
+        reserve(&mut self.states, frame_count.saturating_mul(element_count))?;
+        reserve(&mut self.modes, frame_count.saturating_mul(element_count))
     }
 
-    /// Bytes of a frame of `count` elements.
-    pub(super) fn frame_bytes(count: usize) -> usize {
-        size_of::<f64>() + count * (size_of::<ContactState>() + size_of::<Mode>())
+    /// Bytes of a frame of `element_count` elements.
+    pub(super) fn frame_bytes(element_count: usize) -> usize {
+        size_of::<f64>() + element_count * (size_of::<ContactState>() + size_of::<Mode>())
     }
 
-    /// Whether these are frames of `count` elements each.
+    /// Whether these are frames of `element_count` elements each.
     #[cfg(feature = "serde")]
-    pub(super) fn is_whole(&self, count: usize) -> bool {
-        let needed = self.times.len().checked_mul(count);
-        self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed; 2]
+    pub(super) fn is_whole(&self, element_count: usize) -> bool {
+        let needed_length = self.times.len().checked_mul(element_count);
+        self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed_length; 2]
     }
 
-    /// Frames of `count` elements each.
-    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
+    /// Frames of `element_count` elements each.
+    pub(super) fn frames(
+        &self,
+        element_count: usize,
+    ) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
-            let range = k * count..(k + 1) * count;
+            let range = k * element_count..(k + 1) * element_count;
             ContactFrame { time, states: &self.states[range.clone()], modes: &self.modes[range] }
         })
     }
@@ -124,35 +131,42 @@ impl MotionFrames {
         self.free_field_across.push(state.free_field_across);
     }
 
-    /// Reserves memory for `frames` more frames of `count` degrees of freedom each.
-    pub(super) fn reserve(&mut self, frames: usize, count: usize) -> Result<(), TryReserveError> {
-        reserve(&mut self.times, frames)?;
-        reserve(&mut self.displacement, frames.saturating_mul(count))?;
-        reserve(&mut self.velocity, frames.saturating_mul(count))?;
-        reserve(&mut self.free_field, frames)?;
-        reserve(&mut self.free_field_across, frames)
+    /// Reserves memory for `frame_count` more frames of `dof_count` degrees of freedom each.
+    pub(super) fn reserve(
+        &mut self,
+        frame_count: usize,
+        dof_count: usize,
+    ) -> Result<(), TryReserveError> {
+        reserve(&mut self.times, frame_count)?;
+        reserve(&mut self.displacement, frame_count.saturating_mul(dof_count))?;
+        reserve(&mut self.velocity, frame_count.saturating_mul(dof_count))?;
+        reserve(&mut self.free_field, frame_count)?;
+        reserve(&mut self.free_field_across, frame_count)
     }
 
-    /// Bytes of a frame of `count` degrees of freedom.
-    pub(super) fn frame_bytes(count: usize) -> usize {
-        (4 + 2 * count) * size_of::<f64>()
+    /// Bytes of a frame of `dof_count` degrees of freedom.
+    pub(super) fn frame_bytes(dof_count: usize) -> usize {
+        (4 + 2 * dof_count) * size_of::<f64>()
     }
 
-    /// Whether these are frames of `count` degrees of freedom each.
+    /// Whether these are frames of `dof_count` degrees of freedom each.
     #[cfg(feature = "serde")]
-    pub(super) fn is_whole(&self, count: usize) -> bool {
-        let needed = self.times.len().checked_mul(count);
+    pub(super) fn is_whole(&self, dof_count: usize) -> bool {
+        let needed_length = self.times.len().checked_mul(dof_count);
         self.every > 0
             && self.free_field.len() == self.times.len()
             && [0, self.times.len()].contains(&self.free_field_across.len())
-            && [0, count].contains(&self.static_displacement.len())
-            && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
+            && [0, dof_count].contains(&self.static_displacement.len())
+            && [self.displacement.len(), self.velocity.len()].map(Some) == [needed_length; 2]
     }
 
-    /// Frames of `count` degrees of freedom each.
-    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = MotionFrame<'_>> {
+    /// Frames of `dof_count` degrees of freedom each.
+    pub(super) fn frames(
+        &self,
+        dof_count: usize,
+    ) -> impl ExactSizeIterator<Item = MotionFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
-            let range = k * count..(k + 1) * count;
+            let range = k * dof_count..(k + 1) * dof_count;
             let displacement = &self.displacement[range.clone()];
             let velocity = &self.velocity[range];
             let free_field = self.free_field[k];
@@ -163,15 +177,17 @@ impl MotionFrames {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let numbers = [&self.static_displacement, &self.displacement, &self.velocity].map(Vec::len);
-        8 * (4 * self.times.len() + numbers.iter().sum::<usize>())
+        let lengths = [&self.static_displacement, &self.displacement, &self.velocity].map(Vec::len);
+        8 * (4 * self.times.len() + lengths.iter().sum::<usize>())
     }
 }
 
-/// Reserves memory for `more` entries.
+/// Reserves memory for `additional` entries.
 ///
-/// The list doubles, so that it is seldom moved, or grows by an eighth if twice as much does not fit. If that fails too,
-/// enough memory is left to report the error.
-pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), TryReserveError> {
-    list.try_reserve(more).or_else(|_| list.try_reserve_exact(more.max(list.len() / 8)))
+/// The list doubles, so that it is seldom moved. It grows by an eighth if twice as much does not fit. If that fails too,
+/// enough memory remains to report the error.
+pub(super) fn reserve<T>(values: &mut Vec<T>, additional: usize) -> Result<(), TryReserveError> {
+    values
+        .try_reserve(additional)
+        .or_else(|_| values.try_reserve_exact(additional.max(values.len() / 8)))
 }

@@ -1,7 +1,7 @@
 //! Results for engineers: time series, peaks with their times, envelopes, factors of safety.
 //!
 //! [`Simulation::run`](crate::Simulation::run) returns a [`Run`]: peaks, envelopes and factors of safety, which
-//! print as a page for the report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
+//! print as one page of a report. A [`Comparison`] puts several runs into one table. A [`Recorder`] selects time
 //! series and snapshots to keep; [`TimeSeries`] stores them as the observer of the run. [`Rocking`] has moment,
 //! rotation and settlement of one foundation, and the equivalent damping of a cycle.
 //!
@@ -54,7 +54,7 @@
 //!
 //! # Memory
 //!
-//! Results that are not requested cost nothing. Scalar time series take 27 numbers and one per probe at every kept
+//! Results that are not requested use no memory. Scalar time series take 27 numbers and one per probe at every kept
 //! step (216 kB for 1000 steps). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
 //! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
 //! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.

@@ -22,29 +22,41 @@ struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
 /// Largest length of the name of an array, bytes: an archive has 16 bits for it.
 const MAX_NAME_BYTES: usize = 60_000;
+/// NumPy pads headers to a multiple of this, bytes.
+const HEADER_ALIGNMENT: usize = 64;
+/// Bytes of magic number, version and length before the header, and of the line end after it.
+const HEADER_EXTRA_BYTES: usize = 11;
+/// Margin below the size from which an entry needs 64-bit lengths, bytes.
+const LARGE_FILE_MARGIN: usize = 1024;
 
 impl Archive {
-    /// Adds an array of NumPy's type `kind`, its numbers row by row.
-    fn add(&mut self, name: &str, kind: &str, shape: &[usize], bytes: &[u8]) -> io::Result<()> {
+    /// Adds an array of NumPy's type `data_type`, its numbers row by row.
+    fn add_array(
+        &mut self,
+        name: &str,
+        data_type: &str,
+        shape: &[usize],
+        bytes: &[u8],
+    ) -> io::Result<()> {
         if name.len() > MAX_NAME_BYTES {
             return Err(io::ErrorKind::InvalidInput.into());
         }
-        let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
-        let comma = if shape.len() == 1 { "," } else { "" };
-        let shape = format!("({}{comma})", lengths.join(", "));
+        let axis_lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
+        let last_comma = if shape.len() == 1 { "," } else { "" };
+        let shape_text = format!("({}{last_comma})", axis_lengths.join(", "));
         let mut header =
-            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
-        // Magic number, version and length take ten bytes, the line end takes one.
-        let blanks = (header.len() + 11).next_multiple_of(64) - (header.len() + 11);
-        header += &" ".repeat(blanks);
+            format!("{{'descr': '{data_type}', 'fortran_order': False, 'shape': {shape_text}, }}");
+        let unpadded_length = header.len() + HEADER_EXTRA_BYTES;
+        let padding_length = unpadded_length.next_multiple_of(HEADER_ALIGNMENT) - unpadded_length;
+        header += &" ".repeat(padding_length);
         header.push('\n');
-        let length = u16::try_from(header.len()).map_err(io::Error::other)?;
+        let header_length = u16::try_from(header.len()).map_err(io::Error::other)?;
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
-            .large_file(bytes.len() >= u32::MAX as usize - 1024);
+            .large_file(bytes.len() >= u32::MAX as usize - LARGE_FILE_MARGIN);
         self.0.start_file(format!("{name}.npy"), options)?;
         self.0.write_all(b"\x93NUMPY\x01\x00")?;
-        self.0.write_all(&length.to_le_bytes())?;
+        self.0.write_all(&header_length.to_le_bytes())?;
         self.0.write_all(header.as_bytes())?;
         self.0.write_all(bytes)
     }
@@ -57,20 +69,20 @@ impl Archive {
         numbers: impl Iterator<Item = f64>,
     ) -> io::Result<()> {
         let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
-        self.add(name, "<f8", shape, &bytes)
+        self.add_array(name, "<f8", shape, &bytes)
     }
 
     /// Adds a list of texts, with four bytes for each character, padded to the longest text.
     fn add_words(&mut self, name: &str, words: &[String]) -> io::Result<()> {
-        let max_letters = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
+        let max_characters = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
         let mut bytes = Vec::new();
         for word in words {
             let padding = std::iter::repeat('\0');
-            for letter in word.chars().chain(padding).take(max_letters) {
-                bytes.extend(u32::from(letter).to_le_bytes());
+            for character in word.chars().chain(padding).take(max_characters) {
+                bytes.extend(u32::from(character).to_le_bytes());
             }
         }
-        self.add(name, &format!("<U{max_letters}"), &[words.len()], &bytes)
+        self.add_array(name, &format!("<U{max_characters}"), &[words.len()], &bytes)
     }
 }
 
@@ -100,7 +112,7 @@ impl TimeSeries {
     /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |
     /// | `contact_gap_m`, `contact_slip_m`, `contact_pressure_pa`, `contact_shear_pa` | frames × elements | |
     /// | in plan `contact_slip_across_m`, `contact_shear_across_pa` | frames × elements | along y |
-    /// | `contact_mode`, integers | frames × elements | places in `contact_mode_words` |
+    /// | `contact_mode`, integers | frames × elements | indices into `contact_mode_words` |
     /// | `contact_mode_words` | modes | texts |
     /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
     /// | `motion_displacement`, `motion_velocity` | frames × degrees of freedom | as in [`MotionFrame`](super::MotionFrame) |
@@ -111,14 +123,14 @@ impl TimeSeries {
     /// Errors of `out`, and invalid input for a probe whose name is longer than 60 000 bytes.
     pub fn write_npz(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
-        let steps = self.times().len();
+        let step_count = self.times().len();
         for (name, values) in self.columns().iter().zip(self.column_values()) {
-            archive.add_numbers(name, &[steps], values.iter().copied())?;
+            archive.add_numbers(name, &[step_count], values.iter().copied())?;
         }
         for term in EnergyTerm::ALL_TERMS {
             let values =
                 self.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
-            archive.add_numbers(&term.column(self.in_plan()), &[steps], values)?;
+            archive.add_numbers(&term.column(self.in_plan()), &[step_count], values)?;
         }
         self.add_contact(&mut archive)?;
         self.add_motion(&mut archive)?;
@@ -127,7 +139,7 @@ impl TimeSeries {
 
     fn add_contact(&self, archive: &mut Archive) -> io::Result<()> {
         let elements = self.elements();
-        let [time, mode, words] = CONTACT_COLUMNS;
+        let [time_name, mode_name, words_name] = CONTACT_COLUMNS;
         for (name, ends) in self.element_ends() {
             let name = format!("element_{name}");
             archive.add_numbers(&name, &[elements.len()], ends.into_iter())?;
@@ -135,37 +147,42 @@ impl TimeSeries {
         if self.recorder.contact.is_none() {
             return Ok(());
         }
-        let frames = self.contact_frames().count();
-        let shape = [frames, elements.len()];
-        archive.add_numbers(time, &[frames], self.contact_frames().map(|frame| frame.time))?;
+        let frame_count = self.contact_frames().count();
+        let shape = [frame_count, elements.len()];
+        archive.add_numbers(
+            time_name,
+            &[frame_count],
+            self.contact_frames().map(|frame| frame.time),
+        )?;
         for (name, value) in self.contact_numbers() {
             let numbers = self.contact_frames().flat_map(|frame| frame.states.iter().map(value));
             archive.add_numbers(&format!("contact_{name}"), &shape, numbers)?;
         }
         let modes = self.contact_frames().flat_map(|frame| frame.modes);
-        let codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
-        archive.add(mode, "|u1", &shape, &codes)?;
-        archive.add_words(words, &Mode::ALL.map(|mode| mode.to_string()))
+        let mode_codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
+        archive.add_array(mode_name, "|u1", &shape, &mode_codes)?;
+        archive.add_words(words_name, &Mode::ALL.map(|mode| mode.to_string()))
     }
 
     fn add_motion(&self, archive: &mut Archive) -> io::Result<()> {
         if self.recorder.motion.is_none() {
             return Ok(());
         }
-        let [time, displacement, velocity, free_field, free_field_across] = MOTION_COLUMNS;
-        let count = self.motion_frames().count();
-        let dofs = self.motion_frames().next().map_or(0, |frame| frame.displacement.len());
+        let [time_name, displacement_name, velocity_name, free_field_name, free_field_across_name] =
+            MOTION_COLUMNS;
+        let frame_count = self.motion_frames().count();
+        let dof_count = self.motion_frames().next().map_or(0, |frame| frame.displacement.len());
         let times = self.motion_frames().map(|frame| frame.time);
-        archive.add_numbers(time, &[count], times)?;
+        archive.add_numbers(time_name, &[frame_count], times)?;
         let values = self.motion_frames().flat_map(|frame| frame.displacement.iter().copied());
-        archive.add_numbers(displacement, &[count, dofs], values)?;
+        archive.add_numbers(displacement_name, &[frame_count, dof_count], values)?;
         let values = self.motion_frames().flat_map(|frame| frame.velocity.iter().copied());
-        archive.add_numbers(velocity, &[count, dofs], values)?;
+        archive.add_numbers(velocity_name, &[frame_count, dof_count], values)?;
         let values = self.motion_frames().flat_map(|frame| frame.free_field);
-        archive.add_numbers(free_field, &[count, 2], values)?;
+        archive.add_numbers(free_field_name, &[frame_count, 2], values)?;
         if self.in_plan() {
             let values = self.motion_frames().map(|frame| frame.free_field_across);
-            archive.add_numbers(free_field_across, &[count], values)?;
+            archive.add_numbers(free_field_across_name, &[frame_count], values)?;
         }
         Ok(())
     }

@@ -49,7 +49,7 @@ impl Recorder {
 
     /// Keeps scalars of each foundation too, where there are several or a moment center is set.
     ///
-    /// At the steps of the other scalars, and as many numbers for each foundation as for the whole base:
+    /// They are kept at the steps of the other scalars. Each foundation takes as much memory as the whole base. See
     /// [`TimeSeries::foundation_series`](super::TimeSeries::foundation_series).
     #[must_use]
     pub fn foundations(self) -> Self {

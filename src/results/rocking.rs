@@ -6,11 +6,15 @@ use std::ops::Range;
 use super::{Quantity, TimeSeries};
 use crate::error::{Error, Result, at_least, finite, require, require_part, same_length};
 
-/// Distance between the ends of a closed cycle, over the range of the cycle.
+/// Largest distance between the ends of a closed cycle, over the range of the cycle.
+///
+/// A cycle that leaves residual rotation does not close exactly.
 const MAX_OPEN_FRACTION: f64 = 0.25;
 /// Distance from an extreme of the rotation within which a cycle turns, over the range of the cycle.
+///
+/// Smaller reversals in between are no cycles.
 const TURN_FRACTION: f64 = 0.25;
-/// Part of a window's ends that counts as rounding of times.
+/// Fraction of the times at the ends of a window that counts as rounding.
 const TIME_ROUNDING: f64 = 1e-9;
 
 /// Rocking of one foundation about one axis, over a run or a part of it.
@@ -45,8 +49,8 @@ impl TimeSeries {
     /// with several foundations or a moment center, unless [`Recorder::foundations`](super::Recorder::foundations)
     /// was called.
     pub fn foundation_series(&self, foundation: usize, quantity: Quantity) -> Result<&[f64]> {
-        let found = self.foundations.find(foundation, quantity)?;
-        Ok(found.unwrap_or_else(|| self.series(quantity)))
+        let foundation_values = self.foundations.find(foundation, quantity)?;
+        Ok(foundation_values.unwrap_or_else(|| self.series(quantity)))
     }
 
     /// Rocking of a foundation, counter-clockwise; in plan about the axis along y.
@@ -84,8 +88,12 @@ impl TimeSeries {
     /// # Errors
     /// As for [`TimeSeries::foundation_series`].
     pub fn rocking(&self, foundation: usize) -> Result<Rocking<'_>> {
-        let quantities = [Quantity::BaseRotation, Quantity::BaseMoment, Quantity::RockingWork];
-        self.rocking_by(foundation, quantities)
+        self.rocking_about_axis(
+            foundation,
+            Quantity::BaseRotation,
+            Quantity::BaseMoment,
+            Quantity::RockingWork,
+        )
     }
 
     /// In plan: rocking of a foundation about the axis along x.
@@ -95,19 +103,28 @@ impl TimeSeries {
     pub fn rocking_across(&self, foundation: usize) -> Result<Rocking<'_>> {
         let needed = "a ground of three directions: in the plane a base rocks about one axis";
         require_part("rocking about the axis along x", self.in_plan(), needed)?;
-        let quantities =
-            [Quantity::RotationAcross, Quantity::MomentAcross, Quantity::RockingWorkAcross];
-        self.rocking_by(foundation, quantities)
+        self.rocking_about_axis(
+            foundation,
+            Quantity::RotationAcross,
+            Quantity::MomentAcross,
+            Quantity::RockingWorkAcross,
+        )
     }
 
-    /// Rocking by the quantities of its rotation, moment and work.
-    fn rocking_by(&self, foundation: usize, quantities: [Quantity; 3]) -> Result<Rocking<'_>> {
+    /// Rocking about one axis, from the quantities of its rotation, moment and work.
+    fn rocking_about_axis(
+        &self,
+        foundation: usize,
+        rotation: Quantity,
+        moment: Quantity,
+        work: Quantity,
+    ) -> Result<Rocking<'_>> {
         Ok(Rocking {
             times: self.times(),
-            rotation: self.foundation_series(foundation, quantities[0])?,
-            moment: self.foundation_series(foundation, quantities[1])?,
+            rotation: self.foundation_series(foundation, rotation)?,
+            moment: self.foundation_series(foundation, moment)?,
             settlement: self.foundation_series(foundation, Quantity::Settlement)?,
-            work: self.foundation_series(foundation, quantities[2])?,
+            work: self.foundation_series(foundation, work)?,
             in_plan: self.in_plan(),
         })
     }
@@ -122,11 +139,11 @@ impl Rocking<'_> {
         finite("first time of a part of a run", times.start)?;
         finite("last time of a part of a run", times.end)?;
         let rounding = TIME_ROUNDING * times.start.abs().max(times.end.abs());
-        let first = self.times.partition_point(|time| *time < times.start - rounding);
-        let end = self.times.partition_point(|time| *time <= times.end + rounding);
-        at_least("list of kept steps between two times", end.saturating_sub(first), 1)?;
-        let steps = first..end;
-        // The slices are public and may have been replaced by shorter ones.
+        let first_step = self.times.partition_point(|time| *time < times.start - rounding);
+        let end_step = self.times.partition_point(|time| *time <= times.end + rounding);
+        at_least("list of kept steps between two times", end_step.saturating_sub(first_step), 1)?;
+        let steps = first_step..end_step;
+        // The slices are public and may have been replaced by shorter slices.
         Ok(Self {
             times: self.times.get(steps.clone()).unwrap_or_default(),
             rotation: self.rotation.get(steps.clone()).unwrap_or_default(),
@@ -139,13 +156,16 @@ impl Rocking<'_> {
 
     /// Equivalent viscous damping ratio of one cycle, ξ = E/(2π M θ).
     ///
-    /// E is the work of the moment in the cycle (of each step, whatever steps were kept), M and θ half the ranges of moment and
+    /// E is the work of the moment in the cycle, summed over all steps, also those that were not kept. M and θ are half the
+    /// ranges of moment and
     /// rotation (Chopra, *Dynamics of Structures*, section 3.9; Gajan and Kutter, J. Geotech. Geoenviron. Eng. 134, 2008,
-    /// 1129). A spring and a dashpot in parallel have ½ sin φ, φ the angle by which the moment leads.
+    /// 1129). For a spring and a dashpot in parallel ξ = ½ sin φ, where φ is the phase by which the moment
+    /// leads the rotation.
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than three steps, [`Error::Input`] unless the steps are one closed cycle: rotation and
-    /// moment vary, end within a quarter of their ranges from where they began, and the rotation turns once at each end.
+    /// moment vary, end within a quarter of their ranges from their first values, and the rotation turns once
+    /// at each extreme.
     pub fn equivalent_damping(&self) -> Result<f64> {
         let cycle = Cycle::new(self.rotation, self.moment)?;
         same_length("list of works of a cycle", self.work.len(), self.rotation.len())?;
@@ -156,8 +176,8 @@ impl Rocking<'_> {
 
 /// Equivalent viscous damping ratio of one measured cycle of rotations (rad) and moments, ξ = E/(2π M θ).
 ///
-/// E is the area of the polygon with these corners, positive if it is run through clockwise in a picture of the moment over
-/// the rotation; M and θ are half the ranges. Moments may have any unit. Compare
+/// E is the area of the polygon with these corners, positive if its corners follow clockwise in a diagram of
+/// the moment over the rotation; M and θ are half the ranges. Moments may have any unit. Compare
 /// [`Rocking::equivalent_damping`].
 ///
 /// ```
@@ -194,31 +214,32 @@ impl Cycle {
         same_length("list of moments of a cycle", moment.len(), rotation.len())?;
         let rotation_range = closed_range("rotation", rotation)?;
         let moment_range = closed_range("moment", moment)?;
-        let turns = cycle_count(rotation);
-        require("number of cycles of the rotation", turns as f64, turns == 1, "one")?;
-        let last = rotation.len() - 1;
-        let closing_work = 0.5 * (moment[0] + moment[last]) * (rotation[0] - rotation[last]);
+        let count = cycle_count(rotation);
+        require("number of cycles of the rotation", count as f64, count == 1, "one")?;
+        let last_index = rotation.len() - 1;
+        let closing_work =
+            0.5 * (moment[0] + moment[last_index]) * (rotation[0] - rotation[last_index]);
         Ok(Self { rotation_range, moment_range, closing_work })
     }
 
-    /// Damping ratio of a cycle that takes this work.
+    /// Damping ratio of the cycle, from its work.
     fn damping(&self, work: f64) -> f64 {
         2.0 * work / (PI * self.rotation_range * self.moment_range)
     }
 }
 
-/// Range of values that vary and return to where they began.
+/// Range of values that vary and return to the first value.
 fn closed_range(quantity: &'static str, values: &[f64]) -> Result<f64> {
-    let mut low = f64::INFINITY;
-    let mut high = f64::NEG_INFINITY;
+    let mut min_value = f64::INFINITY;
+    let mut max_value = f64::NEG_INFINITY;
     for (index, &value) in values.iter().enumerate() {
         if !value.is_finite() {
             return Err(Error::NotFinite { quantity, index, value });
         }
-        low = low.min(value);
-        high = high.max(value);
+        min_value = min_value.min(value);
+        max_value = max_value.max(value);
     }
-    let range = high - low;
+    let range = max_value - min_value;
     let is_range = range > 0.0 && range.is_finite();
     require("range of rotation or moment in a cycle", range, is_range, "above zero and finite")?;
     let open_fraction = (values[values.len() - 1] - values[0]).abs() / range;
@@ -228,23 +249,25 @@ fn closed_range(quantity: &'static str, values: &[f64]) -> Result<f64> {
     Ok(range)
 }
 
-/// Number of times that values, which begin again after the last, rise from near the lowest to near the highest.
+/// Number of rises of periodic values from near the minimum to near the maximum.
+///
+/// After the last value the first one follows again.
 fn cycle_count(values: &[f64]) -> usize {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let margin = TURN_FRACTION * (high - low);
-    let mut rises = 0;
-    let mut was_high = None;
-    let mut began_high = None;
+    let min_value = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let max_value = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let margin = TURN_FRACTION * (max_value - min_value);
+    let mut rise_count = 0;
+    let mut was_near_maximum = None;
+    let mut began_near_maximum = None;
     for &value in values {
-        let is_high = value >= high - margin;
-        if is_high || value <= low + margin {
-            rises += usize::from(is_high && was_high == Some(false));
-            was_high = Some(is_high);
-            began_high.get_or_insert(is_high);
+        let is_near_maximum = value >= max_value - margin;
+        if is_near_maximum || value <= min_value + margin {
+            rise_count += usize::from(is_near_maximum && was_near_maximum == Some(false));
+            was_near_maximum = Some(is_near_maximum);
+            began_near_maximum.get_or_insert(is_near_maximum);
         }
     }
-    rises + usize::from(began_high == Some(true) && was_high == Some(false))
+    rise_count + usize::from(began_near_maximum == Some(true) && was_near_maximum == Some(false))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::fem::{Element, ElementFace, Mesh};
 
-/// Form of a cell; numbers are VTK's (vtkCellType.h).
+/// Form of a cell; its number is that of VTK (vtkCellType.h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CellForm {
     Point = 1,
@@ -43,7 +43,9 @@ impl ShapeCell {
         Self { form, points }
     }
 
-    /// Cell of an element in space: a bar or mass by its nodes, a shell by its corners, a brick, another solid.
+    /// Cell of an element in space.
+    ///
+    /// A bar or mass has its nodes, a shell and a brick their corners, another solid its nodes.
     fn in_space(element: &dyn Element) -> Self {
         match &element.faces()[..] {
             [] => Self::flat(element.nodes().to_vec()),
@@ -64,7 +66,9 @@ impl ShapeCell {
     }
 }
 
-/// Corners of a brick in VTK's order: round the lower side, then those above them; `None` for another solid.
+/// Corners of a brick in VTK's order; `None` for another solid.
+///
+/// The corners around the lower side come first, then the corners above them.
 ///
 /// The first node of the element comes first if it lies in its first side.
 fn brick(sides: &[ElementFace], nodes: &[usize]) -> Option<Vec<usize>> {
@@ -73,22 +77,23 @@ fn brick(sides: &[ElementFace], nodes: &[usize]) -> Option<Vec<usize>> {
     }
     // Counter-clockwise seen from inside the brick.
     let mut points: Vec<usize> = sides[0].corners().iter().rev().copied().collect();
-    let first = points.iter().position(|point| nodes.first() == Some(point)).unwrap_or(0);
-    points.rotate_left(first);
+    let start = points.iter().position(|point| nodes.first() == Some(point)).unwrap_or(0);
+    points.rotate_left(start);
     for k in 0..4 {
-        let upper = sides.iter().find_map(|side| upper_corner(side, points[k], &points[..4]))?;
-        points.push(upper);
+        let upper_point =
+            sides.iter().find_map(|side| upper_corner(side, points[k], &points[..4]))?;
+        points.push(upper_point);
     }
     let are_distinct = points.iter().collect::<BTreeSet<_>>().len() == 8;
     are_distinct.then_some(points)
 }
 
 /// The corner of a side next to a `corner` of the lower side, and above it; `None` if the side has no such corner.
-fn upper_corner(side: &ElementFace, corner: usize, lower: &[usize]) -> Option<usize> {
+fn upper_corner(side: &ElementFace, corner: usize, lower_points: &[usize]) -> Option<usize> {
     let corners = side.corners();
     let position = corners.iter().position(|point| *point == corner)?;
     let neighbours = [corners[(position + 1) % 4], corners[(position + 3) % 4]];
-    neighbours.into_iter().find(|point| !lower.contains(point))
+    neighbours.into_iter().find(|point| !lower_points.contains(point))
 }
 
 /// Cells of a mesh to be drawn, each as its nodes.
@@ -98,9 +103,9 @@ pub(super) fn drawn_cells(mesh: &Mesh) -> Vec<Vec<usize>> {
     if !mesh.has_depth() {
         return mesh.elements().map(|element| element.nodes().to_vec()).collect();
     }
-    let mut elements_of_face: HashMap<BTreeSet<usize>, usize> = HashMap::new();
+    let mut face_element_counts: HashMap<BTreeSet<usize>, usize> = HashMap::new();
     for face in mesh.elements().flat_map(faces) {
-        *elements_of_face.entry(face.into_iter().collect()).or_default() += 1;
+        *face_element_counts.entry(face.into_iter().collect()).or_default() += 1;
     }
     let mut cells = Vec::new();
     for element in mesh.elements() {
@@ -110,7 +115,7 @@ pub(super) fn drawn_cells(mesh: &Mesh) -> Vec<Vec<usize>> {
             1 => cells.append(&mut faces),
             _ => cells.extend(faces.into_iter().filter(|face| {
                 let corners: BTreeSet<usize> = face.iter().copied().collect();
-                elements_of_face[&corners] == 1
+                face_element_counts[&corners] == 1
             })),
         }
     }

@@ -93,12 +93,14 @@ validated! {
 }
 
 /// Largest number of steps that memory is reserved for.
+///
+/// A longer run allocates again when this memory is used up.
 const MAX_RESERVED_STEPS: usize = 1_000_000;
 
-/// Remedy at the limit of memory.
+/// Remedy if the limit of memory is reached.
 const LIMIT_REMEDY: &str = "a recorder of fewer steps takes less";
 
-/// Remedies if the system has no more memory.
+/// Remedy if the system has no more memory.
 const SYSTEM_MEMORY_REMEDY: &str = "the system gives no more; a recorder of fewer steps takes less";
 
 impl Recorder {
@@ -108,10 +110,15 @@ impl Recorder {
     /// [`Error::Input`](crate::Error::Input) for an interval of zero steps.
     pub fn start(self, simulation: &Simulation) -> Result<TimeSeries> {
         let intervals = [Some(self.every), self.contact, self.motion];
-        require("steps between what is kept", 0.0, !intervals.contains(&Some(0)), "one or more")?;
+        require(
+            "number of steps between kept results",
+            0.0,
+            !intervals.contains(&Some(0)),
+            "one or more",
+        )?;
         let state = simulation.state();
         let elements = simulation.elements();
-        let count = Quantity::recorded(elements.is_plan()).count();
+        let quantity_count = Quantity::recorded(elements.is_plan()).count();
         let mut series = TimeSeries {
             elements: elements.to_vec(),
             pressure_depths: state.context.pressure_depths.clone(),
@@ -121,8 +128,8 @@ impl Recorder {
             steps: 0,
             dofs: self.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
-            scalars: vec![Vec::new(); count],
-            foundations: FoundationSeries::new(state, count, self.foundations),
+            scalars: vec![Vec::new(); quantity_count],
+            foundations: FoundationSeries::new(state, quantity_count, self.foundations),
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),
@@ -171,16 +178,16 @@ impl TimeSeries {
         Ok(())
     }
 
-    /// Number of kept steps among the next `steps`, if every `every`th is kept.
-    fn kept_steps(&self, every: usize, steps: usize) -> usize {
-        self.steps.saturating_add(steps) / every - self.steps / every
+    /// Number of kept steps among the next `steps`, if every `interval`th is kept.
+    fn kept_steps(&self, interval: usize, steps: usize) -> usize {
+        self.steps.saturating_add(steps) / interval - self.steps / interval
     }
 
     /// Memory that `steps` more steps would take, bytes.
     fn needed_bytes(&self, steps: usize) -> f64 {
-        let numbers =
+        let number_count =
             1 + self.scalars.len() + self.foundations.lists().len() + self.probe_values.len();
-        let step_bytes = numbers * size_of::<f64>() + size_of::<EnergyBalance>();
+        let step_bytes = number_count * size_of::<f64>() + size_of::<EnergyBalance>();
         let mut bytes = self.kept_steps(self.recorder.every, steps) as f64 * step_bytes as f64;
         if let Some(frames) = &self.contact {
             let frame_bytes = ContactFrames::frame_bytes(self.elements.len());
@@ -195,9 +202,9 @@ impl TimeSeries {
 
     /// Error if `steps` more steps would exceed the limit of memory.
     fn check_memory(&self, steps: usize) -> Result<()> {
-        let needed = self.bytes() as f64 + self.needed_bytes(steps);
+        let needed_bytes = self.bytes() as f64 + self.needed_bytes(steps);
         let limit = memory_limit() as f64;
-        if needed <= limit {
+        if needed_bytes <= limit {
             Ok(())
         } else {
             Err(self.memory_error(steps, limit, LIMIT_REMEDY).into())
@@ -216,18 +223,18 @@ impl TimeSeries {
 
     /// Reserves memory for `steps` more steps.
     fn reserve_steps(&mut self, steps: usize) -> Result<()> {
-        let reserved = self.try_reserve_steps(steps);
-        let present = self.bytes() as f64;
-        Ok(reserved.map_err(|_| self.memory_error(steps, present, SYSTEM_MEMORY_REMEDY))?)
+        let reservation = self.try_reserve_steps(steps);
+        let used_bytes = self.bytes() as f64;
+        Ok(reservation.map_err(|_| self.memory_error(steps, used_bytes, SYSTEM_MEMORY_REMEDY))?)
     }
 
     fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
-        let count = self.kept_steps(self.recorder.every, steps);
+        let step_count = self.kept_steps(self.recorder.every, steps);
         let scalars = self.scalars.iter_mut().chain(self.foundations.lists_mut());
         for list in scalars.chain(&mut self.probe_values).chain([&mut self.times]) {
-            reserve(list, count)?;
+            reserve(list, step_count)?;
         }
-        reserve(&mut self.energy_balances, count)?;
+        reserve(&mut self.energy_balances, step_count)?;
         let frame_counts = [self.recorder.contact, self.recorder.motion]
             .map(|every| every.map_or(0, |every| self.kept_steps(every, steps)));
         if let Some(frames) = &mut self.contact {
@@ -340,9 +347,9 @@ impl TimeSeries {
 
     /// Memory that time series and frames use now, bytes.
     pub fn bytes(&self) -> usize {
-        let lists = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
-        let numbers = lists.map(Vec::len).sum::<usize>() + self.times.len();
-        8 * numbers
+        let series = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
+        let number_count = series.map(Vec::len).sum::<usize>() + self.times.len();
+        8 * number_count
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)

@@ -189,7 +189,7 @@ impl EquivalentLinear {
     fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off_ratio: f64) {
         for (index, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
             let layer = index + 1;
-            let curve_end = curves.largest();
+            let curve_end = curves.max_strain();
             let strain = response.largest_strain;
             if strain > SiteWarning::STRAIN_LIMIT {
                 self.warnings.push(SiteWarning::LargeStrain { layer, strain });

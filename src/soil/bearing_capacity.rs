@@ -1,4 +1,4 @@
-//! Bearing capacity of shallow foundations (EN 1997-1:2004, Annex D), and the moment that makes them rock.
+//! Bearing capacity of shallow foundations (EN 1997-1:2004, Annex D), and their capacity to resist rocking.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -14,7 +14,7 @@ use super::bearing_factors::UNDRAINED_COHESION_FACTOR;
 use super::{BearingFactors, SoilStrength};
 use crate::error::{Result, finite, not_negative, positive, require};
 
-/// Halvings of the interval of an angle: it is then exact to the last bit.
+/// Number of halvings of the interval of an angle: its width is then below rounding.
 const ANGLE_HALVINGS: usize = 60;
 
 /// Load on the base of a footing, N; of an endless strip N/m.
@@ -35,8 +35,8 @@ enum FootingOutline {
 
 /// Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D.
 ///
-/// Characteristic values, without partial factors. Annex D has no factors of depth and of sloping ground; sliding is a
-/// check of its own. The drained pressure is the bearing pressure of [`Yielding`](crate::interface::Yielding).
+/// Characteristic values, without partial factors. Annex D has no factors of depth and of sloping ground; sliding needs a
+/// separate check. The drained pressure is the bearing pressure of [`Yielding`](crate::interface::Yielding).
 ///
 /// ```
 /// use basemat::soil::{ShallowFooting, SoilStrength};
@@ -45,7 +45,7 @@ enum FootingOutline {
 /// let sand = SoilStrength::new(42.0_f64.to_radians())?;
 /// let pressure = footing.drained_pressure(&sand, 1657.0 * 9.81)?;
 /// assert!((pressure - 746.8e3).abs() < 0.1e3);
-/// // Under 285 kN it rocks on a fifth of its base.
+/// // Under 285 kN the footing rocks on a fifth of its base.
 /// let capacity = footing.rocking_capacity(285.0e3, 814.0e3)?;
 /// assert!((capacity.contact_ratio - 0.192).abs() < 5e-4);
 /// assert!((capacity.moments[0] - 322.3e3).abs() < 0.1e3);
@@ -54,15 +54,18 @@ enum FootingOutline {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShallowFooting {
     outline: FootingOutline,
-    /// Along x and y, m; infinite along an endless strip.
+    /// Sides along x and y, m; infinite along an endless strip.
     sides: [f64; 2],
+    /// Eccentricities of the load along x and y, m.
     eccentricity: [f64; 2],
     load: FootingLoad,
+    /// Vertical pressure of the soil beside the base, Pa.
     surcharge: f64,
+    /// Tilt of the base against the horizontal, rad.
     tilt: f64,
 }
 
-/// Moment that makes a footing rock on a part of its base.
+/// Capacity of a footing to resist rocking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RockingCapacity {
@@ -142,11 +145,11 @@ impl ShallowFooting {
     pub fn with_eccentricity(self, eccentricity: [f64; 2]) -> Result<Self> {
         for (e, side) in eccentricity.into_iter().zip(self.sides) {
             finite("eccentricity of the load on a footing", e)?;
-            let (fits, needed) = match self.outline {
+            let (is_allowed, needed) = match self.outline {
                 FootingOutline::Rectangle => (2.0 * e.abs() < side, "below half of the side"),
                 FootingOutline::Circle => (e == 0.0, "zero on a circle"),
             };
-            require("eccentricity of the load on a footing", e, fits, needed)?;
+            require("eccentricity of the load on a footing", e, is_allowed, needed)?;
         }
         Ok(Self { eccentricity, ..self })
     }
@@ -167,8 +170,8 @@ impl ShallowFooting {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tilt below zero or above π/4.
     pub fn with_base_tilt(self, tilt: f64) -> Result<Self> {
-        let fits = (0.0..=FRAC_PI_4).contains(&tilt);
-        require("tilt of the base of a footing (rad)", tilt, fits, "from 0 to π/4")?;
+        let is_allowed = (0.0..=FRAC_PI_4).contains(&tilt);
+        require("tilt of the base of a footing (rad)", tilt, is_allowed, "from 0 to π/4")?;
         Ok(Self { tilt, ..self })
     }
 
@@ -232,20 +235,24 @@ impl ShallowFooting {
     /// above A′ c_u.
     pub fn undrained_pressure(&self, undrained_strength: f64) -> Result<f64> {
         positive("undrained strength of the soil", undrained_strength)?;
-        let horizontal = self.horizontal();
+        let horizontal = self.horizontal_force();
         let mobilization = horizontal / (self.effective_area() * undrained_strength);
         let needed = "at most the effective area times the undrained strength";
         require("horizontal force on a footing", horizontal, mobilization <= 1.0, needed)?;
-        let tilt = 1.0 - 2.0 * self.tilt / UNDRAINED_COHESION_FACTOR;
-        let shape = 1.0 + 0.2 * self.side_ratio();
-        let inclination = 0.5 * (1.0 + (1.0 - mobilization).sqrt());
-        let pressure = UNDRAINED_COHESION_FACTOR * undrained_strength * tilt * shape * inclination;
+        let tilt_factor = 1.0 - 2.0 * self.tilt / UNDRAINED_COHESION_FACTOR;
+        let shape_factor = 1.0 + 0.2 * self.side_ratio();
+        let inclination_factor = 0.5 * (1.0 + (1.0 - mobilization).sqrt());
+        let pressure = UNDRAINED_COHESION_FACTOR
+            * undrained_strength
+            * tilt_factor
+            * shape_factor
+            * inclination_factor;
         positive("bearing pressure of undrained soil", pressure + self.surcharge)
     }
 
     /// Capacity of the footing to resist rocking under a `vertical` force (N; of a strip N/m).
     ///
-    /// The soil carries the force by its bearing pressure q (Pa) on the critical contact area A_c at the edge, so that
+    /// The force is resisted by the bearing pressure q (Pa) on the critical contact area A_c at the edge, so that
     /// the moment of a rectangle of length L is (V L/2)(1 − A_c/A) (Gajan and Kutter, Journal of Geotechnical and
     /// Geoenvironmental Engineering 134 (2008), 1129–1141); for a circle A_c is a segment. Eccentricity and
     /// inclination of the footing's load have no effect.
@@ -277,35 +284,37 @@ impl ShallowFooting {
         factors: &BearingFactors,
     ) -> Result<FactorProducts> {
         let angle = strength.friction_angle();
-        let needed = "above 0; undrained soil has a bearing pressure of its own";
+        let needed = "above 0; `undrained_pressure` is for undrained soil";
         require("friction angle of drained soil (rad)", angle, angle > 0.0, needed)?;
-        let slope = angle.tan();
+        let friction_slope = angle.tan();
         // N_q − 1 = N_c tan φ.
-        let beyond_one = factors.cohesion * slope;
+        let surcharge_minus_one = factors.cohesion * friction_slope;
 
-        let tilted = self.tilt * slope;
+        let tilt_reduction = self.tilt * friction_slope;
         let quantity = "tilt of the base of a footing (rad)";
-        require(quantity, self.tilt, tilted < 1.0, "below cot φ of the drained soil")?;
-        let tilt = (1.0 - tilted).powi(2);
+        require(quantity, self.tilt, tilt_reduction < 1.0, "below cot φ of the drained soil")?;
+        let tilt_factor = (1.0 - tilt_reduction).powi(2);
         // 1 − b_q without loss of digits.
-        let tilt_cohesion = tilt - tilted * (2.0 - tilted) / beyond_one;
+        let cohesion_tilt =
+            tilt_factor - tilt_reduction * (2.0 - tilt_reduction) / surcharge_minus_one;
 
-        let ratio = self.side_ratio();
-        let shape_surcharge = 1.0 + ratio * angle.sin();
+        let side_ratio = self.side_ratio();
+        let surcharge_shape = 1.0 + side_ratio * angle.sin();
         // (s_q N_q − 1)/(N_q − 1) without loss of digits.
-        let shape_cohesion = 1.0 + ratio * angle.sin() * factors.surcharge / beyond_one;
-        let shape_unit_weight = 1.0 - 0.3 * ratio;
+        let cohesion_shape =
+            1.0 + side_ratio * angle.sin() * factors.surcharge / surcharge_minus_one;
+        let unit_weight_shape = 1.0 - 0.3 * side_ratio;
 
-        let horizontal = self.horizontal();
+        let horizontal = self.horizontal_force();
         let mobilization = self.mobilization(strength, horizontal)?;
         // i_q − 1 = (1 − H/(V + A′ c cot φ))^m − 1 without loss of digits.
-        let reduction = (self.inclination_exponent() * (-mobilization).ln_1p()).exp_m1();
-        let inclination = 1.0 + reduction;
-        let inclination_cohesion = inclination + reduction / beyond_one;
+        let inclination_change = (self.inclination_exponent() * (-mobilization).ln_1p()).exp_m1();
+        let inclination = 1.0 + inclination_change;
+        let cohesion_inclination = inclination + inclination_change / surcharge_minus_one;
         Ok(FactorProducts {
-            cohesion: tilt_cohesion * shape_cohesion * inclination_cohesion,
-            surcharge: tilt * shape_surcharge * inclination,
-            unit_weight: tilt * shape_unit_weight * inclination * (1.0 - mobilization),
+            cohesion: cohesion_tilt * cohesion_shape * cohesion_inclination,
+            surcharge: tilt_factor * surcharge_shape * inclination,
+            unit_weight: tilt_factor * unit_weight_shape * inclination * (1.0 - mobilization),
         })
     }
 
@@ -323,18 +332,20 @@ impl ShallowFooting {
 
     /// Exponent m of the inclination factors: m_B for a load along B′, m_L along L′, and values in between.
     fn inclination_exponent(&self) -> f64 {
-        let ratio = self.side_ratio();
-        let along_shorter = (2.0 + ratio) / (1.0 + ratio);
-        let along_longer = (1.0 + 2.0 * ratio) / (1.0 + ratio);
+        let side_ratio = self.side_ratio();
+        let shorter_side_exponent = (2.0 + side_ratio) / (1.0 + side_ratio);
+        let longer_side_exponent = (1.0 + 2.0 * side_ratio) / (1.0 + side_ratio);
         let [x, y] = self.effective_sides();
-        let [along_x, along_y] = self.load.horizontal;
-        let [shorter, longer] = if x <= y { [along_x, along_y] } else { [along_y, along_x] };
-        // sin²θ and cos²θ of the angle between the force and L′; any without a force.
-        let angle = shorter.atan2(longer);
-        along_shorter * angle.sin().powi(2) + along_longer * angle.cos().powi(2)
+        let [x_force, y_force] = self.load.horizontal;
+        let [shorter_side_force, longer_side_force] =
+            if x <= y { [x_force, y_force] } else { [y_force, x_force] };
+        // Angle θ between the force and L′; without a force the exponent has no effect.
+        let force_angle = shorter_side_force.atan2(longer_side_force);
+        shorter_side_exponent * force_angle.sin().powi(2)
+            + longer_side_exponent * force_angle.cos().powi(2)
     }
 
-    fn horizontal(&self) -> f64 {
+    fn horizontal_force(&self) -> f64 {
         self.load.horizontal[0].hypot(self.load.horizontal[1])
     }
 
@@ -361,18 +372,18 @@ fn area(outline: FootingOutline, [x, y]: [f64; 2]) -> f64 {
 
 /// Distance of the centroid of a circle's segment from the middle, over the radius.
 ///
-/// `ratio`: area of the segment over the circle's, above 0 and at most 1.
-fn segment_arm(ratio: f64) -> f64 {
-    // Half the angle of the segment: α − sin α cos α = π ratio.
-    let mut low = 0.0;
-    let mut high = PI;
+/// `area_ratio`: area of the segment over the area of the circle, above 0 and at most 1.
+fn segment_arm(area_ratio: f64) -> f64 {
+    // Half the angle of the segment: α − sin α cos α = π `area_ratio`.
+    let mut min_angle = 0.0;
+    let mut max_angle = PI;
     for _ in 0..ANGLE_HALVINGS {
-        let middle = 0.5 * (low + high);
-        if middle - middle.sin() * middle.cos() < PI * ratio {
-            low = middle;
+        let angle = 0.5 * (min_angle + max_angle);
+        if angle - angle.sin() * angle.cos() < PI * area_ratio {
+            min_angle = angle;
         } else {
-            high = middle;
+            max_angle = angle;
         }
     }
-    low.sin().powi(3) / (1.5 * PI * ratio)
+    min_angle.sin().powi(3) / (1.5 * PI * area_ratio)
 }

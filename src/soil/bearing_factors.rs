@@ -35,20 +35,21 @@ impl BearingFactors {
     /// N_γ holds for a rough base, whose friction angle is at least φ/2.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for an angle below zero or not below π/2, and for one so close to π/2 that
-    /// a factor exceeds all numbers.
+    /// [`Error::Input`](crate::Error::Input) for an angle below zero or not below π/2, and for an angle so close to π/2
+    /// that a factor overflows.
     pub fn new(friction_angle: f64) -> Result<Self> {
-        // The soil's strength has the check of the angle.
+        // The constructor of the strength checks the angle.
         Self::of(&SoilStrength::new(friction_angle)?)
     }
 
     pub(super) fn of(strength: &SoilStrength) -> Result<Self> {
         let slope = strength.friction_angle().tan();
         // ln tan(π/4 + φ/2) = asinh(tan φ): no digits are lost in N_q − 1 at small angles.
-        let beyond_one = (PI * slope + 2.0 * slope.asinh()).exp_m1();
-        let cohesion = if slope > 0.0 { beyond_one / slope } else { UNDRAINED_COHESION_FACTOR };
-        let unit_weight = 2.0 * beyond_one * slope;
+        let surcharge_minus_one = (PI * slope + 2.0 * slope.asinh()).exp_m1();
+        let cohesion =
+            if slope > 0.0 { surcharge_minus_one / slope } else { UNDRAINED_COHESION_FACTOR };
+        let unit_weight = 2.0 * surcharge_minus_one * slope;
         finite("bearing capacity factor of the unit weight", unit_weight)?;
-        Ok(Self { cohesion, surcharge: 1.0 + beyond_one, unit_weight })
+        Ok(Self { cohesion, surcharge: 1.0 + surcharge_minus_one, unit_weight })
     }
 }

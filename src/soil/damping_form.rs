@@ -45,17 +45,20 @@ impl DampingForm {
 
 pub(super) fn serialize<S: Serializer>(
     law: &Arc<dyn Relaxation>,
-    to: S,
+    serializer: S,
 ) -> Result<S::Ok, S::Error> {
     let Some(form) = DampingForm::from_law(&**law) else {
-        let message = format!("damping law '{}' has no form to be written in", law.describe());
+        let message = format!(
+            "damping law '{}' cannot be written: it is not one of the crate's laws",
+            law.describe()
+        );
         return Err(S::Error::custom(message));
     };
-    form.serialize(to)
+    form.serialize(serializer)
 }
 
 pub(super) fn deserialize<'a, D: Deserializer<'a>>(
-    from: D,
+    deserializer: D,
 ) -> Result<Arc<dyn Relaxation>, D::Error> {
-    DampingForm::deserialize(from).map(DampingForm::law)
+    DampingForm::deserialize(deserializer).map(DampingForm::law)
 }

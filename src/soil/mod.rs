@@ -5,7 +5,9 @@ mod bearing_factors;
 #[cfg(feature = "serde")]
 mod damping_form;
 mod maxwell;
+mod nonnegative_least_squares;
 mod profile;
+mod profile_moduli;
 mod published_curves;
 mod relaxation;
 mod strain_curves;

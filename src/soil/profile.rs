@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
 use crate::error::{Result, SoilError, at_least, positive, require, require_part};
-use crate::linalg::Complex;
 
 /// Layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
@@ -75,8 +74,6 @@ validated! {
     => SoilProfile::new(layers, bedrock)
 }
 
-/// Largest |Re(μ/s)|/|μ/s| that counts as zero.
-const PASSIVITY_TOLERANCE: f64 = 1e-12;
 /// Largest number of layers of a profile.
 const MAX_LAYERS: usize = 1000;
 
@@ -111,9 +108,9 @@ impl SoilProfile {
     /// # Errors
     /// [`Error::Item`](crate::Error::Item) for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
     /// more than 1000 layers, [`Error::Scene`](crate::Error::Scene) for the first layer after
-    /// [`with_damping`](SoilProfile::with_damping), which does not damp it.
+    /// [`with_damping`](SoilProfile::with_damping), which would not damp this layer.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
-        let needed = "it damps the layer before it: call it after `with_layer`, or `with_bedrock_damping` for the bedrock";
+        let needed = "it damps the layer added last: call it after `with_layer`, or `with_bedrock_damping` for the bedrock";
         require_part(
             "`with_damping` before the first soil layer",
             !self.has_damping_before_layers,
@@ -124,7 +121,9 @@ impl SoilProfile {
         Ok(self)
     }
 
-    /// Sets the damping of the layer added last, or of the bedrock if no layer follows either.
+    /// Sets the damping of the layer added last.
+    ///
+    /// Before the first layer it sets the damping of the bedrock; a layer added after that is an error.
     #[must_use]
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
@@ -188,17 +187,17 @@ impl SoilProfile {
 
     /// Numbers that are equal only for equal profiles; `None` if a damping law has no identity.
     pub(crate) fn identity(&self) -> Option<Vec<f64>> {
-        let mut numbers = vec![self.layers.len() as f64];
+        let mut identity = vec![self.layers.len() as f64];
         for layer in &self.layers {
-            numbers.push(layer.thickness);
+            identity.push(layer.thickness);
         }
         for (soil, damping) in self.soils() {
-            numbers.extend([soil.shear_modulus(), soil.poisson(), soil.density()]);
-            let law = damping.identity()?;
-            numbers.push(law.len() as f64);
-            numbers.extend(law);
+            identity.extend([soil.shear_modulus(), soil.poisson(), soil.density()]);
+            let law_identity = damping.identity()?;
+            identity.push(law_identity.len() as f64);
+            identity.extend(law_identity);
         }
-        Some(numbers)
+        Some(identity)
     }
 
     /// Soils and damping laws from the surface down; the half-plane comes last.
@@ -216,8 +215,13 @@ impl SoilProfile {
     }
 
     fn check_depth(&self) -> Result<()> {
-        let count = self.layers.len();
-        require("number of soil layers", count as f64, count <= MAX_LAYERS, "at most 1000")?;
+        let layer_count = self.layers.len();
+        require(
+            "number of soil layers",
+            layer_count as f64,
+            layer_count <= MAX_LAYERS,
+            "at most 1000",
+        )?;
         for (index, layer) in self.layers.iter().enumerate() {
             positive("thickness (m)", layer.thickness)
                 .map_err(|error| error.within(layer_name(index)))?;
@@ -234,52 +238,6 @@ impl SoilProfile {
             if !damping.is_causal() {
                 let law = damping.describe();
                 return Err(SoilError::NotCausal { law, layer: index + 1 }.into());
-            }
-        }
-        Ok(())
-    }
-
-    /// Overwrites `moduli` with the complex shear moduli μ(s) from the surface down, Pa.
-    pub(crate) fn moduli(&self, s: Complex, moduli: &mut Vec<Complex>) -> Result<()> {
-        moduli.clear();
-        for (index, (soil, damping)) in self.soils().enumerate() {
-            let modulus = damping.modulus(s).scale(soil.shear_modulus());
-            check_modulus(index, s, modulus)?;
-            moduli.push(modulus);
-        }
-        Ok(())
-    }
-
-    /// Overwrites `moduli` with the complex shear moduli μ(s) at each of `s`, Pa.
-    ///
-    /// All moduli of the first soil come first, then all moduli of the next soil down.
-    pub(crate) fn moduli_at(&self, s: &[Complex], moduli: &mut Vec<Complex>) -> Result<()> {
-        moduli.clear();
-        // Neighbours of the same damping law share μ(s)/μ.
-        let mut ratios = vec![Complex::default(); s.len()];
-        let mut law_of_ratios: Option<Vec<f64>> = None;
-        for (index, (soil, damping)) in self.soils().enumerate() {
-            let law = damping.identity();
-            if law.is_none() || law != law_of_ratios {
-                damping.moduli(s, &mut ratios);
-                law_of_ratios = law;
-            }
-            let begin = moduli.len();
-            moduli.extend_from_slice(&ratios);
-            let soil_moduli = &mut moduli[begin..];
-            // Where Re(μ/s) is clearly positive and nothing overflows, the exact check is not needed.
-            let mut are_clearly_passive = true;
-            for (modulus, s) in soil_moduli.iter_mut().zip(s) {
-                *modulus = modulus.scale(soil.shear_modulus());
-                let power = modulus.re * s.re + modulus.im * s.im;
-                let size = modulus.square() * s.square();
-                are_clearly_passive &=
-                    power > 0.0 && power * power > 1e-20 * size && size > 1e-280 && size < 1e280;
-            }
-            if !are_clearly_passive {
-                for (modulus, s) in soil_moduli.iter().zip(s) {
-                    check_modulus(index, *s, *modulus)?;
-                }
             }
         }
         Ok(())
@@ -320,29 +278,6 @@ impl SoilProfile {
 /// Name of a layer, from 0 at the surface, in errors.
 pub(crate) fn layer_name(index: usize) -> String {
     format!("layer {}", index + 1)
-}
-
-/// Error for the modulus of a soil, from 0 at the surface, at `s` that no passive soil has.
-fn check_modulus(index: usize, s: Complex, modulus: Complex) -> Result<()> {
-    let layer = index + 1;
-    let is_static = s == Complex::default();
-    if !(modulus.is_finite() && modulus.abs() > 0.0) || (is_static && modulus.re <= 0.0) {
-        let needed = if is_static { "finite and above zero" } else { "finite and not zero" };
-        let quantity = "shear modulus (Pa)";
-        let s = [s.re, s.im];
-        return Err(SoilError::Modulus { layer, quantity, value: modulus.re, s, needed }.into());
-    }
-    let ratio = modulus / s;
-    let value = ratio.re / ratio.abs();
-    // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then be positive.
-    let is_passive =
-        value >= PASSIVITY_TOLERANCE || (value >= -PASSIVITY_TOLERANCE && modulus.re > 0.0);
-    if !(is_static || is_passive) {
-        let quantity = "Re(mu/s)/|mu/s|";
-        let needed = "not negative: the damping law gives energy away";
-        return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
-    }
-    Ok(())
 }
 
 /// A half-plane without layers.

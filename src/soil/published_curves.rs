@@ -19,7 +19,7 @@ pub(super) const SEED_IDRISS_CURVES: [[f64; 9]; 4] = [
 
 /// A published curve.
 pub(super) struct DrawnCurve<const N: usize> {
-    /// Quantity for which the curve was drawn.
+    /// Plasticity index (per cent) or depth (m) for which the curve was drawn.
     pub(super) parameter: f64,
     /// G/G_max.
     pub(super) reduction: [f64; N],

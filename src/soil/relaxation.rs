@@ -42,10 +42,10 @@ pub trait Relaxation: Any + Debug + Send + Sync {
     /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; at s = 0, the long-term modulus ratio.
     fn modulus(&self, s: Complex) -> Complex;
 
-    /// Overwrites `moduli` with μ(s)/μ₀ at each of `s`, lists of one length.
+    /// Overwrites `moduli` with μ(s)/μ₀ at each of `s`, slices of one length.
     ///
     /// Site response calls it for many frequencies at once. The default calls [`modulus`](Relaxation::modulus) for
-    /// each; a law that is quicker for many may agree with that to rounding.
+    /// each. A law may compute many moduli in another way, with results equal to those of `modulus` within rounding.
     fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
         for (modulus, s) in moduli.iter_mut().zip(s) {
             *modulus = self.modulus(*s);
@@ -54,7 +54,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
 
     /// Description of the law in a few words, for tables.
     fn describe(&self) -> String {
-        "own law".into()
+        "user-defined law".into()
     }
 
     /// Whether the law can be used in the time domain; frequency-domain results need no causality.
@@ -62,7 +62,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
         true
     }
 
-    /// Numbers that identify the law, so that grounds with equal laws can share kernels.
+    /// Numbers that identify the law, so that grounds with equal laws can share convolution weights.
     ///
     /// The first number must distinguish kinds of laws. `None` (the default) if the law cannot be identified.
     fn identity(&self) -> Option<Vec<f64>> {
@@ -70,7 +70,7 @@ pub trait Relaxation: Any + Debug + Send + Sync {
     }
 }
 
-/// The crate's laws; their numbers come first in [`Relaxation::identity`] and in kernel files.
+/// Kinds of the crate's laws; the number of a kind comes first in [`Relaxation::identity`] and in files of weights.
 #[derive(Clone, Copy)]
 pub(super) enum DampingKind {
     Elastic,
@@ -82,8 +82,10 @@ pub(super) enum DampingKind {
 
 impl DampingKind {
     /// Identity of a law of this kind with these parameters.
-    pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
-        std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect()
+    pub(super) fn with<'a>(self, parameters: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+        std::iter::once(f64::from(self as u8))
+            .chain(parameters.into_iter().copied())
+            .collect()
     }
 }
 
@@ -168,7 +170,7 @@ impl Relaxation for KelvinVoigt {
 /// Exactly constant damping at all frequencies, for comparisons (Kjartansson 1979).
 ///
 /// μ(s)/μ₀ = (s/ω₀)^(2γ) with γ = atan(2ξ)/π, and |μ| = μ₀ at ω₀. The long-term modulus is zero, so the soil
-/// carries no static load.
+/// has no static stiffness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "KjartanssonForm"))]

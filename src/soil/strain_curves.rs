@@ -7,7 +7,7 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive,
 
 /// Secant shear modulus and damping ratio of a soil as functions of the shear strain's amplitude.
 ///
-/// Published curves exist as drawings: their numbers are the digitized values of pystrata 0.5.4. Darendeli's
+/// Published curves are drawings; the numbers here are the digitized values of pystrata 0.5.4. Darendeli's
 /// curves are computed from his equations. Between points both quantities are linear in the logarithm of
 /// strain. Outside the points they keep the value at the end. Strains are plain numbers: 0.01 is 1 %.
 ///
@@ -83,6 +83,8 @@ pub(crate) enum ResolvedCurves {
 const HYPERBOLA_CURVATURE: f64 = 0.919;
 /// Strain over the reference strain above which Darendeli's damping stays constant: it would decrease.
 const MAX_DAMPING_STRAIN_RATIO: f64 = 55.45;
+/// Strain over the reference strain below which the exact loop area loses digits by cancellation.
+const MIN_EXACT_STRAIN_RATIO: f64 = 1e-5;
 /// Largest strain of Darendeli's curves.
 const MAX_DARENDELI_STRAIN: f64 = 0.01;
 /// Atmospheric pressure, Pa.
@@ -151,33 +153,34 @@ impl ResolvedCurves {
     pub(crate) fn at(&self, strain: f64) -> [f64; 2] {
         match self {
             Self::Rows(rows) => {
-                let above = rows.partition_point(|row| row[0] <= strain);
-                let Some(low) = above.checked_sub(1).map(|i| rows[i]) else {
+                let upper_index = rows.partition_point(|row| row[0] <= strain);
+                let Some(low_row) = upper_index.checked_sub(1).map(|i| rows[i]) else {
                     return rows.first().map_or([1.0, 0.0], |row| [row[1], row[2]]);
                 };
-                let high = rows.get(above).copied().unwrap_or(low);
-                let fraction = if high[0] > low[0] {
-                    (strain / low[0]).ln() / (high[0] / low[0]).ln()
+                let high_row = rows.get(upper_index).copied().unwrap_or(low_row);
+                let fraction = if high_row[0] > low_row[0] {
+                    (strain / low_row[0]).ln() / (high_row[0] / low_row[0]).ln()
                 } else {
                     0.0
                 };
-                [1, 2].map(|k| low[k] + fraction * (high[k] - low[k]))
+                [1, 2].map(|k| low_row[k] + fraction * (high_row[k] - low_row[k]))
             }
             Self::Darendeli { reference_strain, small_strain_damping, masing_factor } => {
                 let x = (strain / reference_strain).min(MAX_DAMPING_STRAIN_RATIO);
                 // Masing damping for a = 1, per cent. For small x the limit 2x/3 is used, because the
                 // difference cancels.
-                let loop_area = if x < 1e-5 {
+                let loop_area = if x < MIN_EXACT_STRAIN_RATIO {
                     x / 1.5
                 } else {
                     4.0 * (x - x.ln_1p()) * (1.0 + x) / (x * x) - 2.0
                 };
-                let first = 100.0 / std::f64::consts::PI * loop_area;
+                let ideal_masing_damping = 100.0 / std::f64::consts::PI * loop_area;
                 let a = HYPERBOLA_CURVATURE;
                 let c1 = -1.1143 * a * a + 1.8618 * a + 0.2523;
                 let c2 = 0.0805 * a * a - 0.0710 * a - 0.0095;
                 let c3 = -0.0005 * a * a + 0.0002 * a + 0.0003;
-                let masing = first * (c1 + first * (c2 + first * c3));
+                let masing = ideal_masing_damping
+                    * (c1 + ideal_masing_damping * (c2 + ideal_masing_damping * c3));
                 [
                     darendeli_reduction(strain / reference_strain),
                     small_strain_damping
@@ -188,7 +191,7 @@ impl ResolvedCurves {
     }
 
     /// Largest strain of the curves.
-    pub(crate) fn largest(&self) -> f64 {
+    pub(crate) fn max_strain(&self) -> f64 {
         match self {
             Self::Rows(rows) => rows.last().map_or(f64::INFINITY, |row| row[0]),
             Self::Darendeli { .. } => MAX_DARENDELI_STRAIN,
@@ -203,25 +206,31 @@ fn darendeli_reduction(strain_ratio: f64) -> f64 {
 
 /// Parameters of Darendeli's model, by its means (2001).
 fn darendeli(
-    index: f64,
-    overconsolidation: f64,
-    stress: f64,
+    plasticity_index: f64,
+    overconsolidation_ratio: f64,
+    mean_stress: f64,
     frequency: f64,
     cycles: f64,
 ) -> Result<ResolvedCurves> {
-    not_negative("plasticity index", index)?;
-    let ratio = positive("overconsolidation ratio", overconsolidation)?;
-    let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERIC_PRESSURE;
-    let is_frequency = frequency >= 0.05 && frequency.is_finite();
+    not_negative("plasticity index", plasticity_index)?;
+    positive("overconsolidation ratio", overconsolidation_ratio)?;
+    let stress_ratio = positive("mean effective stress (Pa)", mean_stress)? / ATMOSPHERIC_PRESSURE;
+    let is_in_range = frequency >= 0.05 && frequency.is_finite();
     let quantity = "frequency of Darendeli's curves (Hz)";
-    require(quantity, frequency, is_frequency, "finite and at least 0.05")?;
-    let is_count = cycles >= 1.0 && cycles.is_finite();
-    require("number of cycles of Darendeli's curves", cycles, is_count, "finite and at least 1")?;
-    let reference_strain =
-        0.01 * (0.0352 + 0.0010 * index * ratio.powf(0.3246)) * stress.powf(0.3483);
+    require(quantity, frequency, is_in_range, "finite and at least 0.05")?;
+    let is_cycle_count = cycles >= 1.0 && cycles.is_finite();
+    require(
+        "number of cycles of Darendeli's curves",
+        cycles,
+        is_cycle_count,
+        "finite and at least 1",
+    )?;
+    let reference_strain = 0.01
+        * (0.0352 + 0.0010 * plasticity_index * overconsolidation_ratio.powf(0.3246))
+        * stress_ratio.powf(0.3483);
     let small_strain_damping = 0.01
-        * (0.8005 + 0.0129 * index * ratio.powf(-0.1069))
-        * stress.powf(-0.2889)
+        * (0.8005 + 0.0129 * plasticity_index * overconsolidation_ratio.powf(-0.1069))
+        * stress_ratio.powf(-0.2889)
         * (1.0 + 0.2919 * frequency.ln());
     positive("reference strain of Darendeli's curves", reference_strain)?;
     damping_ratio("small-strain damping of Darendeli's curves", small_strain_damping)?;
@@ -239,22 +248,25 @@ fn rows<const N: usize>(
 }
 
 /// Interpolates between the two drawn curves next to a plasticity index.
-fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
-    let last = VUCETIC_DOBRY_CURVES.len() - 1;
-    let is_in_range = (0.0..=VUCETIC_DOBRY_CURVES[last].parameter).contains(&index);
-    require("plasticity index", index, is_in_range, "from 0 to 200")?;
-    let above =
-        VUCETIC_DOBRY_CURVES.partition_point(|curve| curve.parameter <= index).clamp(1, last);
-    let low = &VUCETIC_DOBRY_CURVES[above - 1];
-    let high = &VUCETIC_DOBRY_CURVES[above];
-    let fraction = (index - low.parameter) / (high.parameter - low.parameter);
-    let low_rows = rows(&NINE_STRAINS, &low.reduction, &low.damping);
-    let high_rows = rows(&NINE_STRAINS, &high.reduction, &high.damping);
+fn vucetic_dobry(plasticity_index: f64) -> Result<Vec<[f64; 3]>> {
+    let last_index = VUCETIC_DOBRY_CURVES.len() - 1;
+    let is_in_range =
+        (0.0..=VUCETIC_DOBRY_CURVES[last_index].parameter).contains(&plasticity_index);
+    require("plasticity index", plasticity_index, is_in_range, "from 0 to 200")?;
+    let upper_index = VUCETIC_DOBRY_CURVES
+        .partition_point(|curve| curve.parameter <= plasticity_index)
+        .clamp(1, last_index);
+    let low_curve = &VUCETIC_DOBRY_CURVES[upper_index - 1];
+    let high_curve = &VUCETIC_DOBRY_CURVES[upper_index];
+    let fraction =
+        (plasticity_index - low_curve.parameter) / (high_curve.parameter - low_curve.parameter);
+    let low_rows = rows(&NINE_STRAINS, &low_curve.reduction, &low_curve.damping);
+    let high_rows = rows(&NINE_STRAINS, &high_curve.reduction, &high_curve.damping);
     let mut interpolated = Vec::with_capacity(low_rows.len());
-    for (low, high) in low_rows.iter().zip(high_rows) {
-        let reduction = low[1] + fraction * (high[1] - low[1]);
-        let damping = low[2] + fraction * (high[2] - low[2]);
-        interpolated.push([low[0], reduction, damping]);
+    for (low_row, high_row) in low_rows.iter().zip(high_rows) {
+        let reduction = low_row[1] + fraction * (high_row[1] - low_row[1]);
+        let damping = low_row[2] + fraction * (high_row[2] - low_row[2]);
+        interpolated.push([low_row[0], reduction, damping]);
     }
     Ok(interpolated)
 }
@@ -267,13 +279,13 @@ fn checked_rows(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
     let mut previous_reduction = 1.0;
     for &[strain, reduction, damping] in rows {
         finite("strain of a table", strain)?;
-        let needed = "above zero and above the one before";
+        let needed = "above zero and above the strain of the row before";
         previous_strain = require("strain of a table", strain, strain > previous_strain, needed)?;
-        let is_ratio = reduction > 0.0 && reduction <= 1.0;
-        require("G/G_max of a table", reduction, is_ratio, "above 0 and at most 1")?;
-        let needed = "at most the one before: soil softens as strain grows";
-        let softens = reduction <= previous_reduction;
-        previous_reduction = require("G/G_max of a table", reduction, softens, needed)?;
+        let is_in_range = reduction > 0.0 && reduction <= 1.0;
+        require("G/G_max of a table", reduction, is_in_range, "above 0 and at most 1")?;
+        let needed = "at most the ratio of the row before: soil softens as strain grows";
+        let is_not_stiffer = reduction <= previous_reduction;
+        previous_reduction = require("G/G_max of a table", reduction, is_not_stiffer, needed)?;
         damping_ratio("damping ratio of a table", damping)?;
     }
     Ok(rows)

@@ -7,8 +7,8 @@ use crate::error::{Result, not_negative, require};
 /// Strength of drained soil: friction angle φ, cohesion c, and friction angle δ between soil and a wall.
 ///
 /// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from it.
-/// The latter are pressures of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
-/// friction they are Rankine's. Strengths and stresses are effective ones.
+/// The wall pressures are those of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
+/// friction they are Rankine's. Strengths and stresses are effective values.
 ///
 /// ```
 /// use basemat::soil::SoilStrength;
@@ -44,11 +44,11 @@ impl SoilStrength {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an angle below zero, or of π/2 and more.
     pub fn new(friction_angle: f64) -> Result<Self> {
-        let is_angle = (0.0..FRAC_PI_2).contains(&friction_angle);
+        let is_in_range = (0.0..FRAC_PI_2).contains(&friction_angle);
         require(
             "friction angle of the soil (rad)",
             friction_angle,
-            is_angle,
+            is_in_range,
             "from 0 to below π/2",
         )?;
         Ok(Self { friction_angle, cohesion: 0.0, wall_friction_angle: 0.0 })
@@ -62,21 +62,21 @@ impl SoilStrength {
         Ok(Self { cohesion: not_negative("cohesion of the soil", cohesion)?, ..self })
     }
 
-    /// Sets the friction angle (rad) between soil and wall, from 0 to the one of the soil.
+    /// Sets the friction angle (rad) between soil and wall, from 0 to the friction angle of the soil.
     ///
     /// Plane wedges overestimate the passive pressure from about a third of the soil's angle on, where surfaces of
-    /// sliding are curved (Terzaghi 1943): take no more than that, unless the wall's friction is known to act.
+    /// sliding are curved (Terzaghi 1943): take no larger angle, unless the wall's friction is certain to act.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an angle below zero, above the soil's, or with which no plane wedge
     /// slides at the passive limit.
     pub fn with_wall_friction(self, angle: f64) -> Result<Self> {
-        let is_angle = (0.0..=self.friction_angle).contains(&angle);
+        let is_in_range = (0.0..=self.friction_angle).contains(&angle);
         let needed = "from 0 to the friction angle of the soil";
-        require("friction angle of the wall (rad)", angle, is_angle, needed)?;
+        require("friction angle of the wall (rad)", angle, is_in_range, needed)?;
         let strength = Self { wall_friction_angle: angle, ..self };
-        let needed = "less: no plane wedge slides at the passive limit";
-        require("friction angle of the wall (rad)", angle, strength.root() < 1.0, needed)?;
+        let needed = "smaller: no plane wedge slides at the passive limit";
+        require("friction angle of the wall (rad)", angle, strength.wall_factor() < 1.0, needed)?;
         Ok(strength)
     }
 
@@ -91,7 +91,7 @@ impl SoilStrength {
     }
 
     /// √(sin(φ + δ) sin φ / cos δ).
-    fn root(&self) -> f64 {
+    fn wall_factor(&self) -> f64 {
         let Self { friction_angle: phi, wall_friction_angle: delta, .. } = *self;
         ((phi + delta).sin() * phi.sin() / delta.cos()).sqrt()
     }
@@ -102,18 +102,22 @@ impl SoilStrength {
     /// form of Müller-Breslau 1906), which is inclined at δ and 1/cos δ times as large. Without wall friction
     /// tan²(π/4 ∓ φ/2) (Rankine 1857).
     pub fn pressure_ratios(&self) -> [f64; 2] {
-        let root = self.root();
-        [1.0 + root, 1.0 - root].map(|factor| (self.friction_angle.cos() / factor).powi(2))
+        let wall_factor = self.wall_factor();
+        [1.0 + wall_factor, 1.0 - wall_factor]
+            .map(|factor| (self.friction_angle.cos() / factor).powi(2))
     }
 
     /// Active and passive pressure on a wall (Pa) under a `vertical` pressure of the soil, Pa.
     ///
-    /// K σ_v ∓ 2c √K (EN 1997-1:2004, eqs. C.1 and C.2, without adhesion). The active one is below zero where cohesion
-    /// holds the soil without a wall.
+    /// K σ_v ∓ 2c √K (EN 1997-1:2004, eqs. C.1 and C.2, without adhesion). The active pressure is below zero where the
+    /// soil is stable without a wall because of its cohesion.
     pub fn pressures(&self, vertical: f64) -> [f64; 2] {
-        let ratios = self.pressure_ratios();
-        let by_cohesion = ratios.map(|ratio| 2.0 * self.cohesion * ratio.sqrt());
-        [ratios[0] * vertical - by_cohesion[0], ratios[1] * vertical + by_cohesion[1]]
+        let pressure_ratios = self.pressure_ratios();
+        let cohesion_pressures = pressure_ratios.map(|ratio| 2.0 * self.cohesion * ratio.sqrt());
+        [
+            pressure_ratios[0] * vertical - cohesion_pressures[0],
+            pressure_ratios[1] * vertical + cohesion_pressures[1],
+        ]
     }
 
     /// Friction coefficient between soil and wall, tan δ.

@@ -72,6 +72,6 @@ fn profiles_with_every_law_of_the_crate() {
         let law = UserRelaxation { identity };
         let profile = SoilProfile::on_half_plane(soil).with_bedrock_damping(law);
         let error = serde_json::to_string(&profile).unwrap_err().to_string();
-        assert!(error.contains("damping law 'own law'"), "{error}");
+        assert!(error.contains("damping law 'user-defined law'"), "{error}");
     }
 }

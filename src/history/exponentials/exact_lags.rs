@@ -2,13 +2,13 @@
 
 use crate::error::{Error, Observer, Result, unobserved};
 use crate::history::convolution_weights::{ConvolutionWeights, by_kind};
-use crate::history::pair_classes::{PairClasses, STRIP_KINDS};
+use crate::history::pair_classes::{COUPLING_KIND, PairClasses, STRIP_KINDS};
 use crate::history::shared_spectra::SharedSpectra;
 
 /// Error for a kernel whose coupling does not end within the window.
-const COUPLING_LASTS: Error = Error::Scene {
+const COUPLING_OUTLASTS_WINDOW: Error = Error::Scene {
     quantity: "history by exponentials",
-    needed: "they need a coupling that ends before they begin",
+    needed: "convolution weights whose coupling ends before the exponentials begin",
 };
 
 /// A kernel whose coefficients are zero after its window.
@@ -35,13 +35,13 @@ impl ConvolutionWeights for WindowedWeights<'_> {
         values: &mut [&mut [f64]],
     ) -> Result<()> {
         let values: &mut [_; STRIP_KINDS] = by_kind(values)?;
-        let count = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
-        let mut in_window = values.each_mut().map(|values| {
-            let (in_window, beyond) = values.split_at_mut(count);
-            beyond.fill(0.0);
-            in_window
+        let lag_count = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
+        let mut window_values = values.each_mut().map(|values| {
+            let (window_values, values_after_window) = values.split_at_mut(lag_count);
+            values_after_window.fill(0.0);
+            window_values
         });
-        self.kernel.coefficients(class, first_lag, &mut in_window)
+        self.kernel.coefficients(class, first_lag, &mut window_values)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
@@ -70,9 +70,10 @@ impl Lags {
         for class in 0..kernel.classes().count() {
             let mut lags = [(); STRIP_KINDS].map(|()| vec![0.0; window]);
             kernel.coefficients(class, 1, &mut lags.each_mut().map(Vec::as_mut_slice))?;
-            let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
-            lags[2].truncate(last.ok_or(COUPLING_LASTS)?);
-            lags[2].shrink_to_fit();
+            let coupling_end =
+                kernel.last_coupling_lag(class)?.filter(|coupling_end| *coupling_end <= window);
+            lags[COUPLING_KIND].truncate(coupling_end.ok_or(COUPLING_OUTLASTS_WINDOW)?);
+            lags[COUPLING_KIND].shrink_to_fit();
             kinds.iter_mut().zip(lags).for_each(|(kind, lags)| kind.push(lags));
         }
         Ok(Self { kinds })

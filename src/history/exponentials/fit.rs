@@ -41,32 +41,32 @@ impl TailFit {
         request: FitRequest,
     ) -> Result<Self> {
         let FitRequest { lags, horizon, tolerance } = request;
-        let exact = Lags::new(kernel, lags)?;
-        let mut target = tolerance;
+        let exact_lags = Lags::new(kernel, lags)?;
+        let mut target_tolerance = tolerance;
         let mut failure = None;
         for _ in 0..MAX_FIT_ATTEMPTS {
             let elements = kernel.classes().elements();
-            let tail = Tail::new(late.exponentials(lags, horizon, target)?, elements)?;
+            let tail = Tail::new(late.exponentials(lags, horizon, target_tolerance)?, elements)?;
             let errors = MeasuredErrors::over(kernel, &tail, lags, horizon)?;
-            target *= TOLERANCE_REDUCTION;
+            target_tolerance *= TOLERANCE_REDUCTION;
             if errors.largest_relative > tolerance {
                 failure.get_or_insert_with(|| inaccurate(tolerance, errors.largest_relative));
                 continue;
             }
-            let PassivityMargin { smallest, frequency } =
-                passivity::margin(kernel, &exact, &tail, horizon as f64);
+            let PassivityMargin { min_eigenvalue, frequency } =
+                passivity::margin(kernel, &exact_lags, &tail, horizon as f64);
             // A NaN is an error as well.
-            if smallest.is_nan() || smallest < 0.0 {
+            if min_eigenvalue.is_nan() || min_eigenvalue < 0.0 {
                 failure = Some(Error::NotPassive {
                     quantity: "history by exponentials",
-                    margin: smallest,
+                    margin: min_eigenvalue,
                     allowed: 0.0,
                     angle: frequency,
                     radius: 1.0,
                 });
                 continue;
             }
-            return Ok(Self { request, tail, errors, passivity_margin: smallest });
+            return Ok(Self { request, tail, errors, passivity_margin: min_eigenvalue });
         }
         Err(failure.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
     }
@@ -77,7 +77,7 @@ fn inaccurate(tolerance: f64, reached: f64) -> Error {
     Error::Accuracy { quantity: "history by exponentials", reached, tolerance, remedy }
 }
 
-/// A fit, and the spectra of its window alone.
+/// A fit, and the spectra of its window of exact lags.
 #[derive(Clone)]
 pub(super) struct StoredFit {
     pub(super) fit: Arc<TailFit>,
@@ -88,13 +88,16 @@ pub(super) struct StoredFit {
 ///
 /// Windows of one length share their spectra.
 pub(super) fn store_fit(stored: &mut Vec<StoredFit>, fit: Arc<TailFit>) -> StoredFit {
-    if let Some(earlier) = stored.iter().find(|earlier| earlier.fit.request == fit.request) {
-        return earlier.clone();
+    if let Some(earlier_fit) =
+        stored.iter().find(|earlier_fit| earlier_fit.fit.request == fit.request)
+    {
+        return earlier_fit.clone();
     }
-    let same_window = stored.iter().find(|earlier| earlier.fit.request.lags == fit.request.lags);
+    let same_window =
+        stored.iter().find(|earlier_fit| earlier_fit.fit.request.lags == fit.request.lags);
     let spectra =
-        same_window.map_or_else(SharedSpectra::default, |earlier| earlier.spectra.clone());
-    let added = StoredFit { fit, spectra };
-    stored.push(added.clone());
-    added
+        same_window.map_or_else(SharedSpectra::default, |earlier_fit| earlier_fit.spectra.clone());
+    let new_fit = StoredFit { fit, spectra };
+    stored.push(new_fit.clone());
+    new_fit
 }

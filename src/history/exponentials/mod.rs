@@ -13,7 +13,7 @@ use self::fit::{FitRequest, StoredFit, TailFit, store_fit};
 use self::tail::Tail;
 use super::convolution::ConvolutionHistory;
 use super::convolution_weights::{ConvolutionWeights, LateWeights};
-use super::relaxed_fft::{HistoryBlocks, LEAF_STEPS, bounded, bytes_of_blocks};
+use super::relaxed_fft::{HistoryBlocks, LEAF_STEPS, bounded_blocks, bytes_of_blocks};
 use super::shared_spectra::{SharedSpectra, lock};
 use crate::error::{
     CheckpointError, Error, MemoryError, Observer, ProgressReporter, Result, require, same_length,
@@ -35,7 +35,7 @@ pub(super) const DEFAULT_MEMORY: usize = 1 << 30;
 /// time with a common set of poles, and of a few functions over the patch in space. All tractions before the last 2W
 /// are stored as a few hundred numbers, whatever the number of steps.
 ///
-/// The kernel must give its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
+/// The kernel must provide its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when the
 /// Rayleigh wave has crossed the patch three times. By then only normal and tangential components are left. These are
 /// integrals of decaying exponentials, which the trapezoidal rule in the logarithm of the rate turns into sums. The
 /// functions in space are Legendre polynomials over the patch.
@@ -60,10 +60,11 @@ pub(super) const DEFAULT_MEMORY: usize = 1 << 30;
 pub struct ExponentialHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     fit: Arc<TailFit>,
-    window: Box<dyn HistoryBlocks>,
+    /// Exact lags.
+    window_blocks: Box<dyn HistoryBlocks>,
     tail: Tail,
     /// The last 2W inputs, input m in slot m mod 2W.
-    recent: Vec<f64>,
+    recent_inputs: Vec<f64>,
     steps: usize,
     /// Whether the effect of the last input is still to be added.
     input_is_pending: bool,
@@ -97,7 +98,7 @@ short_debug! {
     self;
     elements: self.kernel.classes().elements().len(),
     steps: self.steps,
-    lags: self.window(),
+    lags: self.window_lags(),
     horizon: self.fit.request.horizon,
     tolerance: self.fit.request.tolerance,
 }
@@ -140,7 +141,7 @@ impl ExponentialHistory {
         Self::within_memory(kernel, tolerance, horizon, DEFAULT_MEMORY)
     }
 
-    /// [`ExponentialHistory::with_horizon`] within `memory` bytes, including the fit.
+    /// Does [`ExponentialHistory::with_horizon`] within `memory` bytes, including the fit.
     pub(crate) fn within_memory(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
@@ -150,13 +151,13 @@ impl ExponentialHistory {
         Self::check_tolerance(tolerance)?;
         let Some(late) = kernel.late_weights() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
-        let lags = window_lags(late)?;
-        let needed = window_bytes(&*kernel, lags)?;
-        if needed > memory as f64 {
+        let lags = whole_block_lags(late)?;
+        let needed_bytes = window_bytes(&*kernel, lags)?;
+        if needed_bytes > memory as f64 {
             return Err(Error::Memory(MemoryError {
                 quantity: "lags before a history by exponentials",
                 asked: lags as f64,
-                needed,
+                needed: needed_bytes,
                 limit: memory as f64,
                 remedy: "take a longer time step or fewer elements, or allow more with \
                          `HistoryOptions::memory`",
@@ -164,7 +165,7 @@ impl ExponentialHistory {
         }
         let horizon = horizon.clamp(2 * lags, Self::MAX_HORIZON);
         let request = FitRequest { lags, horizon, tolerance };
-        let store = kernel.spectra().filter(|spectra| spectra.are_of(elements));
+        let store = kernel.spectra().filter(|spectra| spectra.belong_to(elements));
         let store = store.map(SharedSpectra::tables::<Vec<StoredFit>>);
         let stored = store.as_deref().and_then(|store| {
             lock(store).iter().find(|stored| stored.fit.request == request).cloned()
@@ -172,17 +173,18 @@ impl ExponentialHistory {
         let StoredFit { fit, spectra } = if let Some(stored) = stored {
             stored
         } else {
-            // The fit is made while the store is not locked: a kernel may work on several threads, which must not wait.
+            // The fit is made while the store is not locked: threads of the kernel must not wait for the lock.
             let fit = Arc::new(TailFit::new(&*kernel, late, request)?);
             match store.as_deref() {
                 Some(store) => store_fit(&mut lock(store), fit),
                 None => StoredFit { fit, spectra: SharedSpectra::default() },
             }
         };
-        let window = bounded(&WindowedWeights { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
+        let window_blocks =
+            bounded_blocks(&WindowedWeights { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
         Ok(Self {
-            window,
-            recent: vec![0.0; 2 * lags * kernel.classes().layout().len()],
+            window_blocks,
+            recent_inputs: vec![0.0; 2 * lags * kernel.classes().layout().len()],
             tail: fit.tail.clone(),
             fit,
             steps: 0,
@@ -195,7 +197,7 @@ impl ExponentialHistory {
     /// Describes the fit: exact lags, exponentials, and their errors.
     pub fn fit(&self) -> ExponentialFit {
         ExponentialFit {
-            window: self.window(),
+            window: self.window_lags(),
             poles: self.tail.poles(),
             functions: self.tail.functions(),
             error_bound: self.error_bound(),
@@ -211,7 +213,7 @@ impl ExponentialHistory {
         self.fit.request.horizon
     }
 
-    fn window(&self) -> usize {
+    fn window_lags(&self) -> usize {
         self.fit.request.lags
     }
 
@@ -222,52 +224,52 @@ impl ExponentialHistory {
     }
 
     /// Number of tractions in one step.
-    fn size(&self) -> usize {
+    fn traction_count(&self) -> usize {
         self.kernel.classes().layout().len()
     }
 
-    /// Position of input `m` in `recent`.
+    /// Position of input `m` in `recent_inputs`.
     fn slot(&self, m: usize) -> std::ops::Range<usize> {
-        let size = self.size();
-        let slot = m % (2 * self.window());
-        slot * size..(slot + 1) * size
+        let traction_count = self.traction_count();
+        let slot = m % (2 * self.window_lags());
+        slot * traction_count..(slot + 1) * traction_count
     }
 
     /// Inputs that the window needs for outputs from `steps` on; the first begins a block.
     fn window_inputs(&self, steps: usize) -> std::ops::Range<usize> {
-        let lags = self.window();
+        let lags = self.window_lags();
         (steps / lags * lags).saturating_sub(lags)..steps
     }
 
     /// Adds the effect of the last input, so that the next output is complete.
     fn complete_output(&mut self) {
         if std::mem::take(&mut self.input_is_pending) {
-            self.window.add_effects(self.steps);
+            self.window_blocks.add_effects(self.steps);
         }
     }
 
-    /// Stores the input of one step, and adds to the exponentials the one that leaves the window.
+    /// Stores the input of one step, and adds the input that leaves the window to the exponentials.
     fn store_input(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
-        let stored = &mut self.recent[slot];
+        let stored = &mut self.recent_inputs[slot];
         input(stored);
         self.largest_traction = self.largest_traction.max(stored.iter().map(|t| t.abs()).sum());
         self.steps += 1;
-        let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
-        self.tail.advance(leaving.map(|slot| &self.recent[slot]));
+        let leaving_input = self.steps.checked_sub(self.window_lags()).map(|m| self.slot(m));
+        self.tail.advance(leaving_input.map(|slot| &self.recent_inputs[slot]));
     }
 
     /// Writes the last inputs into the window.
     fn refill_window(&mut self) {
-        self.window.clear();
+        self.window_blocks.clear();
         let window_inputs = self.window_inputs(self.steps);
         let first = window_inputs.start;
         for m in window_inputs {
             if m > first {
-                self.window.add_effects(m);
+                self.window_blocks.add_effects(m);
             }
             let slot = self.slot(m);
-            self.window.write(m, &self.recent[slot]);
+            self.window_blocks.write(m, &self.recent_inputs[slot]);
         }
         self.input_is_pending = self.steps > 0;
     }
@@ -276,14 +278,14 @@ impl ExponentialHistory {
 /// Bytes of a window of `lags` with its inputs, and of the coefficients during the fit.
 fn window_bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
     let classes = kernel.classes();
-    let numbers = 4 * classes.elements().len() + 2 * classes.count();
-    Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
+    let numbers_per_lag = 4 * classes.elements().len() + 2 * classes.count();
+    Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers_per_lag) as f64 * lags as f64)
 }
 
 /// Number of lags in the window, a whole block of the transforms.
 ///
 /// Part of a block would take as much time.
-fn window_lags(late: &dyn LateWeights) -> Result<usize> {
+fn whole_block_lags(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";
     require("lags before the exponentials", lags as f64, lags <= MAX_WINDOW_LAGS, needed)?;
@@ -307,15 +309,16 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        same_length("displacement of the history", displacement.len(), self.size())?;
+        same_length("displacement of the history", displacement.len(), self.traction_count())?;
         self.complete_output();
-        self.window.read(self.steps, displacement);
-        self.tail.add(displacement);
+        self.window_blocks.read(self.steps, displacement);
+        self.tail.add_displacement(displacement);
         Ok(())
     }
 
     fn memory(&self) -> usize {
-        self.tail.memory() + (self.window.numbers() + self.recent.len()) * size_of::<f64>()
+        self.tail.memory()
+            + (self.window_blocks.numbers() + self.recent_inputs.len()) * size_of::<f64>()
     }
 
     fn push(&mut self, traction: &[f64]) {
@@ -327,15 +330,16 @@ impl ConvolutionHistory for ExponentialHistory {
             }
         });
         let slot = self.slot(now);
-        self.window.write(now, &self.recent[slot]);
+        self.window_blocks.write(now, &self.recent_inputs[slot]);
         self.input_is_pending = true;
     }
 
     fn increment_error_bound(&self) -> f64 {
         // Beyond the horizon the error may be as large as the remaining coefficients.
         let TailFit { request, errors, .. } = &*self.fit;
-        let beyond = if self.steps > request.horizon { 2.0 * errors.last_coefficient } else { 0.0 };
-        (errors.increment_sum + beyond) * self.largest_traction
+        let late_error =
+            if self.steps > request.horizon { 2.0 * errors.last_coefficient } else { 0.0 };
+        (errors.increment_sum + late_error) * self.largest_traction
     }
 
     /// Returns the largest traction, the exponentials' state, and the last inputs.
@@ -343,24 +347,25 @@ impl ConvolutionHistory for ExponentialHistory {
         let mut values = vec![self.largest_traction];
         values.extend(self.tail.state());
         for m in self.window_inputs(self.steps) {
-            values.extend_from_slice(&self.recent[self.slot(m)]);
+            values.extend_from_slice(&self.recent_inputs[self.slot(m)]);
         }
         Ok(values)
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        let state = self.tail.state_length();
+        let state_length = self.tail.state_length();
         let window_inputs = self.window_inputs(steps);
-        if values.len() != 1 + state + window_inputs.len() * self.size() {
+        if values.len() != 1 + state_length + window_inputs.len() * self.traction_count() {
             return Err(CheckpointError::Corrupt { quantity: "history by exponentials" }.into());
         }
         self.steps = steps;
         self.largest_traction = values[0];
-        self.tail.set_state(&values[1..=state]);
-        let size = self.size();
-        for (m, input) in window_inputs.zip(values[state + 1..].chunks_exact(size)) {
+        self.tail.set_state(&values[1..=state_length]);
+        let traction_count = self.traction_count();
+        for (m, input) in window_inputs.zip(values[state_length + 1..].chunks_exact(traction_count))
+        {
             let slot = self.slot(m);
-            self.recent[slot].copy_from_slice(input);
+            self.recent_inputs[slot].copy_from_slice(input);
         }
         self.refill_window();
         Ok(())

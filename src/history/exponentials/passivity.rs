@@ -1,4 +1,4 @@
-//! Whether a window and its exponentials can create energy.
+//! Check that a window and its exponentials create no energy.
 //!
 //! Over any run the work of tractions is Σ τ·L Δs, s = Ĝ τ. By Parseval it is never negative if
 //! H(ω) = Re[(1−ζ) L Ĝ(ζ)], ζ = e^(iω), has no negative eigenvalue at any ω; L Gⁿ is symmetric by
@@ -24,7 +24,7 @@ const MAX_DENSE_SEARCH_ORDER: usize = 100;
 /// Smallest eigenvalue, and its frequency in radians per step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PassivityMargin {
-    pub(super) smallest: f64,
+    pub(super) min_eigenvalue: f64,
     pub(super) frequency: f64,
 }
 
@@ -43,47 +43,52 @@ pub(super) fn margin(
         frequencies.push(omega);
         omega *= 10.0_f64.powf(stride / FREQUENCIES_PER_DECADE);
     }
-    let mut number = 1.0;
-    while number <= EVEN_FREQUENCY_COUNT as f64 {
-        frequencies.push(std::f64::consts::PI * number / EVEN_FREQUENCY_COUNT as f64);
-        number += stride;
+    let mut frequency_number = 1.0;
+    while frequency_number <= EVEN_FREQUENCY_COUNT as f64 {
+        frequencies.push(std::f64::consts::PI * frequency_number / EVEN_FREQUENCY_COUNT as f64);
+        frequency_number += stride;
     }
-    let mut found = PassivityMargin { smallest: f64::INFINITY, frequency: 0.0 };
+    let mut min_margin = PassivityMargin { min_eigenvalue: f64::INFINITY, frequency: 0.0 };
     for frequency in frequencies {
-        let smallest = smallest_at(kernel, lags, tail, frequency);
+        let min_eigenvalue = min_eigenvalue_at(kernel, lags, tail, frequency);
         // NaN must not pass.
-        if smallest.is_nan() || smallest < found.smallest {
-            found = PassivityMargin { smallest, frequency };
+        if min_eigenvalue.is_nan() || min_eigenvalue < min_margin.min_eigenvalue {
+            min_margin = PassivityMargin { min_eigenvalue, frequency };
         }
-        if smallest.is_nan() {
+        if min_eigenvalue.is_nan() {
             break;
         }
     }
-    found
+    min_margin
 }
 
 /// Smallest eigenvalue at one frequency.
-fn smallest_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
+fn min_eigenvalue_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
-    let window = lags.length();
+    let window_lags = lags.length();
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
-    let half = 0.5 * omega;
-    let steps: Vec<f64> =
-        (0..window).map(|d| ((d as f64 + 0.5) * omega).sin() / half.sin()).collect();
-    let square = 2.0 * half.sin() * half.sin();
-    let tails = tail.at_frequency(window as f64, omega);
-    let mut sums = Vec::with_capacity(classes.count());
+    let half_angle = 0.5 * omega;
+    let lag_factors: Vec<f64> = (0..window_lags)
+        .map(|d| ((d as f64 + 0.5) * omega).sin() / half_angle.sin())
+        .collect();
+    let one_minus_cosine = 2.0 * half_angle.sin() * half_angle.sin();
+    let tail_sums = tail.at_frequency(window_lags as f64, omega);
+    let mut window_sums = Vec::with_capacity(classes.count());
     for class in 0..classes.count() {
-        sums.push(lags.kinds.each_ref().map(|kind| {
-            kind[class].iter().zip(&steps).map(|(weight, factor)| weight * factor).sum::<f64>()
+        window_sums.push(lags.kinds.each_ref().map(|kind| {
+            kind[class]
+                .iter()
+                .zip(&lag_factors)
+                .map(|(weight, factor)| weight * factor)
+                .sum::<f64>()
         }));
     }
     classes.smallest_eigenvalue(
         |class, component| lags.kinds[component][class][0],
         |[receiver, source], pair| {
-            let mut values: [f64; STRIP_KINDS] = sums[pair.class];
-            for (value, tail_sums) in values.iter_mut().zip(&tails) {
-                *value += tail.of_pair(tail_sums, receiver, source) / square;
+            let mut values: [f64; STRIP_KINDS] = window_sums[pair.class];
+            for (value, sums) in values.iter_mut().zip(&tail_sums) {
+                *value += tail.pair_integral(sums, receiver, source) / one_minus_cosine;
             }
             values
         },
@@ -120,8 +125,9 @@ mod tests {
         let kernel = patch();
         let window = 48;
         let lags = Lags::new(&kernel, window).unwrap();
-        let margins = [1.0, 3.0, -1.0]
-            .map(|factor| margin(&kernel, &lags, &tail(&kernel, window, factor), 1e6).smallest);
+        let margins = [1.0, 3.0, -1.0].map(|factor| {
+            margin(&kernel, &lags, &tail(&kernel, window, factor), 1e6).min_eigenvalue
+        });
         println!("{margins:?}");
         assert!(margins[0] > 1e-3);
         assert!(margins[1] < 0.0);

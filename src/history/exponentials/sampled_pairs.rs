@@ -17,21 +17,21 @@ const MAX_CHECKED_CLASSES: usize = 150;
 /// Largest errors of the sampled coefficients at one lag.
 #[derive(Default)]
 struct LagErrors {
-    /// m/Pa.
-    absolute: f64,
-    /// Change of an error from this lag to the next, m/Pa.
-    change: f64,
-    /// Relative to the largest coefficient of the same components.
-    relative: f64,
+    /// Largest error, m/Pa.
+    absolute_error: f64,
+    /// Largest change of an error from this lag to the next, m/Pa.
+    error_change: f64,
+    /// Largest error relative to the largest coefficient of the same components.
+    relative_error: f64,
     /// Largest coefficient, m/Pa.
-    coefficient: f64,
+    max_coefficient: f64,
 }
 
 /// Largest error and largest coefficient of the normal or of the tangential components, m/Pa.
 #[derive(Clone, Copy, Default)]
 struct ComponentErrors {
-    error: f64,
-    coefficient: f64,
+    max_error: f64,
+    max_coefficient: f64,
 }
 
 impl MeasuredErrors {
@@ -46,44 +46,46 @@ impl MeasuredErrors {
         let mut lag = window + 1;
         let mut errors = pairs.errors_at(kernel, tail, lag, window)?;
         let mut measured = Self {
-            largest_relative: errors.relative,
-            increment_sum: errors.absolute,
-            last_coefficient: errors.coefficient,
+            largest_relative: errors.relative_error,
+            increment_sum: errors.absolute_error,
+            last_coefficient: errors.max_coefficient,
         };
         while lag < horizon {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a lag")]
-            let next = (lag as f64 * (1.0 / CHECKED_LAGS_PER_OCTAVE).exp2()).ceil() as usize;
-            let next = next.clamp(lag + 1, horizon.max(lag + 1));
-            let next_errors = pairs.errors_at(kernel, tail, next, window)?;
-            measured.increment_sum += errors.change.max(next_errors.change) * (next - lag) as f64;
-            measured.largest_relative = measured.largest_relative.max(next_errors.relative);
-            measured.last_coefficient = next_errors.coefficient;
-            lag = next;
+            let proposed_lag =
+                (lag as f64 * (1.0 / CHECKED_LAGS_PER_OCTAVE).exp2()).ceil() as usize;
+            let next_lag = proposed_lag.clamp(lag + 1, horizon.max(lag + 1));
+            let next_errors = pairs.errors_at(kernel, tail, next_lag, window)?;
+            measured.increment_sum +=
+                errors.error_change.max(next_errors.error_change) * (next_lag - lag) as f64;
+            measured.largest_relative = measured.largest_relative.max(next_errors.relative_error);
+            measured.last_coefficient = next_errors.max_coefficient;
+            lag = next_lag;
             errors = next_errors;
         }
         Ok(measured)
     }
 }
 
-/// Places in the list of pairs at which errors are measured, at most one for each class.
+/// Indices of the pairs whose errors are measured, at most one for each class.
 struct SampledPairs {
-    places: Vec<usize>,
+    pair_indices: Vec<usize>,
 }
 
 impl SampledPairs {
     fn new(kernel: &dyn ConvolutionWeights) -> Self {
         let mut first_pair = vec![None; kernel.classes().count()];
-        for (place, pair) in kernel.classes().pairs().iter().enumerate() {
-            first_pair[pair.class].get_or_insert(place);
+        for (pair_index, pair) in kernel.classes().pairs().iter().enumerate() {
+            first_pair[pair.class].get_or_insert(pair_index);
         }
-        let stride = kernel.classes().count().div_ceil(MAX_CHECKED_CLASSES);
-        let mut places = vec![];
-        for (k, place) in first_pair.iter().flatten().enumerate() {
-            if k % stride == 0 || k + 1 == first_pair.len() {
-                places.push(*place);
+        let class_stride = kernel.classes().count().div_ceil(MAX_CHECKED_CLASSES);
+        let mut pair_indices = vec![];
+        for (k, pair_index) in first_pair.iter().flatten().enumerate() {
+            if k % class_stride == 0 || k + 1 == first_pair.len() {
+                pair_indices.push(*pair_index);
             }
         }
-        Self { places }
+        Self { pair_indices }
     }
 
     /// Errors of the exponentials at a lag beyond the window.
@@ -98,28 +100,29 @@ impl SampledPairs {
         let age = (lag - window - 1) as f64;
         let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
         let mut errors = LagErrors::default();
-        // Of the normal and of the tangential components.
+        // Errors of the normal and of the tangential components.
         let mut components = [ComponentErrors::default(); 2];
-        for &place in &self.places {
-            let pair = kernel.classes().pairs()[place];
-            let receiver = place / count;
-            let source = place % count;
-            let mut exact = [[0.0; 2]; STRIP_KINDS];
-            let mut slices = exact.each_mut().map(<[f64; 2]>::as_mut_slice);
+        for &pair_index in &self.pair_indices {
+            let pair = kernel.classes().pairs()[pair_index];
+            let receiver = pair_index / count;
+            let source = pair_index % count;
+            let mut exact_values = [[0.0; 2]; STRIP_KINDS];
+            let mut slices = exact_values.each_mut().map(<[f64; 2]>::as_mut_slice);
             kernel.coefficients(pair.class, lag, &mut slices)?;
-            for (part, (exact, found)) in exact.iter().zip(&mut components).enumerate() {
+            for (kind, (exact, component)) in exact_values.iter().zip(&mut components).enumerate() {
                 let error = [0, 1].map(|k| {
-                    pair.scale * (tail.of_pair(&fits[k][part], receiver, source) - exact[k])
+                    pair.scale * (tail.pair_integral(&fits[k][kind], receiver, source) - exact[k])
                 });
-                found.error = found.error.max(error[0].abs());
-                found.coefficient = found.coefficient.max((pair.scale * exact[0]).abs());
-                errors.change = errors.change.max((error[1] - error[0]).abs());
+                component.max_error = component.max_error.max(error[0].abs());
+                let coefficient = (pair.scale * exact[0]).abs();
+                component.max_coefficient = component.max_coefficient.max(coefficient);
+                errors.error_change = errors.error_change.max((error[1] - error[0]).abs());
             }
         }
-        for ComponentErrors { error, coefficient } in components {
-            errors.absolute = errors.absolute.max(error);
-            errors.coefficient = errors.coefficient.max(coefficient);
-            errors.relative = errors.relative.max(error / coefficient);
+        for ComponentErrors { max_error, max_coefficient } in components {
+            errors.absolute_error = errors.absolute_error.max(max_error);
+            errors.max_coefficient = errors.max_coefficient.max(max_coefficient);
+            errors.relative_error = errors.relative_error.max(max_error / max_coefficient);
         }
         Ok(errors)
     }

@@ -25,9 +25,9 @@ pub(crate) struct MeasuredErrors {
 pub(super) struct Tail {
     /// Lengths of the elements, m.
     lengths: Vec<f64>,
-    data: ExponentialSum,
+    exponentials: ExponentialSum,
     /// e^(−rate), pole by pole.
-    decay: Vec<f64>,
+    decay_factors: Vec<f64>,
     /// States of normal and tangential components, for each function and its poles.
     ///
     /// A state is Σ decay^age · moment.
@@ -38,31 +38,31 @@ pub(super) struct Tail {
 
 impl Tail {
     /// Makes a tail without inputs.
-    pub(super) fn new(data: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
-        for means in &data.functions {
+    pub(super) fn new(exponentials: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
+        for means in &exponentials.functions {
             same_length("means of a function", means.len(), elements.len())?;
         }
-        let functions = data.functions.len();
-        let mut poles = vec![0; functions];
-        for product in &data.products {
+        let function_count = exponentials.functions.len();
+        let mut pole_counts = vec![0; function_count];
+        for product in &exponentials.products {
             for function in product.functions {
-                poles[function] = poles[function].max(product.normal.len());
+                pole_counts[function] = pole_counts[function].max(product.normal.len());
             }
         }
         Ok(Self {
             lengths: elements.iter().map(ContactElement::length).collect(),
-            decay: data.rates.iter().map(|rate| (-rate).exp()).collect(),
+            decay_factors: exponentials.rates.iter().map(|rate| (-rate).exp()).collect(),
             states: [(); COMPONENTS_IN_PLANE]
-                .map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
-            moments: vec![0.0; functions],
-            amplitudes: vec![0.0; functions],
-            data,
+                .map(|()| pole_counts.iter().map(|&pole_count| vec![0.0; pole_count]).collect()),
+            moments: vec![0.0; function_count],
+            amplitudes: vec![0.0; function_count],
+            exponentials,
         })
     }
 
     /// Number of poles.
     pub(super) fn poles(&self) -> usize {
-        self.decay.len()
+        self.decay_factors.len()
     }
 
     /// Number of functions over the patch.
@@ -77,7 +77,7 @@ impl Tail {
 
     /// Bytes of memory used.
     pub(super) fn memory(&self) -> usize {
-        let products: usize = self.data.products.iter().map(|p| 2 * p.normal.len()).sum();
+        let products: usize = self.exponentials.products.iter().map(|p| 2 * p.normal.len()).sum();
         let functions = self.functions() * self.lengths.len();
         (products + self.state_length() + functions + 2 * self.poles()) * size_of::<f64>()
     }
@@ -94,32 +94,45 @@ impl Tail {
         }
     }
 
-    /// Advances by a step: the state decays, and `leaving` (2Q), which leaves the window, is added.
-    pub(super) fn advance(&mut self, leaving: Option<&[f64]>) {
+    /// Advances by a step: the state decays, and a traction is added.
+    ///
+    /// `leaving_traction` (2Q) is the one that leaves the window in this step.
+    pub(super) fn advance(&mut self, leaving_traction: Option<&[f64]>) {
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len());
-        for (part, states) in self.states.iter_mut().enumerate() {
+        for (component, states) in self.states.iter_mut().enumerate() {
             self.moments.fill(0.0);
-            if let Some(traction) = leaving {
-                let traction = layout.split::<_, COMPONENTS_IN_PLANE>(traction)[part];
-                for (moment, means) in self.moments.iter_mut().zip(&self.data.functions) {
-                    for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(means)
+            if let Some(contact_vector) = leaving_traction {
+                let tractions = layout.split::<_, COMPONENTS_IN_PLANE>(contact_vector)[component];
+                for (moment, means) in self.moments.iter_mut().zip(&self.exponentials.functions) {
+                    for ((traction, length), mean) in tractions.iter().zip(&self.lengths).zip(means)
                     {
                         *moment += traction * length * mean;
                     }
                 }
             }
-            vectorized(AdvanceStates { states, decay: &self.decay, moments: &self.moments });
+            vectorized(AdvanceStates {
+                states,
+                decay: &self.decay_factors,
+                moments: &self.moments,
+            });
         }
     }
 
     /// Adds the displacement at the end of the next step.
-    pub(super) fn add(&mut self, displacement: &mut [f64]) {
-        let parts: [_; COMPONENTS_IN_PLANE] =
+    pub(super) fn add_displacement(&mut self, displacement: &mut [f64]) {
+        let component_slices: [_; COMPONENTS_IN_PLANE] =
             ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len()).split_mut(displacement);
-        for (part, (states, displacement)) in self.states.iter().zip(parts).enumerate() {
+        for (component, (states, displacement)) in
+            self.states.iter().zip(component_slices).enumerate()
+        {
             let amplitudes = self.amplitudes.as_mut_slice();
-            vectorized(TailAmplitudes { states, products: &self.data.products, part, amplitudes });
-            for (amplitude, means) in self.amplitudes.iter().zip(&self.data.functions) {
+            vectorized(TailAmplitudes {
+                states,
+                products: &self.exponentials.products,
+                component,
+                amplitudes,
+            });
+            for (amplitude, means) in self.amplitudes.iter().zip(&self.exponentials.functions) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
                     *displacement += amplitude * mean;
                 }
@@ -130,18 +143,19 @@ impl Tail {
     /// Σ weights · `factor` over the poles, for each pair of functions (functions × functions).
     ///
     /// First of the normal components, then of the tangential components.
-    fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
-        let functions = self.functions();
+    fn pole_sums(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
+        let function_count = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
-        let mut sums = [(); COMPONENTS_IN_PLANE].map(|()| vec![0.0; functions * functions]);
-        for product in &self.data.products {
+        let mut sums =
+            [(); COMPONENTS_IN_PLANE].map(|()| vec![0.0; function_count * function_count]);
+        for product in &self.exponentials.products {
             let [i, j] = product.functions;
-            for (part, sum) in sums.iter_mut().enumerate() {
-                let weights = weights(product, part);
+            for (component, sum) in sums.iter_mut().enumerate() {
+                let weights = weights(product, component);
                 let value = dot(weights, &factors[..weights.len()]);
-                sum[i * functions + j] += value;
+                sum[i * function_count + j] += value;
                 if i != j {
-                    sum[j * functions + i] += value;
+                    sum[j * function_count + i] += value;
                 }
             }
         }
@@ -150,44 +164,47 @@ impl Tail {
 
     /// The sums at the `age`-th lag of the tail, from 0.
     pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
-        self.sum(|pole| (-self.data.rates[pole] * age).exp())
+        self.pole_sums(|pole| (-self.exponentials.rates[pole] * age).exp())
     }
 
     /// The sums at a frequency.
     ///
     /// They are Re Σ (1−ζ) ζ^W z^n ζ^n over all ages n, with ζ = e^(iω) and the decay z.
     pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
-        let half = 0.5 * omega;
+        let half_angle = 0.5 * omega;
         let sine = omega.sin();
-        let square = 2.0 * half.sin() * half.sin();
+        let one_minus_cosine = 2.0 * half_angle.sin() * half_angle.sin();
         let rotation_re = (window * omega).cos();
         let rotation_im = (window * omega).sin();
-        self.sum(|pole| {
-            // (1−ζ)/(1−zζ), 1−ζ = square − i sine, 1−zζ = (1−z) + z(1−ζ).
-            let one_minus_z = -(-self.data.rates[pole]).exp_m1();
-            let z = self.decay[pole];
-            let denominator_re = one_minus_z + z * square;
-            let denominator_im = -z * sine;
+        self.pole_sums(|pole| {
+            // (1−ζ)/(1−zζ), 1−ζ = one_minus_cosine − i sine, 1−zζ = (1−z) + z(1−ζ), z = decay.
+            let one_minus_decay = -(-self.exponentials.rates[pole]).exp_m1();
+            let decay = self.decay_factors[pole];
+            let denominator_re = one_minus_decay + decay * one_minus_cosine;
+            let denominator_im = -decay * sine;
             let norm = denominator_re * denominator_re + denominator_im * denominator_im;
-            let quotient_re = (square * denominator_re - sine * denominator_im) / norm;
-            let quotient_im = (-sine * denominator_re - square * denominator_im) / norm;
+            let quotient_re = (one_minus_cosine * denominator_re - sine * denominator_im) / norm;
+            let quotient_im = (-sine * denominator_re - one_minus_cosine * denominator_im) / norm;
             quotient_re * rotation_re - quotient_im * rotation_im
         })
     }
 
     /// Integral over the receiver of a pair's coefficient, from the sums of [`Tail::at_age`] or [`Tail::at_frequency`].
-    pub(super) fn of_pair(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
+    pub(super) fn pair_integral(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
         let area = self.lengths[receiver] * self.lengths[source];
-        let functions = &self.data.functions;
-        let mean: f64 = functions
+        let functions = &self.exponentials.functions;
+        let mean_coefficient: f64 = functions
             .iter()
             .zip(sum.chunks_exact(functions.len().max(1)))
-            .map(|(means, row)| {
-                let terms = row.iter().zip(functions).map(|(weight, means)| weight * means[source]);
-                means[receiver] * terms.sum::<f64>()
+            .map(|(function_means, row)| {
+                let terms = row
+                    .iter()
+                    .zip(functions)
+                    .map(|(weight, function_means)| weight * function_means[source]);
+                function_means[receiver] * terms.sum::<f64>()
             })
             .sum();
-        area * mean
+        area * mean_coefficient
     }
 }
 
@@ -221,7 +238,7 @@ impl WithSimd for AdvanceStates<'_> {
 struct TailAmplitudes<'a> {
     states: &'a [Vec<f64>],
     products: &'a [TailProduct],
-    part: usize,
+    component: usize,
     amplitudes: &'a mut [f64],
 }
 
@@ -230,10 +247,10 @@ impl WithSimd for TailAmplitudes<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { states, products, part, amplitudes } = self;
+        let Self { states, products, component, amplitudes } = self;
         amplitudes.fill(0.0);
         for product in products {
-            let x = weights(product, part);
+            let x = weights(product, component);
             let [i, j] = product.functions;
             amplitudes[i] += Dot { weights: None, x, y: &states[j] }.with_simd(simd);
             if i != j {
@@ -244,6 +261,6 @@ impl WithSimd for TailAmplitudes<'_> {
 }
 
 /// Weights of the normal (0) or tangential (1) components.
-fn weights(product: &TailProduct, part: usize) -> &[f64] {
-    if part == 0 { &product.normal } else { &product.tangential }
+fn weights(product: &TailProduct, component: usize) -> &[f64] {
+    if component == 0 { &product.normal } else { &product.tangential }
 }

@@ -16,14 +16,14 @@ pub(crate) trait HistoryBlocks: Send {
     /// Number of real numbers stored.
     fn numbers(&self) -> usize;
 
-    /// Makes the blocks ready for at least `steps` steps; `watch` is notified in [`SPECTRA_PROGRESS_PARTS`].
+    /// Makes the blocks ready for at least `steps` steps; `reporter` is notified in [`SPECTRA_PROGRESS_PARTS`].
     ///
     /// Inputs and outputs are unchanged on an error.
     fn grow(
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()>;
 
     /// Makes the blocks ready for any number of steps, in memory that does not grow.
@@ -35,7 +35,7 @@ pub(crate) trait HistoryBlocks: Send {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         last_delay: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()>;
 
     /// Adds the effect of the last input, so that the output of `now` is complete.
@@ -60,4 +60,17 @@ pub(crate) trait HistoryBlocks: Send {
 
     /// Overwrites `displacement` with the output of step `now`.
     fn read(&mut self, now: usize, displacement: &mut [f64]);
+}
+
+/// Writes `inputs` from step `first` on into empty blocks, and adds their effects.
+///
+/// The effect of the last input is still to be added.
+pub(super) fn replay_inputs(blocks: &mut dyn HistoryBlocks, first: usize, inputs: &[f64]) {
+    for (input_index, input) in inputs.chunks_exact(blocks.width()).enumerate() {
+        let now = first + input_index;
+        if input_index > 0 {
+            blocks.add_effects(now);
+        }
+        blocks.write_input(now, input);
+    }
 }

@@ -1,4 +1,4 @@
-//! Coefficients of short lags.
+//! Direct sums over short lags, for all pairs of elements.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
@@ -15,7 +15,7 @@ use crate::linalg::{Simd, WithSimd, add_row, add_rows};
 /// Pairs of a patch, with their coefficients of short lags.
 pub(super) struct Coefficients {
     pub(super) classes: PairClasses,
-    /// Last d at which the coupling of each class is not zero; the largest number if it never ends.
+    /// Last d at which the coupling of each class is not zero; `usize::MAX` if it never ends.
     reaches: Vec<usize>,
     /// Largest reach of all classes.
     pub(super) coupling_reach: usize,
@@ -28,7 +28,9 @@ pub(super) struct Coefficients {
 }
 
 impl Coefficients {
-    /// Coefficients of `kernel`; a coupling that ends at `max_direct` or before is summed directly.
+    /// Coefficients of `kernel`, without tables.
+    ///
+    /// A coupling that ends at d = `max_direct` or before is summed directly.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
         let mut reaches = Vec::with_capacity(classes.count());
@@ -58,9 +60,9 @@ impl Coefficients {
     }
 }
 
-/// Adds the effect of input `now` to the outputs after it.
+/// Adds the effect of the input in column `now` to the outputs after it.
 ///
-/// The diagonal components act on the other `ahead` outputs of the leaf, the coupling on `coupled` outputs.
+/// The diagonal components act on the remaining `ahead` outputs of the leaf, the coupling on `coupled` outputs.
 pub(super) struct Scatter<'a> {
     pub(super) coefficients: &'a Coefficients,
     pub(super) rows: &'a mut [f64],
@@ -75,15 +77,14 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self {
-            coefficients: Coefficients { classes, short_lags, .. }, rows, stride, now, ..
-        } = self;
-        let ahead = self.ahead;
-        let count = classes.elements().len();
-        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+        let Self { coefficients, rows, stride, now, ahead, coupled } = self;
+        let Coefficients { classes, short_lags, .. } = coefficients;
+        let element_count = classes.elements().len();
+        let [normal, tangential, couplings, second_couplings] = &**short_lags;
+        let has_two_couplings = classes.has_two_couplings();
+        for (p, pairs) in classes.pairs().chunks_exact(element_count).enumerate() {
             let scale = pairs[p].scale;
-            for (component, table) in short_lags.iter().enumerate().take(COMPONENTS_IN_PLANE) {
-                let first_row = component * count;
+            for (first_row, table) in [(0, normal), (element_count, tangential)] {
                 let row = first_row + p;
                 let mut q = 0;
                 let mut groups = pairs.chunks_exact(4);
@@ -103,19 +104,30 @@ impl WithSimd for Scatter<'_> {
                     q += 1;
                 }
             }
-            for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
-                let places = [(p, count + q), (count + p, q)];
-                for ((kind, sign), (row, source)) in
-                    classes.coupling(p * count + q).into_iter().zip(places)
-                {
-                    let coupling = &short_lags[kind][class];
-                    let reach = self.coupled.min(coupling.len() - 1);
-                    if sign == 0.0 || reach == 0 {
-                        continue;
+            for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                let coupling = &couplings[class];
+                let reach = coupled.min(coupling.len() - 1);
+                if sign == 0.0 || reach == 0 {
+                    continue;
+                }
+                // Of the normal displacement due to shear, and of the tangential displacement due to pressure.
+                let mut shear_lags = &coupling[1..=reach];
+                let mut pressure_lags = shear_lags;
+                let mut pressure_sign = -sign;
+                if has_two_couplings {
+                    pressure_lags = &second_couplings[class][1..=reach];
+                    pressure_sign = sign;
+                    if classes.is_exchanged(p * element_count + q) {
+                        std::mem::swap(&mut shear_lags, &mut pressure_lags);
                     }
+                }
+                for (row, source, sign, lags) in [
+                    (p, element_count + q, sign, shear_lags),
+                    (element_count + p, q, pressure_sign, pressure_lags),
+                ] {
                     let value = sign * scale * rows[source * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..reach];
-                    add_row(simd, value, &coupling[1..=reach], output);
+                    add_row(simd, value, lags, output);
                 }
             }
         }

@@ -23,7 +23,7 @@ use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::{PairClasses, STRIP_KINDS};
+use crate::history::pair_classes::{COUPLING_KIND, PairClasses, STRIP_KINDS};
 use crate::linalg::next_smooth_even;
 
 /// Smallest number of elements for which the transform along the surface is used.
@@ -42,6 +42,9 @@ pub(super) fn uses_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
 /// Largest number of lattice cells per element: gaps between strips are transformed too.
 const MAX_CELLS_PER_ELEMENT: usize = 2;
 
+/// Relative difference of two element lengths that counts as rounding.
+const SCALE_TOLERANCE: f64 = 1e-9;
+
 /// Cells of the elements, and the transforms along the surface.
 pub(super) struct ElementGrid {
     /// Cell of each element; cells are numbered row by row, S along x.
@@ -54,7 +57,7 @@ pub(super) struct ElementGrid {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     /// Transforms along y.
-    across: [Arc<dyn Fft<f64>>; 2],
+    y_transforms: [Arc<dyn Fft<f64>>; 2],
     /// Rows of cells.
     real: Vec<f64>,
     /// Spectrum of one row.
@@ -72,7 +75,7 @@ enum Offsets {
 }
 
 impl ElementGrid {
-    /// The lattice of the elements.
+    /// Makes the grid of the elements.
     ///
     /// `None` if they are not on a lattice, or most of its cells are empty.
     pub(super) fn from_pairs(pairs: &PairClasses) -> Option<Self> {
@@ -87,11 +90,11 @@ impl ElementGrid {
             return None;
         }
         let elements = pairs.elements();
-        let first = elements.first()?;
-        let last = elements.last()?;
-        let pitch = first.length();
+        let first_element = elements.first()?;
+        let last_element = elements.last()?;
+        let pitch = first_element.length();
         let max_cells = MAX_CELLS_PER_ELEMENT * elements.len();
-        if (last.right() - first.left()) / pitch >= max_cells as f64 + 0.5 {
+        if (last_element.right() - first_element.left()) / pitch >= max_cells as f64 + 0.5 {
             return None;
         }
         #[allow(
@@ -101,13 +104,13 @@ impl ElementGrid {
         )]
         let cells: Vec<_> = elements
             .iter()
-            .map(|element| ((element.left() - first.left()) / pitch).round() as usize)
+            .map(|element| ((element.left() - first_element.left()) / pitch).round() as usize)
             .collect();
         let mut classes = vec![None; cells.last()? + 1];
         // Pairs of one class are equal except for rounding: all pairs of one offset must be in one class.
         let mut scales = pairs.pairs().iter().map(|pair| pair.scale);
         let scale = scales.next()?;
-        if scales.any(|other| (other - scale).abs() > 1e-9 * scale) {
+        if scales.any(|pair_scale| (pair_scale - scale).abs() > SCALE_TOLERANCE * scale) {
             return None;
         }
         for (p, sources) in pairs.pairs().chunks_exact(cells.len()).enumerate() {
@@ -127,32 +130,33 @@ impl ElementGrid {
         offsets: Offsets,
         scale: f64,
         lengths: [usize; 2],
-        rows: usize,
+        row_count: usize,
     ) -> Self {
         let mut planner = RealPlanner::new();
-        let length = lengths[0];
-        let forward = planner.plan_fft_forward(length);
-        let inverse = planner.plan_fft_inverse(length);
+        let x_length = lengths[0];
+        let forward = planner.plan_fft_forward(x_length);
+        let inverse = planner.plan_fft_inverse(x_length);
         let mut planner = ComplexPlanner::new();
-        let across = [planner.plan_fft_forward(lengths[1]), planner.plan_fft_inverse(lengths[1])];
-        let scratch_along = forward.get_scratch_len().max(inverse.get_scratch_len());
-        let scratch = across
+        let y_transforms =
+            [planner.plan_fft_forward(lengths[1]), planner.plan_fft_inverse(lengths[1])];
+        let x_scratch_length = forward.get_scratch_len().max(inverse.get_scratch_len());
+        let scratch_length = y_transforms
             .iter()
             .map(|plan| plan.get_inplace_scratch_len())
-            .fold(scratch_along, usize::max);
-        let columns = length / 2 + 1;
+            .fold(x_scratch_length, usize::max);
+        let column_count = x_length / 2 + 1;
         Self {
             cells,
             offsets,
             scale,
             lengths,
-            real: vec![0.0; rows * length],
-            spectrum: vec![Complex::default(); columns],
-            spectra: vec![Complex::default(); columns * lengths[1]],
-            scratch: vec![Complex::default(); scratch],
+            real: vec![0.0; row_count * x_length],
+            spectrum: vec![Complex::default(); column_count],
+            spectra: vec![Complex::default(); column_count * lengths[1]],
+            scratch: vec![Complex::default(); scratch_length],
             forward,
             inverse,
-            across,
+            y_transforms,
         }
     }
 
@@ -187,14 +191,14 @@ impl ElementGrid {
         self.real.len() + 2 * (self.spectrum.len() + self.spectra.len() + self.scratch.len())
     }
 
-    /// Last lag at which any coupling is not zero; the largest number if it never ends.
+    /// Last lag at which any coupling is not zero; `usize::MAX` if it never ends.
     pub(super) fn last_coupling_lag(&self, kernel: &dyn ConvolutionWeights) -> Result<usize> {
         let Offsets::Strip(classes) = &self.offsets else { return Ok(usize::MAX) };
-        let mut last = 0;
+        let mut last_lag = 0;
         for class in classes.iter().flatten() {
-            last = last.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
+            last_lag = last_lag.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
         }
-        Ok(last)
+        Ok(last_lag)
     }
 
     /// 𝓕 of row `row`.
@@ -207,7 +211,7 @@ impl ElementGrid {
         debug_assert!(done.is_ok());
     }
 
-    /// Transforms one value per element (missing ones count as zero) to real and imaginary parts.
+    /// Transforms one value per element to real and imaginary parts; missing values are zero.
     pub(super) fn forward(
         &mut self,
         component: usize,
@@ -220,23 +224,23 @@ impl ElementGrid {
             self.real[cell] = value;
         }
         let length = self.lengths[0];
-        let across = self.lengths[1];
-        let columns = self.spectrum.len();
-        if across > 1 {
+        let y_length = self.lengths[1];
+        let column_count = self.spectrum.len();
+        if y_length > 1 {
             self.spectra.fill(Complex::default());
             for row in 0..self.real.len() / length {
                 self.transform(row);
                 for (column, value) in self.spectrum.iter().enumerate() {
-                    self.spectra[column * across + row] = *value;
+                    self.spectra[column * y_length + row] = *value;
                 }
             }
-            self.across[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
-            let rows = re.chunks_exact_mut(columns).zip(im.chunks_exact_mut(columns));
+            self.y_transforms[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
+            let rows = re.chunks_exact_mut(column_count).zip(im.chunks_exact_mut(column_count));
             for (row, (re, im)) in rows.enumerate() {
-                let place = spectrum_row(row, across);
-                let sign = image_sign(row, across, component);
+                let spectrum_index = spectrum_row(row, y_length);
+                let sign = image_sign(row, y_length, component);
                 for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
-                    let value = self.spectra[column * across + place];
+                    let value = self.spectra[column * y_length + spectrum_index];
                     *re = sign * value.re;
                     *im = sign * value.im;
                 }
@@ -253,19 +257,20 @@ impl ElementGrid {
     /// Transforms real and imaginary parts back to one mean per element.
     pub(super) fn inverse(&mut self, component: usize, re: &[f64], im: &[f64], values: &mut [f64]) {
         let length = self.lengths[0];
-        let across = self.lengths[1];
-        let columns = self.spectrum.len();
-        if across > 1 {
+        let y_length = self.lengths[1];
+        let column_count = self.spectrum.len();
+        if y_length > 1 {
             for (row, (re, im)) in
-                re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
+                re.chunks_exact(column_count).zip(im.chunks_exact(column_count)).enumerate()
             {
-                let place = spectrum_row(row, across);
-                let sign = image_sign(row, across, component);
+                let spectrum_index = spectrum_row(row, y_length);
+                let sign = image_sign(row, y_length, component);
                 for (column, (re, im)) in re.iter().zip(im).enumerate() {
-                    self.spectra[column * across + place] = Complex::new(sign * re, sign * im);
+                    self.spectra[column * y_length + spectrum_index] =
+                        Complex::new(sign * re, sign * im);
                 }
             }
-            self.across[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
+            self.y_transforms[1].process_with_scratch(&mut self.spectra, &mut self.scratch);
         } else {
             for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
                 *value = Complex::new(*re, *im);
@@ -274,8 +279,8 @@ impl ElementGrid {
         let Self { inverse, real, spectrum, spectra, scratch, .. } = self;
         let scratch = &mut scratch[..inverse.get_scratch_len()];
         for (row, real) in real.chunks_exact_mut(length).enumerate() {
-            if across > 1 {
-                for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(across)) {
+            if y_length > 1 {
+                for (value, column) in spectrum.iter_mut().zip(spectra.chunks_exact(y_length)) {
                     *value = column[row];
                 }
             }
@@ -284,52 +289,52 @@ impl ElementGrid {
             let done = inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
         }
-        let scale = self.scale / (length * across) as f64;
+        let scale = self.scale / (length * y_length) as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];
         }
     }
 
-    /// Calls `accept` with ĝ of lag d + 1 for d = 0 … `count` − 1, zero for d = 0.
+    /// Calls `accept` with ĝ of lag d + 1 for d = 0 … `lag_count` − 1, zero for d = 0.
     ///
-    /// Its arguments are the kind, d, and one slice over the wavenumbers. The coupling of strips is left out from d =
-    /// `coupled` on.
+    /// Its arguments are the kind, d, and one slice over the wavenumbers. The coupling of strips is omitted from
+    /// d = `coupled_lags` on.
     pub(super) fn coefficients(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        count: usize,
-        coupled: usize,
+        lag_count: usize,
+        coupled_lags: usize,
         mut accept: impl FnMut(usize, usize, &[f64]) -> Result<()>,
     ) -> Result<()> {
         if let Offsets::Plan(lattice) = &self.offsets {
-            return coefficients_in_plan(lattice, self.lengths, kernel, count, accept);
+            return coefficients_in_plan(lattice, self.lengths, kernel, lag_count, accept);
         }
         let Offsets::Strip(classes) = &self.offsets else { return Ok(()) };
         let classes = classes.clone();
-        let offsets = classes.len();
+        let offset_count = classes.len();
         let length = self.lengths[0];
-        let mut table: [_; STRIP_KINDS] =
-            std::array::from_fn(|_| vec![0.0; LAGS_PER_CHUNK.min(count) * offsets]);
+        let mut tables: [_; STRIP_KINDS] =
+            std::array::from_fn(|_| vec![0.0; LAGS_PER_CHUNK.min(lag_count) * offset_count]);
         let mut values = vec![0.0; self.waves().count];
-        for begin in (0..count).step_by(LAGS_PER_CHUNK) {
-            let width = LAGS_PER_CHUNK.min(count - begin);
+        for chunk_start in (0..lag_count).step_by(LAGS_PER_CHUNK) {
+            let chunk_lags = LAGS_PER_CHUNK.min(lag_count - chunk_start);
             // The first weight is the step compliance, which does not belong to the history.
-            let skip = usize::from(begin == 0);
+            let skipped_lags = usize::from(chunk_start == 0);
             for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
-                let range = offset * width + skip..(offset + 1) * width;
-                let mut slices = table.each_mut().map(|values| &mut values[range.clone()]);
-                kernel.coefficients(*class, begin + skip + 1, &mut slices)?;
+                let range = offset * chunk_lags + skipped_lags..(offset + 1) * chunk_lags;
+                let mut slices = tables.each_mut().map(|values| &mut values[range.clone()]);
+                kernel.coefficients(*class, chunk_start + skipped_lags + 1, &mut slices)?;
             }
-            for d in begin + skip..begin + width {
-                for (kind, table) in table.iter().enumerate() {
-                    let is_odd = kind == 2;
-                    if is_odd && d >= coupled {
+            for d in chunk_start + skipped_lags..chunk_start + chunk_lags {
+                for (kind, table) in tables.iter().enumerate() {
+                    let is_odd = kind == COUPLING_KIND;
+                    if is_odd && d >= coupled_lags {
                         continue;
                     }
                     self.real.fill(0.0);
-                    for offset in 0..offsets {
-                        let value = table[offset * width + d - begin];
+                    for offset in 0..offset_count {
+                        let value = table[offset * chunk_lags + d - chunk_start];
                         self.real[offset] = if is_odd && offset == 0 { 0.0 } else { value };
                         if offset > 0 {
                             self.real[length - offset] = if is_odd { -value } else { value };
@@ -347,15 +352,15 @@ impl ElementGrid {
     }
 }
 
-/// Place of a row of wavenumbers among the S along y.
+/// Index of a row of wavenumbers among the S along y.
 ///
 /// The rows with spectra come first, then their images (kx, −ky), beginning with the first row that has an image.
-fn spectrum_row(row: usize, across: usize) -> usize {
-    let rows_with_spectra = across / 2 + 1;
-    if row < rows_with_spectra { row } else { across - (row - rows_with_spectra + 1) }
+fn spectrum_row(row: usize, y_length: usize) -> usize {
+    let rows_with_spectra = y_length / 2 + 1;
+    if row < rows_with_spectra { row } else { y_length - (row - rows_with_spectra + 1) }
 }
 
 /// Sign of a component in a row of wavenumbers: −1 for the component along y in an image.
-fn image_sign(row: usize, across: usize, component: usize) -> f64 {
-    if row > across / 2 && component == COMPONENTS_IN_SPACE - 1 { -1.0 } else { 1.0 }
+fn image_sign(row: usize, y_length: usize, component: usize) -> f64 {
+    if row > y_length / 2 && component == COMPONENTS_IN_SPACE - 1 { -1.0 } else { 1.0 }
 }

@@ -22,14 +22,14 @@ impl WithSimd for StripLeaf<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { sum, inputs, coefficients, waves, reach } = self;
-        let place = inputs.len() / sum.len();
+        let leaf_step = inputs.len() / sum.len();
         for (m, input) in inputs.chunks_exact(sum.len()).enumerate() {
-            let d = place - m;
-            let at_delay = coefficients.map(|values| &values[d * waves..(d + 1) * waves]);
+            let d = leaf_step - m;
+            let delay_coefficients = coefficients.map(|values| &values[d * waves..(d + 1) * waves]);
             if d <= reach {
-                add_coupled(sum, input, at_delay);
+                add_coupled(sum, input, delay_coefficients);
             } else {
-                add(sum, input, [at_delay[0], at_delay[1]]);
+                add_diagonal(sum, input, [delay_coefficients[0], delay_coefficients[1]]);
             }
         }
     }
@@ -37,11 +37,11 @@ impl WithSimd for StripLeaf<'_> {
 
 /// sum ← sum + ĝ · input.
 #[inline(always)]
-fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
+fn add_diagonal(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
     let waves = coefficients[0].len();
     let parts = sum.chunks_exact_mut(waves).zip(input.chunks_exact(waves));
-    for (number, (sum, input)) in parts.enumerate() {
-        for ((sum, input), g) in sum.iter_mut().zip(input).zip(coefficients[number / 2]) {
+    for (part_index, (sum, input)) in parts.enumerate() {
+        for ((sum, input), g) in sum.iter_mut().zip(input).zip(coefficients[part_index / 2]) {
             *sum += g * input;
         }
     }
@@ -54,10 +54,10 @@ fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
 fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     let waves = coefficients[0].len();
     let [normal, tangential, coupling] = coefficients.map(|values| &values[..waves]);
-    let (down, along) = sum.split_at_mut(2 * waves);
-    let (down_re, down_im) = down.split_at_mut(waves);
-    let (along_re, along_im) = along.split_at_mut(waves);
-    let along_im = &mut along_im[..waves];
+    let (normal_sum, tangential_sum) = sum.split_at_mut(2 * waves);
+    let (normal_re, normal_im) = normal_sum.split_at_mut(waves);
+    let (tangential_re, tangential_im) = tangential_sum.split_at_mut(waves);
+    let tangential_im = &mut tangential_im[..waves];
     let p_re = &input[..waves];
     let p_im = &input[waves..][..waves];
     let s_re = &input[2 * waves..][..waves];
@@ -66,10 +66,10 @@ fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
         let g = normal[k];
         let h = tangential[k];
         let c = coupling[k];
-        down_re[k] += g * p_re[k] - c * s_im[k];
-        down_im[k] += g * p_im[k] + c * s_re[k];
-        along_re[k] += h * s_re[k] + c * p_im[k];
-        along_im[k] += h * s_im[k] - c * p_re[k];
+        normal_re[k] += g * p_re[k] - c * s_im[k];
+        normal_im[k] += g * p_im[k] + c * s_re[k];
+        tangential_re[k] += h * s_re[k] + c * p_im[k];
+        tangential_im[k] += h * s_im[k] - c * p_re[k];
     }
 }
 
@@ -91,23 +91,23 @@ impl WithSimd for PlanLeaf<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) {
-        let place = self.inputs.len() / self.sum.len();
-        let whole = place - place % INPUTS_PER_PASS;
-        for m in (0..whole).step_by(INPUTS_PER_PASS) {
-            self.add::<S, INPUTS_PER_PASS>(simd, place, m);
+        let leaf_step = self.inputs.len() / self.sum.len();
+        let whole_passes_end = leaf_step - leaf_step % INPUTS_PER_PASS;
+        for m in (0..whole_passes_end).step_by(INPUTS_PER_PASS) {
+            self.add_inputs::<S, INPUTS_PER_PASS>(simd, leaf_step, m);
         }
-        for m in whole..place {
-            self.add::<S, 1>(simd, place, m);
+        for m in whole_passes_end..leaf_step {
+            self.add_inputs::<S, 1>(simd, leaf_step, m);
         }
     }
 }
 
 impl PlanLeaf<'_> {
-    /// Adds the products of M inputs from the `m`-th on to the output at `place`.
+    /// Adds the products of M inputs from the `m`-th on to the output at `leaf_step`.
     #[inline(always)]
-    fn add<S: Simd, const M: usize>(&mut self, simd: S, place: usize, m: usize) {
+    fn add_inputs<S: Simd, const M: usize>(&mut self, simd: S, leaf_step: usize, m: usize) {
         let Self { sum, inputs, coefficients, waves } = self;
-        let size = sum.len();
+        let input_width = sum.len();
         for (range, first_spectrum) in waves.ranges() {
             let length = range.len();
             let mut parts = sum.chunks_exact_mut(waves.count);
@@ -116,13 +116,13 @@ impl PlanLeaf<'_> {
             });
             let inputs: [[_; COMPLEX_PARTS]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|part| {
-                    let begin = (m + n) * size + part * waves.count + range.start;
+                    let begin = (m + n) * input_width + part * waves.count + range.start;
                     SimdSlice::<S>::new(&inputs[begin..begin + length])
                 })
             });
             let coefficients: [[_; SERIES_PER_OFFSET]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|kind| {
-                    let begin = (place - m - n) * waves.with_spectra + first_spectrum;
+                    let begin = (leaf_step - m - n) * waves.with_spectra + first_spectrum;
                     SimdSlice::<S>::new(&coefficients[kind][begin..begin + length])
                 })
             });
@@ -140,7 +140,7 @@ impl PlanLeaf<'_> {
                     for kind in 0..SERIES_PER_OFFSET {
                         g[kind] = coefficients[n][kind].vectors[k];
                     }
-                    total = times(simd, total, g, x);
+                    total = add_products(simd, total, g, x);
                 }
                 for part in 0..COMPLEX_PARTS {
                     sums[part].vectors[k] = total[part];
@@ -151,7 +151,7 @@ impl PlanLeaf<'_> {
                     let total = std::array::from_fn(|part| sums[part].tail[k]);
                     let x = std::array::from_fn(|part| inputs[n][part].tail[k]);
                     let g = std::array::from_fn(|kind| coefficients[n][kind].tail[k]);
-                    let total = times(Scalar::new(), total, g, x);
+                    let total = add_products(Scalar::new(), total, g, x);
                     for part in 0..COMPLEX_PARTS {
                         sums[part].tail[k] = total[part];
                     }
@@ -163,15 +163,16 @@ impl PlanLeaf<'_> {
 
 /// total + ĝ x, for real and imaginary parts of each component.
 ///
-/// The coupling of pressure and shear is a real number times i, in the other direction times −i.
+/// The coupling of pressure and shear is a real number times i, in the other direction times −i. The components of x
+/// are real and imaginary parts of the pressure (p, q), of the shear along x (a, b) and of the shear along y (c, d).
 #[inline(always)]
-fn times<S: Simd>(
+fn add_products<S: Simd>(
     simd: S,
     total: [S::f64s; COMPLEX_PARTS],
     [zz, xx, yy, xy, zx, zy]: [S::f64s; SERIES_PER_OFFSET],
     [p, q, a, b, c, d]: [S::f64s; COMPLEX_PARTS],
 ) -> [S::f64s; COMPLEX_PARTS] {
-    let down = [
+    let normal = [
         simd.sub_f64s(
             simd.sub_f64s(simd.mul_f64s(zz, p), simd.mul_f64s(zx, b)),
             simd.mul_f64s(zy, d),
@@ -181,15 +182,15 @@ fn times<S: Simd>(
             simd.mul_f64s(zy, c),
         ),
     ];
-    let along = shear(simd, [xx, xy, zx], [p, q, a, b, c, d]);
-    let away = shear(simd, [xy, yy, zy], [p, q, a, b, c, d]);
+    let x_shear = shear_component(simd, [xx, xy, zx], [p, q, a, b, c, d]);
+    let y_shear = shear_component(simd, [xy, yy, zy], [p, q, a, b, c, d]);
     [
-        simd.add_f64s(total[0], down[0]),
-        simd.add_f64s(total[1], down[1]),
-        simd.add_f64s(total[2], along[0]),
-        simd.add_f64s(total[3], along[1]),
-        simd.add_f64s(total[4], away[0]),
-        simd.add_f64s(total[5], away[1]),
+        simd.add_f64s(total[0], normal[0]),
+        simd.add_f64s(total[1], normal[1]),
+        simd.add_f64s(total[2], x_shear[0]),
+        simd.add_f64s(total[3], x_shear[1]),
+        simd.add_f64s(total[4], y_shear[0]),
+        simd.add_f64s(total[5], y_shear[1]),
     ]
 }
 
@@ -197,7 +198,7 @@ fn times<S: Simd>(
 ///
 /// Coefficients: of both shears and of the pressure.
 #[inline(always)]
-fn shear<S: Simd>(
+fn shear_component<S: Simd>(
     simd: S,
     [first, second, coupling]: [S::f64s; COMPONENTS_IN_SPACE],
     [p, q, a, b, c, d]: [S::f64s; COMPLEX_PARTS],

@@ -1,4 +1,4 @@
-//! Blocks of one size: their transforms, and the spectra of their coefficients.
+//! Blocks of one size over pairs of elements, with the spectra of their coefficients.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ring::Ring;
 use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::pair_classes::{MAX_PLANE_KINDS, Pair, PairClasses};
+use crate::history::pair_classes::{COUPLING_KIND, MAX_PLANE_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
 use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
@@ -17,7 +17,7 @@ const FREQUENCIES_PER_TILE: usize = 64;
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
 pub(super) struct PairLevel {
     /// b.
-    pub(super) size: usize,
+    pub(super) block_size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     /// Spectra over 2b of each kind and class: real parts, then imaginary parts.
@@ -45,15 +45,15 @@ impl TransformScratch {
             + self.outputs.capacity()
     }
 
-    /// Enlarges the scratch for blocks of `level` with `components` transformed together.
-    pub(super) fn grow(&mut self, level: &PairLevel, components: usize) {
+    /// Enlarges the scratch for blocks of `level` with `row_count` rows transformed together.
+    pub(super) fn grow(&mut self, level: &PairLevel, row_count: usize) {
         let plan_scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
-        let tile = components * 2 * FREQUENCIES_PER_TILE;
-        extend_to(&mut self.real, 2 * level.size);
-        extend_to(&mut self.spectra, components * (level.size + 1));
+        let tile_length = row_count * 2 * FREQUENCIES_PER_TILE;
+        extend_to(&mut self.real, 2 * level.block_size);
+        extend_to(&mut self.spectra, row_count * (level.block_size + 1));
         extend_to(&mut self.scratch, plan_scratch);
-        extend_to(&mut self.inputs, tile);
-        extend_to(&mut self.outputs, tile);
+        extend_to(&mut self.inputs, tile_length);
+        extend_to(&mut self.outputs, tile_length);
     }
 }
 
@@ -65,9 +65,9 @@ fn extend_to<T: Copy + Default>(buffer: &mut Vec<T>, length: usize) {
 /// Components of tractions and displacements that a product includes.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Components {
-    /// Displacement down by pressure, and along by shear.
+    /// Displacement down due to pressure, and to the right due to shear.
     Even,
-    /// Displacement down by shear, and along by pressure.
+    /// Displacement down due to shear, and to the right due to pressure.
     Coupling,
     /// All components.
     All,
@@ -91,37 +91,41 @@ impl PairLevel {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 
-    /// Blocks of `size`, without spectra yet.
+    /// Blocks of `block_size`, without spectra yet.
     ///
-    /// Allocates for `classes` spectra of each of the first `kinds`.
+    /// Allocates for `class_count` spectra of each of the first `kind_count`.
     pub(super) fn new(
-        size: usize,
-        classes: usize,
-        kinds: usize,
+        block_size: usize,
+        class_count: usize,
+        kind_count: usize,
         planner: &mut RealPlanner,
     ) -> Self {
         Self {
-            size,
-            forward: planner.plan_fft_forward(2 * size),
-            inverse: planner.plan_fft_inverse(2 * size),
+            block_size,
+            forward: planner.plan_fft_forward(2 * block_size),
+            inverse: planner.plan_fft_inverse(2 * block_size),
             spectra: std::array::from_fn(|kind| {
-                Vec::with_capacity(if kind < kinds { classes * 2 * (size + 1) } else { 0 })
+                Vec::with_capacity(if kind < kind_count {
+                    class_count * 2 * (block_size + 1)
+                } else {
+                    0
+                })
             }),
         }
     }
 
-    /// Adds the spectra of the first `kinds` of the next class, from at least 2b coefficients.
+    /// Adds the spectra of the first `kind_count` of the next class, from at least 2b coefficients.
     pub(super) fn add_class(
         &mut self,
         values: &ClassCoefficients,
-        kinds: usize,
-        work: &mut TransformScratch,
+        kind_count: usize,
+        buffers: &mut TransformScratch,
     ) {
-        for (values, stored) in values.iter().zip(&mut self.spectra).take(kinds) {
-            let real = &mut work.real[..2 * self.size];
-            let spectrum = &mut work.spectra[..=self.size];
-            real.copy_from_slice(&values[..2 * self.size]);
-            transform(&*self.forward, real, spectrum, &mut work.scratch);
+        for (values, stored) in values.iter().zip(&mut self.spectra).take(kind_count) {
+            let real = &mut buffers.real[..2 * self.block_size];
+            let spectrum = &mut buffers.spectra[..=self.block_size];
+            real.copy_from_slice(&values[..2 * self.block_size]);
+            transform(&*self.forward, real, spectrum, &mut buffers.scratch);
             stored.extend(spectrum.iter().map(|c| c.re));
             stored.extend(spectrum.iter().map(|c| c.im));
         }
@@ -132,16 +136,22 @@ impl PairLevel {
         &self,
         block: &mut BlockRows<'_>,
         part: Components,
-        work: &mut TransformScratch,
+        buffers: &mut TransformScratch,
     ) {
-        let count = block.classes.elements().len();
+        let element_count = block.classes.elements().len();
         if part == Components::Even {
             // One component after the other needs half the scratch.
             for kind in 0..COMPONENTS_IN_PLANE {
-                self.apply_to(block, part, kind, kind * count..(kind + 1) * count, work);
+                self.apply_to(
+                    block,
+                    part,
+                    kind,
+                    kind * element_count..(kind + 1) * element_count,
+                    buffers,
+                );
             }
         } else {
-            self.apply_to(block, part, 0, 0..COMPONENTS_IN_PLANE * count, work);
+            self.apply_to(block, part, 0, 0..COMPONENTS_IN_PLANE * element_count, buffers);
         }
     }
 
@@ -152,36 +162,36 @@ impl PairLevel {
         part: Components,
         kind: usize,
         row_range: Range<usize>,
-        work: &mut TransformScratch,
+        buffers: &mut TransformScratch,
     ) {
-        let count = block.classes.elements().len();
-        let first = row_range.start;
-        let components = row_range.len();
-        let size = self.size;
-        let frequencies = size + 1;
-        for component in 0..components {
-            let row = &block.rows[(first + component) * block.stride..][..block.stride];
-            let real = &mut work.real[..2 * size];
-            real[..size].copy_from_slice(&row[block.ring.before(block.now, size)]);
-            real[size..].fill(0.0);
-            let spectrum = &mut work.spectra[component * frequencies..][..frequencies];
-            transform(&*self.forward, real, spectrum, &mut work.scratch);
+        let element_count = block.classes.elements().len();
+        let first_row = row_range.start;
+        let row_count = row_range.len();
+        let block_size = self.block_size;
+        let frequencies = block_size + 1;
+        for row_index in 0..row_count {
+            let row = &block.rows[(first_row + row_index) * block.stride..][..block.stride];
+            let real = &mut buffers.real[..2 * block_size];
+            real[..block_size].copy_from_slice(&row[block.ring.input_range(block.now, block_size)]);
+            real[block_size..].fill(0.0);
+            let spectrum = &mut buffers.spectra[row_index * frequencies..][..frequencies];
+            transform(&*self.forward, real, spectrum, &mut buffers.scratch);
         }
-        self.multiply(block.classes, part, kind, components, work);
-        for component in 0..components {
-            let receiver = block.classes.pairs()[component % count * count];
-            let scale = receiver.scale / (2 * size) as f64;
-            let real = &mut work.real[..2 * size];
-            let spectrum = &mut work.spectra[component * frequencies..][..frequencies];
+        self.multiply(block.classes, part, kind, row_count, buffers);
+        for row_index in 0..row_count {
+            let receiver = block.classes.pairs()[row_index % element_count * element_count];
+            let scale = receiver.scale / (2 * block_size) as f64;
+            let real = &mut buffers.real[..2 * block_size];
+            let spectrum = &mut buffers.spectra[row_index * frequencies..][..frequencies];
             // These values are real up to rounding; the inverse transform requires exact zeros.
             spectrum[0].im = 0.0;
-            spectrum[size].im = 0.0;
-            let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
+            spectrum[block_size].im = 0.0;
+            let scratch = &mut buffers.scratch[..self.inverse.get_scratch_len()];
             let done = self.inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
-            let begin = (first + component) * block.stride + block.ring.place(block.now);
-            let row = &mut block.rows[begin..begin + size];
-            for (output, value) in row.iter_mut().zip(&real[size..]) {
+            let begin = (first_row + row_index) * block.stride + block.ring.column(block.now);
+            let row = &mut block.rows[begin..begin + block_size];
+            for (output, value) in row.iter_mut().zip(&real[block_size..]) {
                 *output += scale * value;
             }
         }
@@ -193,54 +203,55 @@ impl PairLevel {
         classes: &PairClasses,
         part: Components,
         kind: usize,
-        components: usize,
-        work: &mut TransformScratch,
+        row_count: usize,
+        buffers: &mut TransformScratch,
     ) {
-        let frequencies = self.size + 1;
-        let count = classes.elements().len();
-        let tiles = frequencies.div_ceil(FREQUENCIES_PER_TILE);
-        let width = frequencies.div_ceil(tiles);
-        let TransformScratch { spectra, inputs, outputs, .. } = work;
-        for begin in (0..frequencies).step_by(width) {
-            let width = width.min(frequencies - begin);
-            let range_of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
-            for component in 0..components {
-                let values = &spectra[component * frequencies + begin..][..width];
-                copy_to_tile(values, &mut inputs[range_of(component)]);
+        let frequencies = self.block_size + 1;
+        let element_count = classes.elements().len();
+        let has_coupling = part != Components::Even && !self.spectra[COUPLING_KIND].is_empty();
+        let tile_count = frequencies.div_ceil(FREQUENCIES_PER_TILE);
+        let tile_width = frequencies.div_ceil(tile_count);
+        let TransformScratch { spectra, inputs, outputs, .. } = buffers;
+        for first_frequency in (0..frequencies).step_by(tile_width) {
+            let tile_width = tile_width.min(frequencies - first_frequency);
+            let tile_range =
+                |row_index: usize| row_index * 2 * tile_width..(row_index + 1) * 2 * tile_width;
+            for row_index in 0..row_count {
+                let values = &spectra[row_index * frequencies + first_frequency..][..tile_width];
+                copy_to_tile(values, &mut inputs[tile_range(row_index)]);
             }
-            outputs[..components * 2 * width].fill(0.0);
+            outputs[..row_count * 2 * tile_width].fill(0.0);
             // Adds the product of a class's spectrum with the source's tile to the receiver's tile.
-            let mut add = |(kind, sign): (usize, f64), class: usize, source, receiver| {
-                let stored = &self.spectra[kind];
-                if sign == 0.0 || stored.is_empty() {
-                    return;
-                }
-                let factor =
-                    [0, 1].map(|part| &stored[(class * 2 + part) * frequencies + begin..][..width]);
+            let mut add_product = |(kind, sign): (usize, f64), class: usize, source, receiver| {
+                let factor = [0, 1].map(|complex_part| {
+                    let begin = (class * 2 + complex_part) * frequencies + first_frequency;
+                    &self.spectra[kind][begin..][..tile_width]
+                });
                 let multiply =
                     if sign > 0.0 { multiply_add::<true> } else { multiply_add::<false> };
-                multiply(&mut outputs[range_of(receiver)], factor, &inputs[range_of(source)]);
+                multiply(&mut outputs[tile_range(receiver)], factor, &inputs[tile_range(source)]);
             };
-            for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
-                for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
+            for (p, pairs) in classes.pairs().chunks_exact(element_count).enumerate() {
+                for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                     match part {
-                        Components::Even => add((kind, 1.0), class, q, p),
+                        Components::Even => add_product((kind, 1.0), class, q, p),
                         Components::Coupling => {}
                         Components::All => {
-                            add((0, 1.0), class, q, p);
-                            add((1, 1.0), class, count + q, count + p);
+                            add_product((0, 1.0), class, q, p);
+                            add_product((1, 1.0), class, element_count + q, element_count + p);
                         }
                     }
-                    if part != Components::Even {
-                        let coupling = classes.coupling(p * count + q);
-                        add(coupling[0], class, count + q, p);
-                        add(coupling[1], class, q, count + p);
+                    if has_coupling && sign != 0.0 {
+                        let coupling = classes.coupling(p * element_count + q);
+                        add_product(coupling[0], class, element_count + q, p);
+                        add_product(coupling[1], class, q, element_count + p);
                     }
                 }
             }
-            for component in 0..components {
-                let values = &mut spectra[component * frequencies + begin..][..width];
-                copy_from_tile(&outputs[range_of(component)], values);
+            for row_index in 0..row_count {
+                let values =
+                    &mut spectra[row_index * frequencies + first_frequency..][..tile_width];
+                copy_from_tile(&outputs[tile_range(row_index)], values);
             }
         }
     }

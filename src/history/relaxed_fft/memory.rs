@@ -7,23 +7,25 @@ use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Bytes of the blocks for `steps` steps, which grow by powers of two.
+///
+/// In the plane the factors are the sums over the table of costs of [`RelaxedFftHistory`](super::RelaxedFftHistory).
 pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> Result<f64> {
-    let length = (steps as f64).max(2.0 * LEAF_STEPS as f64).log2().ceil().exp2();
+    let lag_count = (steps as f64).max(2.0 * LEAF_STEPS as f64).log2().ceil().exp2();
     let classes = kernel.classes();
     if let Some((lattice, _)) = classes.plan() {
         let waves = waves_in_plan(lattice);
-        let count = waves.count as f64;
+        let wave_count = waves.count as f64;
         let with_spectra = waves.with_spectra as f64;
-        let leaf = 48.0 * LEAF_STEPS as f64 * (with_spectra + 2.0 * count);
-        return Ok((96.0 * with_spectra + 48.0 * count) * length + leaf);
+        let leaf_bytes = 48.0 * LEAF_STEPS as f64 * (with_spectra + 2.0 * wave_count);
+        return Ok((96.0 * with_spectra + 48.0 * wave_count) * lag_count + leaf_bytes);
     }
     // A coupling that does not end is a third series of coefficients; around a trench there are two.
-    let kinds = if couples_without_end(kernel)? { classes.kinds() as f64 } else { 2.0 };
-    let elements = classes.elements().len() as f64;
+    let kind_count = if couples_without_end(kernel)? { classes.kinds() as f64 } else { 2.0 };
+    let element_count = classes.elements().len() as f64;
     Ok(if uses_wavenumbers(kernel) {
-        ((32.0 + 16.0 * kinds) * elements + 32.0) * length
+        ((32.0 + 16.0 * kind_count) * element_count + 32.0) * lag_count
     } else {
-        (16.0 * kinds * classes.count() as f64 + 24.0 * elements + 16.0) * length
+        (16.0 * kind_count * classes.count() as f64 + 24.0 * element_count + 16.0) * lag_count
     })
 }
 
@@ -31,14 +33,14 @@ pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> 
 ///
 /// Zero if the smallest blocks do not.
 pub(super) fn max_steps(kernel: &dyn ConvolutionWeights, memory: f64) -> Result<usize> {
-    let mut largest = 0;
+    let mut max_step_count = 0;
     for power in LEAF_STEPS.ilog2() + 1..usize::BITS {
         if bytes_of_blocks(kernel, 1 << power)? > memory {
             break;
         }
-        largest = 1 << power;
+        max_step_count = 1 << power;
     }
-    Ok(largest)
+    Ok(max_step_count)
 }
 
 /// Whether the coupling of the pair farthest apart never ends.

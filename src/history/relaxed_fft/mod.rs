@@ -31,7 +31,7 @@ use crate::error::{
     unobserved,
 };
 pub(crate) use crate::history::relaxed_fft::blocks::HistoryBlocks;
-use crate::history::relaxed_fft::blocks::SPECTRA_PROGRESS_PARTS;
+use crate::history::relaxed_fft::blocks::{SPECTRA_PROGRESS_PARTS, replay_inputs};
 pub(crate) use crate::history::relaxed_fft::ring::LEAF_STEPS;
 
 /// Number of lags of one class whose spectra take as long as one sample of a layered ground.
@@ -82,22 +82,22 @@ pub struct RelaxedFftHistory {
     /// Blocks; `None` until they are needed.
     blocks: Option<Box<dyn HistoryBlocks>>,
     /// Whether to transform along the surface; `None` to do so where it is faster.
-    along_surface: Option<bool>,
+    transforms_surface: Option<bool>,
     steps: usize,
     /// Whether the effect of the last input is still to be added.
-    pending: bool,
+    input_is_pending: bool,
     /// Scratch for tractions of which entries are missing.
-    padded: Vec<f64>,
-    /// Error because of which inputs could not be accepted.
-    failed: Option<Error>,
+    padded_traction: Vec<f64>,
+    /// Error of an input that was not accepted.
+    input_error: Option<Error>,
     /// Memory allowed, bytes.
-    memory: f64,
+    memory_limit: f64,
     /// Fraction of the coefficients' sum that may be neglected; `None` to neglect no lag.
-    neglected: Option<f64>,
+    neglected_fraction: Option<f64>,
     /// Last lag that is not neglected, once found.
     last_lag: Option<LastLag>,
     /// Largest traction so far, Pa; updated only if late lags may be neglected.
-    largest: f64,
+    max_traction: f64,
 }
 
 short_debug! {
@@ -107,19 +107,19 @@ short_debug! {
 impl RelaxedFftHistory {
     /// Makes an empty history of `kernel`.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
-        let padded = vec![0.0; kernel.classes().layout().len()];
+        let padded_traction = vec![0.0; kernel.classes().layout().len()];
         Self {
             kernel,
             blocks: None,
-            along_surface: None,
+            transforms_surface: None,
             steps: 0,
-            pending: false,
-            padded,
-            failed: None,
-            memory: memory_limit() as f64,
-            neglected: None,
+            input_is_pending: false,
+            padded_traction,
+            input_error: None,
+            memory_limit: memory_limit() as f64,
+            neglected_fraction: None,
             last_lag: None,
-            largest: 0.0,
+            max_traction: 0.0,
         }
     }
 
@@ -128,19 +128,19 @@ impl RelaxedFftHistory {
     /// By default this is done where it was measured to be faster. Call this before the first step.
     #[must_use]
     pub fn with_surface_transform(mut self, enabled: bool) -> Self {
-        self.along_surface = Some(enabled);
+        self.transforms_surface = Some(enabled);
         self
     }
 
     /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
     pub(super) fn within_memory(mut self, bytes: usize) -> Self {
-        self.memory = self.memory.min(bytes as f64);
+        self.memory_limit = self.memory_limit.min(bytes as f64);
         self
     }
 
     /// Neglects late lags in plan whose coefficients' sum is at most `tolerance` of the total.
     pub(super) fn neglecting(mut self, tolerance: f64) -> Self {
-        self.neglected = Some(tolerance);
+        self.neglected_fraction = Some(tolerance);
         self
     }
 
@@ -157,10 +157,10 @@ impl RelaxedFftHistory {
     /// [`Error::Memory`] for steps that need more memory than allowed.
     fn lags(&self, steps: usize) -> Result<usize> {
         let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
-        let needed = self.last_lag.map_or(lags, |last_lag| lags.min(2 * last_lag.lag));
-        let max_lags = max_steps(&*self.kernel, self.memory)?;
-        if needed <= max_lags || (self.neglected.is_some() && max_lags > 0) {
-            return Ok(needed.min(max_lags));
+        let needed_lags = self.last_lag.map_or(lags, |last_lag| lags.min(2 * last_lag.lag));
+        let max_lags = max_steps(&*self.kernel, self.memory_limit)?;
+        if needed_lags <= max_lags || (self.neglected_fraction.is_some() && max_lags > 0) {
+            return Ok(needed_lags.min(max_lags));
         }
         Err(self.memory_error(steps)?)
     }
@@ -171,7 +171,7 @@ impl RelaxedFftHistory {
             quantity: "steps of the convolution history",
             asked: steps as f64,
             needed: bytes_of_blocks(&*self.kernel, steps)?,
-            limit: self.memory,
+            limit: self.memory_limit,
             remedy: "take fewer steps or larger elements, or allow more with \
                      `HistoryOptions::memory`: a checkpoint can go on there",
         }))
@@ -181,13 +181,13 @@ impl RelaxedFftHistory {
     fn grow(
         &mut self,
         steps: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<&mut dyn HistoryBlocks> {
         if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity())
             && self.last_lag.is_none()
         {
             let lags = self.lags(steps)?;
-            if let Some(tolerance) = self.neglected {
+            if let Some(tolerance) = self.neglected_fraction {
                 self.last_lag = LastLag::find(&*self.kernel, tolerance, lags, &mut unobserved)?;
             }
             if self.last_lag.is_none() && lags < steps {
@@ -199,11 +199,12 @@ impl RelaxedFftHistory {
             blocks
         } else {
             let classes = kernel.classes();
-            let along_surface =
-                self.along_surface.unwrap_or(classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS)
-                    || classes.plan().is_some();
-            match ElementGrid::from_pairs(classes).filter(|_| along_surface) {
-                Some(lattice) => Box::new(WaveBlocks::new(lattice, kernel)?),
+            let transforms_surface = self
+                .transforms_surface
+                .unwrap_or(classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS)
+                || classes.plan().is_some();
+            match ElementGrid::from_pairs(classes).filter(|_| transforms_surface) {
+                Some(grid) => Box::new(WaveBlocks::new(grid, kernel)?),
                 None => Box::new(PairBlocks::new(kernel)?),
             }
         };
@@ -211,18 +212,18 @@ impl RelaxedFftHistory {
         let capacity = blocks.capacity();
         if capacity < steps {
             let mut inputs = Vec::new();
-            let effects_end = self.steps - usize::from(self.pending);
+            let effects_end = self.steps - usize::from(self.input_is_pending);
             if !capacity.is_power_of_two() {
                 (0..self.steps).for_each(|step| blocks.input(step, effects_end, &mut inputs));
             }
             match self.last_lag {
-                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag, watch)?,
-                None => blocks.grow(kernel, steps, watch)?,
+                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag, reporter)?,
+                None => blocks.grow(kernel, steps, reporter)?,
             }
             if !inputs.is_empty() {
                 blocks.clear();
                 replay_inputs(&mut **blocks, 0, &inputs);
-                if !self.pending {
+                if !self.input_is_pending {
                     blocks.add_effects(self.steps);
                 }
             }
@@ -233,11 +234,11 @@ impl RelaxedFftHistory {
     /// Adds the effect of the last input, so that the next output is complete.
     fn complete_output(&mut self) -> Result<&mut dyn HistoryBlocks> {
         let now = self.steps;
-        let pending = self.pending;
+        let input_was_pending = self.input_is_pending;
         self.grow(now.saturating_add(1), &mut ProgressReporter::unobserved())?;
-        self.pending = false;
+        self.input_is_pending = false;
         let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
-        if pending {
+        if input_was_pending {
             blocks.add_effects(now);
         }
         Ok(blocks)
@@ -260,21 +261,23 @@ impl ConvolutionHistory for RelaxedFftHistory {
             progress = Progress::new(task, done, total + spectra_units);
             observer(progress)
         };
-        let weights = match self.neglected.filter(|_| self.last_lag.is_none()) {
+        let weights_result = match self.neglected_fraction.filter(|_| self.last_lag.is_none()) {
             // In plan, up to the last lag that is not neglected.
             Some(tolerance) => LastLag::find(&*kernel, tolerance, lags, &mut report_weights)
                 .map(|last_lag| self.last_lag = last_lag),
             None => kernel.prepare(lags, &mut report_weights),
         };
         let weights_units = progress.total - spectra_units;
-        let result = weights.and_then(|()| {
-            let mut report = |part: Progress| {
-                progress.done = weights_units + spectra_units * part.done / SPECTRA_PROGRESS_PARTS;
+        let result = weights_result.and_then(|()| {
+            let mut report = |spectra_progress: Progress| {
+                progress.done =
+                    weights_units + spectra_units * spectra_progress.done / SPECTRA_PROGRESS_PARTS;
                 observer(progress)
             };
-            let mut watch = ProgressReporter::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report);
-            self.grow(steps, &mut watch)?;
-            watch.reach(SPECTRA_PROGRESS_PARTS)
+            let mut reporter =
+                ProgressReporter::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report);
+            self.grow(steps, &mut reporter)?;
+            reporter.reach(SPECTRA_PROGRESS_PARTS)
         });
         result.map_err(|error| match error {
             Error::Stopped(_) => Error::Stopped(progress),
@@ -283,9 +286,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let size = self.kernel.classes().layout().len();
-        same_length("displacement of the history", displacement.len(), size)?;
-        if let Some(error) = &self.failed {
+        let traction_count = self.kernel.classes().layout().len();
+        same_length("displacement of the history", displacement.len(), traction_count)?;
+        if let Some(error) = &self.input_error {
             return Err(error.clone());
         }
         let now = self.steps;
@@ -296,7 +299,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     /// Bound of the change in one step of the displacement due to the neglected lags.
     fn increment_error_bound(&self) -> f64 {
         let ended = self.last_lag.filter(|last_lag| self.steps > last_lag.lag);
-        ended.map_or(0.0, |last_lag| last_lag.change * self.largest)
+        ended.map_or(0.0, |last_lag| last_lag.change * self.max_traction)
     }
 
     fn memory(&self) -> usize {
@@ -304,51 +307,55 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn push(&mut self, traction: &[f64]) {
-        if self.failed.is_none() {
+        if self.input_error.is_none() {
             let now = self.steps;
-            let mut padded = std::mem::take(&mut self.padded);
-            let count = traction.len().min(padded.len());
-            padded[..count].copy_from_slice(&traction[..count]);
-            padded[count..].fill(0.0);
-            if self.neglected.is_some() {
-                self.largest = padded.iter().fold(self.largest, |largest, x| largest.max(x.abs()));
+            let mut padded_traction = std::mem::take(&mut self.padded_traction);
+            let count = traction.len().min(padded_traction.len());
+            padded_traction[..count].copy_from_slice(&traction[..count]);
+            padded_traction[count..].fill(0.0);
+            if self.neglected_fraction.is_some() {
+                self.max_traction = padded_traction
+                    .iter()
+                    .fold(self.max_traction, |max_traction, x| max_traction.max(x.abs()));
             }
             match self.complete_output() {
                 Ok(blocks) => {
-                    blocks.write(now, &padded);
-                    self.pending = true;
+                    blocks.write(now, &padded_traction);
+                    self.input_is_pending = true;
                 }
-                Err(error) => self.failed = Some(error),
+                Err(error) => self.input_error = Some(error),
             }
-            self.padded = padded;
+            self.padded_traction = padded_traction;
         }
         self.steps += 1;
     }
 
     /// Returns all inputs that blocks still need, step by step; `restore` computes their effects again.
     fn save(&self) -> Result<Vec<f64>> {
-        if let Some(error) = &self.failed {
+        if let Some(error) = &self.input_error {
             return Err(error.clone());
         }
         let mut values = Vec::new();
         if let Some(blocks) = &self.blocks {
-            let effects_end = self.steps - usize::from(self.pending);
+            let effects_end = self.steps - usize::from(self.input_is_pending);
             let first = Self::first_needed(self.last_lag.map(|last_lag| last_lag.lag), self.steps);
             (first..self.steps).for_each(|step| blocks.input(step, effects_end, &mut values));
         }
-        if self.neglected.is_some() {
-            values
-                .extend([self.largest, self.last_lag.map_or(0.0, |last_lag| last_lag.lag as f64)]);
+        if self.neglected_fraction.is_some() {
+            values.extend([
+                self.max_traction,
+                self.last_lag.map_or(0.0, |last_lag| last_lag.lag as f64),
+            ]);
         }
         Ok(values)
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
-        let width = self.grow(1, &mut ProgressReporter::unobserved())?.width();
-        let saved = SavedState::new(values, self.neglected.is_some())?;
+        let input_width = self.grow(1, &mut ProgressReporter::unobserved())?.width();
+        let saved = SavedState::new(values, self.neglected_fraction.is_some())?;
         let first_saved = Self::first_needed(saved.last_lag, steps);
-        check_inputs(steps - first_saved, width, saved.inputs)?;
+        check_inputs(steps - first_saved, input_width, saved.inputs)?;
         self.grow(steps, &mut ProgressReporter::unobserved())?;
         // The last lag may not be found yet, in this history or in the saved one.
         let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
@@ -359,42 +366,29 @@ impl ConvolutionHistory for RelaxedFftHistory {
         }
         let blocks = self.grow(0, &mut ProgressReporter::unobserved())?;
         blocks.clear();
-        replay_inputs(blocks, first, &saved.inputs[(first - first_saved) * width..]);
-        self.largest = saved.largest;
+        replay_inputs(blocks, first, &saved.inputs[(first - first_saved) * input_width..]);
+        self.max_traction = saved.max_traction;
         self.steps = steps;
-        self.pending = steps > 0;
-        self.failed = None;
+        self.input_is_pending = steps > 0;
+        self.input_error = None;
         Ok(())
     }
 }
 
-/// Makes empty blocks for any number of steps, of a kernel without coefficients after lag `reach`.
+/// Makes empty blocks for any number of steps, of a kernel without coefficients after d = `last_delay`.
 ///
-/// `reach` is a leaf times a power of two.
-pub(super) fn bounded(
+/// `last_delay` is a leaf times a power of two.
+pub(super) fn bounded_blocks(
     kernel: &dyn ConvolutionWeights,
-    reach: usize,
+    last_delay: usize,
 ) -> Result<Box<dyn HistoryBlocks>> {
     let classes = kernel.classes();
-    let lattice = ElementGrid::from_pairs(classes)
+    let grid = ElementGrid::from_pairs(classes)
         .filter(|_| classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS);
-    let mut blocks: Box<dyn HistoryBlocks> = match lattice {
-        Some(lattice) => Box::new(WaveBlocks::new(lattice, kernel)?),
+    let mut blocks: Box<dyn HistoryBlocks> = match grid {
+        Some(grid) => Box::new(WaveBlocks::new(grid, kernel)?),
         None => Box::new(PairBlocks::bounded(kernel)?),
     };
-    blocks.bound(kernel, reach, &mut ProgressReporter::unobserved())?;
+    blocks.bound(kernel, last_delay, &mut ProgressReporter::unobserved())?;
     Ok(blocks)
-}
-
-/// Writes `inputs` from step `first` on into empty blocks, and adds their effects.
-///
-/// The effect of the last input is still to be added.
-fn replay_inputs(blocks: &mut dyn HistoryBlocks, first: usize, inputs: &[f64]) {
-    for (ahead, input) in inputs.chunks_exact(blocks.width()).enumerate() {
-        let now = first + ahead;
-        if ahead > 0 {
-            blocks.add_effects(now);
-        }
-        blocks.write_input(now, input);
-    }
 }

@@ -24,7 +24,7 @@ const MAX_DIRECT_COUPLING: usize = 64;
 
 /// Numbers in a memory page.
 ///
-/// Rows of whole pages would map equal places of all rows to one cache set.
+/// Rows of whole pages would map equal columns of all rows to one cache set.
 const NUMBERS_PER_PAGE: usize = 512;
 /// Numbers in a cache line: rows are longer than whole pages by this.
 const NUMBERS_PER_CACHE_LINE: usize = 8;
@@ -50,7 +50,7 @@ impl PairBlocks {
         Self::with_coupling(kernel, MAX_DIRECT_COUPLING)
     }
 
-    /// Makes empty blocks for rows whose places are reused.
+    /// Makes empty blocks for rows whose columns are used again.
     ///
     /// No coupling beyond a leaf is summed directly.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
@@ -71,16 +71,17 @@ impl PairBlocks {
     }
 
     /// Number of elements, Q.
-    fn elements(&self) -> usize {
+    fn element_count(&self) -> usize {
         self.coefficients.classes.elements().len()
     }
 
-    /// Whether blocks of `size` have spectra of the coupling.
+    /// Whether blocks of `block_size` have spectra of the coupling.
     ///
     /// They do up to the first size that covers its reach.
-    fn couples(&self, size: usize) -> bool {
+    fn has_coupling_spectra(&self, block_size: usize) -> bool {
         let coefficients = &self.coefficients;
-        coefficients.couples_far && (size == LEAF_STEPS || size / 2 < coefficients.coupling_reach)
+        coefficients.couples_far
+            && (block_size == LEAF_STEPS || block_size / 2 < coefficients.coupling_reach)
     }
 
     /// Makes the levels of these numbers, and the short lags unless they are there.
@@ -89,31 +90,41 @@ impl PairBlocks {
     fn make_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        numbers: Range<usize>,
+        level_indices: Range<usize>,
         short_lags: &mut Option<Arc<ShortLagTables>>,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<Vec<Arc<PairLevel>>> {
-        let count = self.elements();
-        let classes = self.coefficients.classes.count();
+        let element_count = self.element_count();
+        let class_count = self.coefficients.classes.count();
         let kind_count = self.coefficients.classes.kinds();
         let mut levels = Vec::new();
-        let end = numbers.end;
-        for number in numbers {
-            let couples = self.couples(LEAF_STEPS << number);
-            let kinds = if couples { kind_count } else { COMPONENTS_IN_PLANE };
-            let level = PairLevel::new(LEAF_STEPS << number, classes, kinds, &mut self.planner);
-            self.scratch.grow(&level, if couples { 2 * count } else { count });
-            levels.push((level, kinds));
+        let level_end = level_indices.end;
+        for level_index in level_indices {
+            let has_coupling = self.has_coupling_spectra(LEAF_STEPS << level_index);
+            let level_kinds = if has_coupling { kind_count } else { COMPONENTS_IN_PLANE };
+            let level = PairLevel::new(
+                LEAF_STEPS << level_index,
+                class_count,
+                level_kinds,
+                &mut self.planner,
+            );
+            self.scratch
+                .grow(&level, if has_coupling { 2 * element_count } else { element_count });
+            levels.push((level, level_kinds));
         }
         let mut tables = short_lags.is_none().then(ShortLagTables::default);
-        let max_delay = if levels.is_empty() { 0 } else { LEAF_STEPS << end };
-        let length =
-            if tables.is_some() { max_delay.max(self.coefficients.length()) } else { max_delay };
-        if length > 0 {
-            let mut values: ClassCoefficients =
-                std::array::from_fn(|kind| vec![0.0; if kind < kind_count { length } else { 0 }]);
-            for class in 0..classes {
-                watch.reach(SPECTRA_PROGRESS_PARTS * class / classes)?;
+        let spectra_delays = if levels.is_empty() { 0 } else { LEAF_STEPS << level_end };
+        let delay_count = if tables.is_some() {
+            spectra_delays.max(self.coefficients.length())
+        } else {
+            spectra_delays
+        };
+        if delay_count > 0 {
+            let mut values: ClassCoefficients = std::array::from_fn(|kind| {
+                vec![0.0; if kind < kind_count { delay_count } else { 0 }]
+            });
+            for class in 0..class_count {
+                reporter.reach(SPECTRA_PROGRESS_PARTS * class / class_count)?;
                 // The first weight is the step compliance, which does not belong to the history.
                 let series = values.iter_mut().take(kind_count);
                 let mut slices: Vec<_> = series.map(|series| &mut series[1..]).collect();
@@ -121,8 +132,8 @@ impl PairBlocks {
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }
-                for (level, kinds) in &mut levels {
-                    level.add_class(&values, *kinds, &mut self.scratch);
+                for (level, level_kinds) in &mut levels {
+                    level.add_class(&values, *level_kinds, &mut self.scratch);
                 }
             }
         }
@@ -140,26 +151,30 @@ impl PairBlocks {
         kernel: &dyn ConvolutionWeights,
         level_count: usize,
         lags: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
-        let count = self.elements();
+        let element_count = self.element_count();
         // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
         kernel.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
-        let spectra = kernel.spectra().filter(|s| s.are_of(kernel.classes().elements()));
+        let spectra = kernel.spectra().filter(|s| s.belong_to(kernel.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
         let mut shared = shared.as_deref().map(lock);
         let short_lags = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.short_lags));
         let mut private_store = Levels { levels: self.levels.clone(), leaf: short_lags };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
-        let found = store.smallest(level_count, |numbers, short_lags| {
-            self.make_levels(kernel, numbers, short_lags, watch)
+        let levels = store.smallest(level_count, |numbers, short_lags| {
+            self.make_levels(kernel, numbers, short_lags, reporter)
         })?;
-        self.levels = found.levels;
-        self.coefficients.short_lags = found.leaf.unwrap_or_default();
-        for number in 0..level_count {
-            let level = &self.levels[number];
-            let components = if self.couples(level.size) { 2 * count } else { count };
-            self.scratch.grow(level, components);
+        self.levels = levels.levels;
+        self.coefficients.short_lags = levels.leaf.unwrap_or_default();
+        for level_index in 0..level_count {
+            let level = &self.levels[level_index];
+            let row_count = if self.has_coupling_spectra(level.block_size) {
+                2 * element_count
+            } else {
+                element_count
+            };
+            self.scratch.grow(level, row_count);
         }
         Ok(())
     }
@@ -181,19 +196,19 @@ impl HistoryBlocks for PairBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
         let capacity = steps.div_ceil(LEAF_STEPS).next_power_of_two() * LEAF_STEPS;
         if capacity <= self.capacity {
             return Ok(());
         }
-        let count = self.elements();
+        let element_count = self.element_count();
         let level_count = (capacity / LEAF_STEPS).ilog2() as usize;
-        self.take_levels(kernel, level_count, capacity, watch)?;
+        self.take_levels(kernel, level_count, capacity, reporter)?;
         // Only a coupling that is summed directly has outputs beyond the capacity.
-        let needed = capacity + self.coefficients.coupling_direct;
-        let stride = needed.next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
-        self.rows = widened(&self.rows, 2 * count, self.stride, stride);
+        let column_count = capacity + self.coefficients.coupling_direct;
+        let stride = column_count.next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
+        self.rows = widened(&self.rows, 2 * element_count, self.stride, stride);
         self.stride = stride;
         self.capacity = capacity;
         Ok(())
@@ -203,17 +218,17 @@ impl HistoryBlocks for PairBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         last_delay: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
         self.take_levels(
             kernel,
             (last_delay / LEAF_STEPS).ilog2() as usize + 1,
             2 * last_delay,
-            watch,
+            reporter,
         )?;
         self.ring = Ring(2 * last_delay);
         self.stride = (2 * last_delay).next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
-        self.rows = vec![0.0; 2 * self.elements() * self.stride];
+        self.rows = vec![0.0; 2 * self.element_count() * self.stride];
         self.capacity = usize::MAX;
         Ok(())
     }
@@ -221,41 +236,50 @@ impl HistoryBlocks for PairBlocks {
     fn add_effects(&mut self, now: usize) {
         let Some(last) = now.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
-        let ahead = LEAF_STEPS - 1 - last % LEAF_STEPS;
-        let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
+        let leaf_outputs = LEAF_STEPS - 1 - last % LEAF_STEPS;
+        let coupled_outputs =
+            if coefficients.couples_far { leaf_outputs } else { coefficients.coupling_direct };
         let ring = self.ring;
         let rows = &mut self.rows[..];
         let stride = self.stride;
-        vectorized(Scatter { coefficients, rows, stride, now: ring.place(last), ahead, coupled });
+        vectorized(Scatter {
+            coefficients,
+            rows,
+            stride,
+            now: ring.column(last),
+            ahead: leaf_outputs,
+            coupled: coupled_outputs,
+        });
         if !now.is_multiple_of(LEAF_STEPS) {
             return;
         }
-        if let Some(stale) = ring.stale(now) {
+        if let Some(stale_range) = ring.stale_range(now) {
             let rows = self.rows.chunks_exact_mut(self.stride);
-            rows.for_each(|row| row[stale.clone()].fill(0.0));
+            rows.for_each(|row| row[stale_range.clone()].fill(0.0));
         }
-        let number = ring.level(now, self.levels.len());
-        let Some(level) = self.levels.get(number) else { return };
-        let couples = self.couples(level.size);
-        let coupled_level = self.levels.iter().rfind(|level| self.couples(level.size));
+        let level_index = ring.level_index(now, self.levels.len());
+        let Some(level) = self.levels.get(level_index) else { return };
+        let has_coupling = self.has_coupling_spectra(level.block_size);
+        let coupled_level =
+            self.levels.iter().rfind(|level| self.has_coupling_spectra(level.block_size));
         let rows = &mut self.rows[..];
         let mut block = BlockRows { rows, stride, ring, now, classes: &coefficients.classes };
-        let part = if couples { Components::All } else { Components::Even };
-        level.apply(&mut block, part, &mut self.scratch);
-        if let Some(level) = coupled_level.filter(|_| !couples) {
+        let components = if has_coupling { Components::All } else { Components::Even };
+        level.apply(&mut block, components, &mut self.scratch);
+        if let Some(level) = coupled_level.filter(|_| !has_coupling) {
             level.apply(&mut block, Components::Coupling, &mut self.scratch);
         }
     }
 
     fn write(&mut self, now: usize, traction: &[f64]) {
-        let place = self.ring.place(now);
+        let column = self.ring.column(now);
         for (row, value) in self.rows.chunks_exact_mut(self.stride).zip(traction) {
-            row[place] = *value;
+            row[column] = *value;
         }
     }
 
     fn width(&self) -> usize {
-        2 * self.elements()
+        2 * self.element_count()
     }
 
     fn input(&self, step: usize, _effects_end: usize, values: &mut Vec<f64>) {
@@ -271,9 +295,9 @@ impl HistoryBlocks for PairBlocks {
     }
 
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
-        let place = self.ring.place(now);
+        let column = self.ring.column(now);
         for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
-            *value = row[place];
+            *value = row[column];
         }
     }
 }

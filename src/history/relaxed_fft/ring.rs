@@ -1,4 +1,4 @@
-//! Rings of past steps: rows whose places are used again.
+//! Ring buffers of past steps.
 
 /// Number of steps summed directly; the smallest block has this size.
 ///
@@ -6,54 +6,56 @@
 /// little.
 pub(crate) const LEAF_STEPS: usize = 32;
 
-/// Number of steps that a row holds before its places are used again.
+/// Number of steps that a row stores before its columns are used again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ring(pub(super) usize);
 
 impl Ring {
-    /// A row that holds all steps.
+    /// A row that stores all steps.
     pub(super) const ALL_STEPS: Self = Self(usize::MAX);
 
-    /// Place of a step in its row.
-    pub(super) fn place(self, step: usize) -> usize {
+    /// Column of a step in its row.
+    pub(super) fn column(self, step: usize) -> usize {
         if self.is_bounded() { step % self.0 } else { step }
     }
 
-    /// Places of the block of `size` steps that ends before `now`.
-    pub(super) fn before(self, now: usize, size: usize) -> std::ops::Range<usize> {
-        let begin = self.place(now - size);
-        begin..begin + size
+    /// Columns of the block of `block_size` steps that ends before `now`.
+    pub(super) fn input_range(self, now: usize, block_size: usize) -> std::ops::Range<usize> {
+        let begin = self.column(now - block_size);
+        begin..begin + block_size
     }
 
-    /// Whether places are used again.
+    /// Whether columns are used again.
     pub(super) fn is_bounded(self) -> bool {
         self.0 < usize::MAX
     }
 
-    /// Number of the level for the block that ends before `now`, a multiple of a leaf.
-    pub(super) fn level(self, now: usize, levels: usize) -> usize {
-        let number = (now / LEAF_STEPS).trailing_zeros() as usize;
-        if self.is_bounded() { number.min(levels - 1) } else { number }
+    /// Index of the level for the block that ends before `now`, a multiple of a leaf.
+    pub(super) fn level_index(self, now: usize, level_count: usize) -> usize {
+        let index = (now / LEAF_STEPS).trailing_zeros() as usize;
+        if self.is_bounded() { index.min(level_count - 1) } else { index }
     }
 
-    /// Places to be cleared for outputs from `now` on.
-    pub(super) fn stale(self, now: usize) -> Option<std::ops::Range<usize>> {
+    /// Columns to be cleared for outputs from `now` on.
+    pub(super) fn stale_range(self, now: usize) -> Option<std::ops::Range<usize>> {
         let half = self.0 / 2;
-        let begins = self.is_bounded() && now.is_multiple_of(half);
-        begins.then(|| self.place(now)..self.place(now) + half)
+        let begins_half = self.is_bounded() && now.is_multiple_of(half);
+        begins_half.then(|| self.column(now)..self.column(now) + half)
     }
 }
 
-/// Copies `count` rows of `stride` values into longer rows of `new_stride` values.
+/// Copies `row_count` rows of `stride` values into longer rows of `new_stride` values.
 pub(super) fn widened<T: Copy + Default>(
     rows: &[T],
-    count: usize,
+    row_count: usize,
     stride: usize,
     new_stride: usize,
 ) -> Vec<T> {
-    let mut wide = vec![T::default(); count * new_stride];
-    for (wide, row) in wide.chunks_exact_mut(new_stride).zip(rows.chunks_exact(stride.max(1))) {
-        wide[..stride].copy_from_slice(row);
+    let mut wide_rows = vec![T::default(); row_count * new_stride];
+    for (wide_row, row) in
+        wide_rows.chunks_exact_mut(new_stride).zip(rows.chunks_exact(stride.max(1)))
+    {
+        wide_row[..stride].copy_from_slice(row);
     }
-    wide
+    wide_rows
 }

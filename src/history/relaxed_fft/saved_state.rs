@@ -7,7 +7,7 @@ pub(super) struct SavedState<'a> {
     /// All inputs that blocks need, step by step.
     pub(super) inputs: &'a [f64],
     /// Largest traction so far, Pa; zero if no lags are neglected.
-    pub(super) largest: f64,
+    pub(super) max_traction: f64,
     /// Last lag that is not neglected; `None` if it was not found yet.
     pub(super) last_lag: Option<usize>,
 }
@@ -20,13 +20,13 @@ impl<'a> SavedState<'a> {
     /// Reads saved `values`; a history that `neglects_lags` has two numbers after the inputs.
     pub(super) fn new(values: &'a [f64], neglects_lags: bool) -> Result<Self> {
         if !neglects_lags {
-            return Ok(Self { inputs: values, largest: 0.0, last_lag: None });
+            return Ok(Self { inputs: values, max_traction: 0.0, last_lag: None });
         }
-        let [inputs @ .., largest, last] = values else {
+        let [inputs @ .., max_traction, saved_lag] = values else {
             return Err(Self::CORRUPT_STATE.into());
         };
-        let mut powers = (0..usize::BITS - 1).map(|power| 1_usize << power);
-        let last_lag = powers.find(|lag| *lag as f64 == *last);
-        Ok(Self { inputs, largest: *largest, last_lag })
+        let mut powers_of_two = (0..usize::BITS - 1).map(|power| 1_usize << power);
+        let last_lag = powers_of_two.find(|lag| *lag as f64 == *saved_lag);
+        Ok(Self { inputs, max_traction: *max_traction, last_lag })
     }
 }

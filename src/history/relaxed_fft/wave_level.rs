@@ -7,7 +7,7 @@ use super::level::Components;
 use super::ring::Ring;
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::history::pair_classes::STRIP_KINDS;
+use crate::history::pair_classes::{COUPLING_KIND, STRIP_KINDS};
 use basemat_fourier::RealPlanner;
 use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexPlanner, Fft};
@@ -22,9 +22,6 @@ pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
     std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
 }
 
-/// Kind that ends on a strip: the coupling.
-pub(super) const COUPLING_KIND: usize = 2;
-
 /// Coefficients of a leaf, kind by kind: for each d = 0 … leaf − 1 the wavenumbers with spectra.
 pub(super) type LeafCoefficients = Vec<Vec<f64>>;
 
@@ -33,7 +30,7 @@ pub(super) type LeafCoefficients = Vec<Vec<f64>>;
 /// The blocks and spectra of one wavenumber fit into cache.
 pub(super) struct WaveLevel {
     /// b.
-    pub(super) size: usize,
+    pub(super) block_size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     waves: WaveNumbers,
@@ -46,21 +43,21 @@ pub(super) struct WaveLevel {
 }
 
 impl WaveLevel {
-    /// Blocks of `size`, without spectra yet; `kinds` tells which kinds will have them.
+    /// Blocks of `block_size`, without spectra yet; `kinds` states for each kind whether it will have spectra.
     pub(super) fn new(
-        size: usize,
+        block_size: usize,
         waves: WaveNumbers,
         kinds: impl Iterator<Item = bool>,
         planner: &mut ComplexPlanner,
     ) -> Self {
-        let length = waves.with_spectra * (size + 1);
+        let length = waves.with_spectra * (block_size + 1);
         Self {
-            size,
-            forward: planner.plan_fft_forward(2 * size),
-            inverse: planner.plan_fft_inverse(2 * size),
+            block_size,
+            forward: planner.plan_fft_forward(2 * block_size),
+            inverse: planner.plan_fft_inverse(2 * block_size),
             waves,
             spectra: kinds
-                .map(|has| vec![Complex::default(); if has { length } else { 0 }])
+                .map(|has_spectra| vec![Complex::default(); if has_spectra { length } else { 0 }])
                 .collect(),
         }
     }
@@ -71,18 +68,18 @@ impl WaveLevel {
     }
 
     /// Length of the scratch that transforms need.
-    pub(super) fn scratch(&self) -> usize {
+    pub(super) fn scratch_length(&self) -> usize {
         self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len())
     }
 
     /// Whether there are spectra of this kind.
-    pub(super) fn has(&self, kind: usize) -> bool {
+    pub(super) fn has_spectra(&self, kind: usize) -> bool {
         !self.spectra[kind].is_empty()
     }
 
     /// Stores the coefficients of d, one per wavenumber, in the memory of the spectra.
     pub(super) fn store_coefficients(&mut self, kind: usize, d: usize, values: &[f64]) {
-        let rows = self.spectra[kind].chunks_exact_mut(self.size + 1);
+        let rows = self.spectra[kind].chunks_exact_mut(self.block_size + 1);
         if d.is_multiple_of(2) {
             rows.zip(values).for_each(|(row, value)| row[d / 2].re = *value);
         } else {
@@ -90,29 +87,29 @@ impl WaveLevel {
         }
     }
 
-    /// Overwrites `time` with the coefficients stored for a wavenumber.
-    pub(super) fn stored_coefficients(&self, kind: usize, wave: usize, time: &mut [f64]) {
-        let row = &self.spectra[kind][wave * (self.size + 1)..][..self.size];
-        for (pair, value) in time.chunks_exact_mut(2).zip(row) {
+    /// Overwrites `samples` with the coefficients stored for a wavenumber.
+    pub(super) fn stored_coefficients(&self, kind: usize, wave: usize, samples: &mut [f64]) {
+        let row = &self.spectra[kind][wave * (self.block_size + 1)..][..self.block_size];
+        for (pair, value) in samples.chunks_exact_mut(2).zip(row) {
             pair.copy_from_slice(&[value.re, value.im]);
         }
     }
 
-    /// Transforms 2b coefficients to the spectrum; overwrites `time` too.
+    /// Transforms 2b coefficients to the spectrum; overwrites `samples` too.
     pub(super) fn transform(
         &mut self,
         kind: usize,
         wave: usize,
-        time: &mut [f64],
+        samples: &mut [f64],
         planner: &mut RealPlanner,
         scratch: &mut Vec<Complex<f64>>,
     ) {
-        let plan = planner.plan_fft_forward(2 * self.size);
+        let plan = planner.plan_fft_forward(2 * self.block_size);
         scratch.resize(scratch.len().max(plan.get_scratch_len()), Complex::default());
-        let spectrum = &mut self.spectra[kind][wave * (self.size + 1)..][..=self.size];
+        let spectrum = &mut self.spectra[kind][wave * (self.block_size + 1)..][..=self.block_size];
         let scratch = &mut scratch[..plan.get_scratch_len()];
         // All lengths come from the plan, so that the transform cannot fail.
-        let done = plan.process_with_scratch(time, spectrum, scratch);
+        let done = plan.process_with_scratch(samples, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
@@ -126,67 +123,83 @@ impl WaveLevel {
         stride: usize,
         ring: Ring,
         now: usize,
-        part: Components,
+        components: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
-        let size = self.size;
+        let block_size = self.block_size;
         // Rows may end before the block does.
-        let before = ring.before(now, size);
-        let begin = ring.place(now);
-        let ahead = begin..stride.min(begin + size);
-        if part == Components::Even {
+        let input_range = ring.input_range(now, block_size);
+        let begin = ring.column(now);
+        let output_range = begin..stride.min(begin + block_size);
+        if components == Components::Even {
             // One component at a time: the largest blocks need no more scratch than the blocks of the coupling.
-            let block = &mut blocks[..2 * size];
+            let block = &mut blocks[..2 * block_size];
             for (kind, rows) in rows.chunks_exact_mut(self.waves.count * stride).enumerate() {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
-                    self.transform_inputs(&row[before.clone()], block, scratch);
+                    self.transform_inputs(&row[input_range.clone()], block, scratch);
                     multiply(block, self.spectrum(kind, wave));
-                    self.add_to_outputs(block, &mut row[ahead.clone()], scratch);
+                    self.add_to_outputs(block, &mut row[output_range.clone()], scratch);
                 }
             }
         } else if self.spectra.len() == STRIP_KINDS {
-            self.apply_coupled::<2>(rows, stride, before, ahead, part, blocks, scratch);
+            self.apply_coupled::<2>(
+                rows,
+                stride,
+                input_range,
+                output_range,
+                components,
+                blocks,
+                scratch,
+            );
         } else {
-            self.apply_coupled::<3>(rows, stride, before, ahead, part, blocks, scratch);
+            self.apply_coupled::<3>(
+                rows,
+                stride,
+                input_range,
+                output_range,
+                components,
+                blocks,
+                scratch,
+            );
         }
     }
 
     fn spectrum(&self, kind: usize, wave: usize) -> &[Complex<f64>] {
-        let bins = self.size + 1;
-        &self.spectra[kind][self.waves.spectrum(wave) * bins..][..bins]
+        let frequency_count = self.block_size + 1;
+        &self.spectra[kind][self.waves.spectrum(wave) * frequency_count..][..frequency_count]
     }
 
-    /// [`WaveLevel::apply`] of N components at once, from the inputs `before` to the outputs `ahead`.
+    /// Does [`WaveLevel::apply`] for N components at once, from the inputs `input_range` to the outputs `output_range`.
     #[allow(clippy::too_many_arguments, reason = "as of `apply`, with both ranges")]
     fn apply_coupled<const N: usize>(
         &self,
         rows: &mut [Complex<f64>],
         stride: usize,
-        before: Range<usize>,
-        ahead: Range<usize>,
-        part: Components,
+        input_range: Range<usize>,
+        output_range: Range<usize>,
+        components: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
-        let blocks = &mut blocks[..2 * N * self.size];
+        let blocks = &mut blocks[..2 * N * self.block_size];
         for wave in 0..self.waves.count {
-            for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
+            for (component, block) in blocks.chunks_exact_mut(2 * self.block_size).enumerate() {
                 let begin = (component * self.waves.count + wave) * stride;
                 let row = &rows[begin..][..stride];
-                self.transform_inputs(&row[before.clone()], block, scratch);
+                self.transform_inputs(&row[input_range.clone()], block, scratch);
             }
-            if part == Components::All {
+            if components == Components::All {
                 let spectra = kinds::<N>().map(|row| row.map(|kind| self.spectrum(kind, wave)));
                 multiply_all(blocks, spectra);
             } else {
-                let (pressure, shear) = blocks.split_at_mut(2 * self.size);
+                let (pressure, shear) = blocks.split_at_mut(2 * self.block_size);
                 multiply_coupling(pressure, shear, self.spectrum(COUPLING_KIND, wave));
             }
-            for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
+            for (component, block) in blocks.chunks_exact_mut(2 * self.block_size).enumerate() {
                 let begin = (component * self.waves.count + wave) * stride;
                 let row = &mut rows[begin..][..stride];
-                self.add_to_outputs(block, &mut row[ahead.clone()], scratch);
+                self.add_to_outputs(block, &mut row[output_range.clone()], scratch);
             }
         }
     }
@@ -198,8 +211,8 @@ impl WaveLevel {
         block: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
-        block[..self.size].copy_from_slice(inputs);
-        block[self.size..].fill(Complex::default());
+        block[..self.block_size].copy_from_slice(inputs);
+        block[self.block_size..].fill(Complex::default());
         self.forward.process_with_scratch(block, scratch);
     }
 
@@ -211,15 +224,15 @@ impl WaveLevel {
         scratch: &mut [Complex<f64>],
     ) {
         self.inverse.process_with_scratch(block, scratch);
-        let scale = 0.5 / self.size as f64;
-        for (output, value) in outputs.iter_mut().zip(&block[self.size..]) {
+        let scale = 0.5 / self.block_size as f64;
+        for (output, value) in outputs.iter_mut().zip(&block[self.block_size..]) {
             *output += value.scale(scale);
         }
     }
 }
 
-/// The upper frequencies of a spectrum, in ascending order, from its lower ones.
-fn upper(lower: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64>> {
+/// Upper frequencies of a spectrum in ascending order, from its lower frequencies.
+fn upper_frequencies(lower: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64>> {
     lower[1..lower.len() - 1].iter().rev().map(Complex::conj)
 }
 
@@ -228,7 +241,7 @@ fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
     for (value, factor) in low.iter_mut().zip(spectrum) {
         *value *= factor;
     }
-    for (value, factor) in high.iter_mut().zip(upper(spectrum)) {
+    for (value, factor) in high.iter_mut().zip(upper_frequencies(spectrum)) {
         *value *= factor;
     }
 }
@@ -239,7 +252,7 @@ fn multiply_coupling(
     shear: &mut [Complex<f64>],
     coupling: &[Complex<f64>],
 ) {
-    let spectrum = coupling.iter().copied().chain(upper(coupling));
+    let spectrum = coupling.iter().copied().chain(upper_frequencies(coupling));
     for ((p, s), c) in pressure.iter_mut().zip(shear).zip(spectrum) {
         let c = times_i(c);
         (*p, *s) = (c * *s, -c * *p);
@@ -256,18 +269,18 @@ fn times_i(value: Complex<f64>) -> Complex<f64> {
 /// first column.
 fn multiply_all<const N: usize>(blocks: &mut [Complex<f64>], spectra: [[&[Complex<f64>]; N]; N]) {
     let length = blocks.len() / N;
-    let bins = length / 2 + 1;
-    let mut parts = blocks.chunks_exact_mut(length).map(|block| block.split_at_mut(bins));
+    let lower_count = length / 2 + 1;
+    let mut halves = blocks.chunks_exact_mut(length).map(|block| block.split_at_mut(lower_count));
     let mut low: [&mut [Complex<f64>]; N] = std::array::from_fn(|_| Default::default());
     let mut high: [&mut [Complex<f64>]; N] = std::array::from_fn(|_| Default::default());
-    for ((low, high), part) in low.iter_mut().zip(&mut high).zip(&mut parts) {
-        (*low, *high) = part;
+    for ((low, high), half) in low.iter_mut().zip(&mut high).zip(&mut halves) {
+        (*low, *high) = half;
     }
     multiply_matrix::<N, false>(low, spectra);
     multiply_matrix::<N, true>(high, spectra);
 }
 
-/// Multiplies the lower frequencies, or the upper ones.
+/// Multiplies the lower frequencies, or the upper frequencies.
 fn multiply_matrix<const N: usize, const UPPER: bool>(
     mut blocks: [&mut [Complex<f64>]; N],
     spectra: [[&[Complex<f64>]; N]; N],
@@ -275,18 +288,18 @@ fn multiply_matrix<const N: usize, const UPPER: bool>(
     let length = blocks[0].len();
     let mut blocks = blocks.each_mut().map(|block| &mut block[..length]);
     let spectra = spectra.map(|row| row.map(|spectrum| &spectrum[..length + usize::from(UPPER)]));
-    for place in 0..length {
-        let values: [Complex<f64>; N] = std::array::from_fn(|n| blocks[n][place]);
+    for frequency in 0..length {
+        let values: [Complex<f64>; N] = std::array::from_fn(|n| blocks[n][frequency]);
         for (n, (block, row)) in blocks.iter_mut().zip(&spectra).enumerate() {
             let factor = |m: usize| {
-                if UPPER { row[m][length - place].conj() } else { row[m][place] }
+                if UPPER { row[m][length - frequency].conj() } else { row[m][frequency] }
             };
-            block[place] = if n == 0 {
+            block[frequency] = if n == 0 {
                 (1..N).fold(factor(0) * values[0], |sum, m| sum + times_i(factor(m)) * values[m])
             } else {
-                let shears =
+                let shear_sum =
                     (2..N).fold(factor(1) * values[1], |sum, m| sum + factor(m) * values[m]);
-                shears - times_i(factor(0)) * values[0]
+                shear_sum - times_i(factor(0)) * values[0]
             };
         }
     }
@@ -314,8 +327,8 @@ impl<L, C> Levels<L, C> {
         count: usize,
         make: impl FnOnce(Range<usize>, &mut Option<Arc<C>>) -> Result<Vec<Arc<L>>>,
     ) -> Result<Self> {
-        let missing = make(self.levels.len()..count, &mut self.leaf)?;
-        self.levels.extend(missing);
+        let new_levels = make(self.levels.len()..count, &mut self.leaf)?;
+        self.levels.extend(new_levels);
         Ok(Self { levels: self.levels[..count].to_vec(), leaf: self.leaf.clone() })
     }
 }

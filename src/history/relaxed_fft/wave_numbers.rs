@@ -1,6 +1,6 @@
 //! Wavenumbers of a lattice.
 
-/// Numbers of wavenumbers: those with spectra, and mirror images of these.
+/// Counts of wavenumbers: those with spectra, and their mirror images.
 #[derive(Clone, Copy)]
 pub(super) struct WaveNumbers {
     /// Number of all wavenumbers.
@@ -12,7 +12,7 @@ pub(super) struct WaveNumbers {
 }
 
 impl WaveNumbers {
-    /// Place of the spectrum of a wavenumber.
+    /// Index of the spectrum of a wavenumber.
     pub(super) fn spectrum(self, wave: usize) -> usize {
         if wave < self.with_spectra {
             wave
@@ -21,7 +21,7 @@ impl WaveNumbers {
         }
     }
 
-    /// Ranges of wavenumbers, and the place of the first spectrum of each range.
+    /// Ranges of wavenumbers, and the index of the first spectrum of each range.
     pub(super) fn ranges(self) -> [(std::ops::Range<usize>, usize); 2] {
         [(0..self.with_spectra, 0), (self.with_spectra..self.count, self.first_mirrored)]
     }

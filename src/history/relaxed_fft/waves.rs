@@ -12,15 +12,16 @@ use super::element_grid::ElementGrid;
 use super::leaf::{PlanLeaf, StripLeaf};
 use super::level::Components;
 use super::ring::{LEAF_STEPS, Ring, widened};
-use super::wave_level::{COUPLING_KIND, LeafCoefficients, Levels, WaveLevel};
+use super::wave_level::{LeafCoefficients, Levels, WaveLevel};
 use crate::error::{ProgressReporter, Result, unobserved};
 use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::pair_classes::COUPLING_KIND;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
 /// Unused numbers at the end of each row.
 ///
-/// Without them equal places of all rows would fall into one cache set.
+/// Without them equal columns of all rows would fall into one cache set.
 const ROW_PADDING: usize = 4;
 
 /// Blocks over wavenumbers: the current leaf, all levels, inputs and outputs so far.
@@ -28,9 +29,9 @@ const ROW_PADDING: usize = 4;
 /// Within a leaf, a step's contact vector over B wavenumbers is stored as two slices of B for each component: real
 /// and imaginary parts.
 pub(super) struct WaveBlocks {
-    lattice: ElementGrid,
-    /// Last d at which any coupling is not zero; the largest number if it never ends.
-    reach: usize,
+    grid: ElementGrid,
+    /// Last d at which any coupling is not zero; `usize::MAX` if it never ends.
+    coupling_reach: usize,
     leaf: Arc<LeafCoefficients>,
     levels: Vec<Arc<WaveLevel>>,
     planner: ComplexPlanner,
@@ -52,12 +53,12 @@ pub(super) struct WaveBlocks {
 }
 
 impl WaveBlocks {
-    /// Makes empty blocks of elements on `lattice`.
-    pub(super) fn new(lattice: ElementGrid, kernel: &dyn ConvolutionWeights) -> Result<Self> {
-        let size = width(&lattice);
+    /// Makes empty blocks of elements on a lattice.
+    pub(super) fn new(grid: ElementGrid, kernel: &dyn ConvolutionWeights) -> Result<Self> {
+        let input_width = width(&grid);
         Ok(Self {
-            reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
-            lattice,
+            coupling_reach: grid.last_coupling_lag(kernel)?.saturating_sub(1),
+            grid,
             leaf: Arc::default(),
             levels: Vec::new(),
             planner: ComplexPlanner::new(),
@@ -66,39 +67,40 @@ impl WaveBlocks {
             ring: Ring::ALL_STEPS,
             capacity: 0,
             last_lag: None,
-            inputs: vec![0.0; LEAF_STEPS * size],
-            earlier_effects: vec![0.0; LEAF_STEPS * size],
-            sum: vec![0.0; size],
+            inputs: vec![0.0; LEAF_STEPS * input_width],
+            earlier_effects: vec![0.0; LEAF_STEPS * input_width],
+            sum: vec![0.0; input_width],
             blocks: Vec::new(),
             scratch: Vec::new(),
         })
     }
 
-    /// Whether blocks of `size` have spectra of the coupling.
+    /// Whether blocks of `block_size` have spectra of the coupling.
     ///
     /// They do up to the first size that covers its reach.
-    fn couples(&self, size: usize) -> bool {
-        self.reach > 0 && (size == LEAF_STEPS || size / 2 < self.reach)
+    fn has_coupling_spectra(&self, block_size: usize) -> bool {
+        self.coupling_reach > 0
+            && (block_size == LEAF_STEPS || block_size / 2 < self.coupling_reach)
     }
 
     /// Makes the levels of these numbers, and the coefficients of a leaf unless they are there.
     fn make_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        numbers: Range<usize>,
+        level_indices: Range<usize>,
         leaf: &mut Option<Arc<LeafCoefficients>>,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<Vec<Arc<WaveLevel>>> {
-        let waves = self.lattice.waves();
-        let mut levels = Vec::with_capacity(numbers.len());
-        for number in numbers {
-            let size = LEAF_STEPS << number;
-            let couples = self.couples(size);
-            let kinds = (0..self.lattice.kinds()).map(|kind| kind != COUPLING_KIND || couples);
-            levels.push(WaveLevel::new(size, waves, kinds, &mut self.planner));
+        let waves = self.grid.waves();
+        let mut levels = Vec::with_capacity(level_indices.len());
+        for level_index in level_indices {
+            let block_size = LEAF_STEPS << level_index;
+            let has_coupling = self.has_coupling_spectra(block_size);
+            let kinds = (0..self.grid.kinds()).map(|kind| kind != COUPLING_KIND || has_coupling);
+            levels.push(WaveLevel::new(block_size, waves, kinds, &mut self.planner));
         }
-        let computed = self.fill_spectra(kernel, &mut levels, leaf.is_none(), watch)?;
-        leaf.get_or_insert(Arc::new(computed));
+        let leaf_coefficients = self.fill_spectra(kernel, &mut levels, leaf.is_none(), reporter)?;
+        leaf.get_or_insert(Arc::new(leaf_coefficients));
         Ok(levels.into_iter().map(Arc::new).collect())
     }
 
@@ -108,97 +110,103 @@ impl WaveBlocks {
         kernel: &dyn ConvolutionWeights,
         levels: &mut [WaveLevel],
         with_leaf: bool,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<LeafCoefficients> {
-        let waves = self.lattice.waves().with_spectra;
-        let kinds = self.lattice.kinds();
+        let wave_count = self.grid.waves().with_spectra;
+        let kind_count = self.grid.kinds();
         let leaf_steps = if with_leaf { LEAF_STEPS } else { 0 };
         // The coefficients of a kind are stored in the memory of its largest spectra until these are computed.
-        let largest: Vec<_> =
-            (0..kinds).map(|kind| levels.iter().rposition(|level| level.has(kind))).collect();
-        let lags_of = |kind: usize| {
-            let level = largest[kind].and_then(|number| levels.get(number));
-            level.map_or(leaf_steps, |level| 2 * level.size)
+        let largest_levels: Vec<_> = (0..kind_count)
+            .map(|kind| levels.iter().rposition(|level| level.has_spectra(kind)))
+            .collect();
+        let kind_lags = |kind: usize| {
+            let level = largest_levels[kind].and_then(|level_index| levels.get(level_index));
+            level.map_or(leaf_steps, |level| 2 * level.block_size)
         };
-        let lags = lags_of(0);
-        let coupled = lags_of(COUPLING_KIND).min(self.reach.saturating_add(1));
-        let mut table = vec![vec![0.0; leaf_steps * waves]; kinds];
-        let computed_lags = lags.min(self.last_lag.unwrap_or(lags));
-        self.lattice.coefficients(kernel, computed_lags, coupled, |kind, d, values| {
+        let lag_count = kind_lags(0);
+        let coupled_lags = kind_lags(COUPLING_KIND).min(self.coupling_reach.saturating_add(1));
+        let mut leaf_tables = vec![vec![0.0; leaf_steps * wave_count]; kind_count];
+        let computed_lags = lag_count.min(self.last_lag.unwrap_or(lag_count));
+        self.grid.coefficients(kernel, computed_lags, coupled_lags, |kind, d, values| {
             if kind == 0 && d.is_multiple_of(LEAF_STEPS) {
-                watch.reach(SPECTRA_PROGRESS_PARTS / 2 * d / computed_lags)?;
+                reporter.reach(SPECTRA_PROGRESS_PARTS / 2 * d / computed_lags)?;
             }
             if d < leaf_steps {
-                table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
+                leaf_tables[kind][d * wave_count..(d + 1) * wave_count].copy_from_slice(values);
             }
-            if let Some(level) = largest[kind].and_then(|number| levels.get_mut(number)) {
+            if let Some(level) =
+                largest_levels[kind].and_then(|level_index| levels.get_mut(level_index))
+            {
                 level.store_coefficients(kind, d, values);
             }
             Ok(())
         })?;
         let mut planner = RealPlanner::new();
-        let half = SPECTRA_PROGRESS_PARTS / 2;
-        let mut time = vec![0.0; lags];
-        let mut real = vec![0.0; lags];
-        for (kind, largest) in largest.into_iter().enumerate() {
-            let Some(largest) = largest else { continue };
-            for wave in 0..waves {
-                watch.reach(half + half * (kind * waves + wave) / (kinds * waves))?;
-                levels[largest].stored_coefficients(kind, wave, &mut time);
-                for level in levels.iter_mut().filter(|level| level.has(kind)) {
-                    let real = &mut real[..2 * level.size];
-                    real.copy_from_slice(&time[..2 * level.size]);
-                    level.transform(kind, wave, real, &mut planner, &mut self.scratch);
+        let half_parts = SPECTRA_PROGRESS_PARTS / 2;
+        let mut samples = vec![0.0; lag_count];
+        let mut buffer = vec![0.0; lag_count];
+        for (kind, largest_level) in largest_levels.into_iter().enumerate() {
+            let Some(largest_level) = largest_level else { continue };
+            for wave in 0..wave_count {
+                reporter.reach(
+                    half_parts
+                        + half_parts * (kind * wave_count + wave) / (kind_count * wave_count),
+                )?;
+                levels[largest_level].stored_coefficients(kind, wave, &mut samples);
+                for level in levels.iter_mut().filter(|level| level.has_spectra(kind)) {
+                    let buffer = &mut buffer[..2 * level.block_size];
+                    buffer.copy_from_slice(&samples[..2 * level.block_size]);
+                    level.transform(kind, wave, buffer, &mut planner, &mut self.scratch);
                 }
             }
         }
-        Ok(table)
+        Ok(leaf_tables)
     }
 
     /// Moves the leaf that ends before `now` to the rows, adds its effect, and begins the next leaf.
     fn finish_leaf(&mut self, now: usize) {
-        let waves = self.lattice.waves().count;
+        let wave_count = self.grid.waves().count;
         let ring = self.ring;
-        let size = width(&self.lattice);
-        let before = ring.before(now, LEAF_STEPS);
-        let stale = ring.stale(now);
+        let input_width = width(&self.grid);
+        let input_range = ring.input_range(now, LEAF_STEPS);
+        let stale_range = ring.stale_range(now);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
-            if let Some(stale) = &stale {
-                values[stale.clone()].fill(Complex::default());
+            if let Some(stale_range) = &stale_range {
+                values[stale_range.clone()].fill(Complex::default());
             }
-            let re = 2 * waves * (row / waves) + row % waves;
-            let inputs = self.inputs.chunks_exact(size);
-            for (value, input) in values[before.clone()].iter_mut().zip(inputs) {
-                *value = Complex::new(input[re], input[re + waves]);
+            let re = 2 * wave_count * (row / wave_count) + row % wave_count;
+            let inputs = self.inputs.chunks_exact(input_width);
+            for (value, input) in values[input_range.clone()].iter_mut().zip(inputs) {
+                *value = Complex::new(input[re], input[re + wave_count]);
             }
         }
-        let number = ring.level(now, self.levels.len());
-        let part = if self.levels[number].has(COUPLING_KIND) {
+        let level_index = ring.level_index(now, self.levels.len());
+        let components = if self.levels[level_index].has_spectra(COUPLING_KIND) {
             Components::All
         } else {
             Components::Even
         };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
-        levels[number].apply(rows, *stride, ring, now, part, blocks, scratch);
-        if part == Components::Even
-            && let Some(level) = levels.iter().rfind(|level| level.has(COUPLING_KIND))
+        levels[level_index].apply(rows, *stride, ring, now, components, blocks, scratch);
+        if components == Components::Even
+            && let Some(level) = levels.iter().rfind(|level| level.has_spectra(COUPLING_KIND))
         {
             level.apply(rows, *stride, ring, now, Components::Coupling, blocks, scratch);
         }
-        let begin = ring.place(now);
+        let begin = ring.column(now);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
-            let re = 2 * waves * (row / waves) + row % waves;
-            let outputs = self.earlier_effects.chunks_exact_mut(size);
+            let re = 2 * wave_count * (row / wave_count) + row % wave_count;
+            let outputs = self.earlier_effects.chunks_exact_mut(input_width);
             for (value, output) in values[begin..begin + LEAF_STEPS].iter().zip(outputs) {
                 output[re] = value.re;
-                output[re + waves] = value.im;
+                output[re + wave_count] = value.im;
             }
         }
     }
 
     /// Lengthens all rows to `stride`, with their values.
     fn widen(&mut self, stride: usize) {
-        self.rows = widened(&self.rows, width(&self.lattice) / 2, self.stride, stride);
+        self.rows = widened(&self.rows, width(&self.grid) / 2, self.stride, stride);
         self.stride = stride;
     }
 
@@ -209,33 +217,33 @@ impl WaveBlocks {
         &mut self,
         kernel: &dyn ConvolutionWeights,
         level_count: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
         // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
         let lags = LEAF_STEPS << level_count;
         kernel.prepare(lags.min(self.last_lag.unwrap_or(lags)), &mut unobserved)?;
         // If late lags are neglected, the spectra do not include all lags, and the store is not used.
         let spectra = kernel.spectra().filter(|_| self.last_lag.is_none());
-        let spectra = spectra.filter(|s| s.are_of(kernel.classes().elements()));
+        let spectra = spectra.filter(|s| s.belong_to(kernel.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, LeafCoefficients>>);
         let mut shared = shared.as_deref().map(lock);
         let leaf = (self.capacity > 0).then(|| Arc::clone(&self.leaf));
         let mut private_store = Levels { levels: self.levels.clone(), leaf };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
-        let found = store.smallest(level_count, |numbers, leaf| {
-            self.make_levels(kernel, numbers, leaf, watch)
+        let levels = store.smallest(level_count, |level_indices, leaf| {
+            self.make_levels(kernel, level_indices, leaf, reporter)
         })?;
-        self.levels = found.levels;
-        self.leaf = found.leaf.unwrap_or_default();
+        self.levels = levels.levels;
+        self.leaf = levels.leaf.unwrap_or_default();
         let zero = Complex::default();
         if let Some(level) = self.levels.last() {
             // Components with coupling are all transformed before they are multiplied.
-            let coupled_length = self.levels.iter().rfind(|level| level.has(COUPLING_KIND));
+            let coupled_length = self.levels.iter().rfind(|level| level.has_spectra(COUPLING_KIND));
             let coupled_length =
-                coupled_length.map_or(0, |l| 2 * self.lattice.components() * l.size);
-            let length = self.blocks.len().max(coupled_length).max(2 * level.size);
+                coupled_length.map_or(0, |l| 2 * self.grid.components() * l.block_size);
+            let length = self.blocks.len().max(coupled_length).max(2 * level.block_size);
             self.blocks.resize(length, zero);
-            self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
+            self.scratch.resize(self.scratch.len().max(level.scratch_length()), zero);
         }
         Ok(())
     }
@@ -253,24 +261,24 @@ impl HistoryBlocks for WaveBlocks {
             + self.inputs.len()
             + self.earlier_effects.len()
             + self.sum.len()
-            + self.lattice.numbers()
+            + self.grid.numbers()
     }
 
     fn grow(
         &mut self,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
-        watch: &mut ProgressReporter,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
         let leaves = steps.div_ceil(LEAF_STEPS).max(1);
         let largest = leaves.next_power_of_two();
-        // The first request is met exactly; later ones double the memory.
+        // The first request is met exactly; later requests double the memory.
         let capacity = LEAF_STEPS * if self.capacity == 0 { leaves } else { largest };
         let level_count = largest.ilog2() as usize;
-        self.take_levels(kernel, level_count, watch)?;
+        self.take_levels(kernel, level_count, reporter)?;
         if capacity > LEAF_STEPS {
             self.widen(capacity + ROW_PADDING);
         }
@@ -281,13 +289,13 @@ impl HistoryBlocks for WaveBlocks {
     fn bound(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        reach: usize,
-        watch: &mut ProgressReporter,
+        last_delay: usize,
+        reporter: &mut ProgressReporter,
     ) -> Result<()> {
-        self.last_lag = Some(reach);
-        self.take_levels(kernel, (reach / LEAF_STEPS).ilog2() as usize + 1, watch)?;
-        self.widen(2 * reach + ROW_PADDING);
-        self.ring = Ring(2 * reach);
+        self.last_lag = Some(last_delay);
+        self.take_levels(kernel, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
+        self.widen(2 * last_delay + ROW_PADDING);
+        self.ring = Ring(2 * last_delay);
         self.capacity = usize::MAX;
         Ok(())
     }
@@ -299,34 +307,34 @@ impl HistoryBlocks for WaveBlocks {
     }
 
     fn write(&mut self, now: usize, traction: &[f64]) {
-        let waves = self.lattice.waves().count;
-        let size = width(&self.lattice);
-        let input = &mut self.inputs[now % LEAF_STEPS * size..][..size];
-        let components = traction.chunks_exact(traction.len() / self.lattice.components());
-        for (component, (values, part)) in
+        let waves = self.grid.waves().count;
+        let input_width = width(&self.grid);
+        let input = &mut self.inputs[now % LEAF_STEPS * input_width..][..input_width];
+        let components = traction.chunks_exact(traction.len() / self.grid.components());
+        for (component, (values, complex_values)) in
             components.zip(input.chunks_exact_mut(2 * waves)).enumerate()
         {
-            let (re, im) = part.split_at_mut(waves);
-            self.lattice.forward(component, values, re, im);
+            let (re, im) = complex_values.split_at_mut(waves);
+            self.grid.forward(component, values, re, im);
         }
     }
 
     fn width(&self) -> usize {
-        width(&self.lattice)
+        width(&self.grid)
     }
 
     fn input(&self, step: usize, effects_end: usize, values: &mut Vec<f64>) {
-        let waves = self.lattice.waves().count;
-        let size = self.width();
+        let waves = self.grid.waves().count;
+        let input_width = self.width();
         if step >= effects_end - effects_end % LEAF_STEPS {
-            let begin = step % LEAF_STEPS * size;
-            values.extend_from_slice(&self.inputs[begin..begin + size]);
+            let begin = step % LEAF_STEPS * input_width;
+            values.extend_from_slice(&self.inputs[begin..begin + input_width]);
         } else {
-            let place = self.ring.place(step);
-            for component in 0..self.lattice.components() {
+            let column = self.ring.column(step);
+            for component in 0..self.grid.components() {
                 let rows = component * waves..(component + 1) * waves;
-                values.extend(rows.clone().map(|row| self.rows[row * self.stride + place].re));
-                values.extend(rows.map(|row| self.rows[row * self.stride + place].im));
+                values.extend(rows.clone().map(|row| self.rows[row * self.stride + column].re));
+                values.extend(rows.map(|row| self.rows[row * self.stride + column].im));
             }
         }
     }
@@ -342,16 +350,18 @@ impl HistoryBlocks for WaveBlocks {
     }
 
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
-        let waves = self.lattice.waves();
-        let size = width(&self.lattice);
-        let components = self.lattice.components();
-        let place = now % LEAF_STEPS;
-        self.sum.copy_from_slice(&self.earlier_effects[place * size..(place + 1) * size]);
+        let waves = self.grid.waves();
+        let input_width = width(&self.grid);
+        let components = self.grid.components();
+        let leaf_step = now % LEAF_STEPS;
+        self.sum.copy_from_slice(
+            &self.earlier_effects[leaf_step * input_width..(leaf_step + 1) * input_width],
+        );
         let sum = &mut self.sum[..];
-        let inputs = &self.inputs[..place * size];
+        let inputs = &self.inputs[..leaf_step * input_width];
         if let [normal, tangential, coupling] = &self.leaf[..] {
             let coefficients = [&normal[..], tangential, coupling];
-            let reach = self.reach;
+            let reach = self.coupling_reach;
             vectorized(StripLeaf { sum, inputs, coefficients, waves: waves.count, reach });
         } else {
             vectorized(PlanLeaf { sum, inputs, coefficients: &self.leaf, waves });
@@ -361,14 +371,14 @@ impl HistoryBlocks for WaveBlocks {
             values.zip(self.sum.chunks_exact(2 * waves.count)).enumerate()
         {
             let (re, im) = sum.split_at(waves.count);
-            self.lattice.inverse(component, re, im, values);
+            self.grid.inverse(component, re, im, values);
         }
     }
 }
 
 /// Length of a step's contact vector over the wavenumbers of a lattice.
-fn width(lattice: &ElementGrid) -> usize {
-    2 * lattice.components() * lattice.waves().count
+fn width(grid: &ElementGrid) -> usize {
+    2 * grid.components() * grid.waves().count
 }
 
 #[cfg(test)]

@@ -84,22 +84,22 @@ fn transforms_are_the_direct_sum() {
             let kernel = RandomWeights::new(&lattice, cells.clone());
             let mut direct = DirectHistory::new(kernel.clone());
             let mut fast = RelaxedFftHistory::new(kernel.clone());
-            let mut wanted = vec![0.0; size];
-            let mut found = vec![0.0; size];
+            let mut expected = vec![0.0; size];
+            let mut computed = vec![0.0; size];
             let mut random = Random(3);
             let mut past: Vec<Vec<f64>> = vec![];
-            let mut worst = [0.0_f64; 2];
+            let mut max_errors = [0.0_f64; 2];
             for step in 0..300 {
-                direct.evaluate(&mut wanted).unwrap();
-                fast.evaluate(&mut found).unwrap();
-                let largest = wanted.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-                for (found, wanted) in found.iter().zip(&wanted) {
-                    worst[0] = worst[0].max((found - wanted).abs() / largest);
+                direct.evaluate(&mut expected).unwrap();
+                fast.evaluate(&mut computed).unwrap();
+                let largest = expected.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+                for (computed, expected) in computed.iter().zip(&expected) {
+                    max_errors[0] = max_errors[0].max((computed - expected).abs() / largest);
                 }
                 if step == 20 {
                     let reference = summed(&kernel, &cells, &past);
-                    for (reference, wanted) in reference.iter().zip(&wanted) {
-                        worst[1] = worst[1].max((reference - wanted).abs() / largest);
+                    for (reference, expected) in reference.iter().zip(&expected) {
+                        max_errors[1] = max_errors[1].max((reference - expected).abs() / largest);
                     }
                 }
                 let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
@@ -107,8 +107,8 @@ fn transforms_are_the_direct_sum() {
                 fast.push(&traction);
                 past.push(traction);
             }
-            println!("{counts:?} {pitch:?} {worst:?}");
-            assert!(worst[0].max(worst[1]) < 1e-13, "{mask} {worst:?}");
+            println!("{counts:?} {pitch:?} {max_errors:?}");
+            assert!(max_errors[0].max(max_errors[1]) < 1e-13, "{mask} {max_errors:?}");
         }
     }
 }
