@@ -84,7 +84,7 @@ fn curves_with_limit(
 /// As for [`curves`]; [`Error::Scene`](crate::Error::Scene) for runs in the plane and in plan together, whose units
 /// differ.
 pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
-    let limit = quantity.limit();
+    let limit = quantity.limit_label();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
     let PrintedUnit { factor, symbol: unit } = quantity.printed(in_plan);
     let have_same_unit = runs.iter().all(|(_, run)| quantity.printed(run.in_plan()).symbol == unit);

@@ -162,7 +162,7 @@ impl TimeSeries {
         }
         self.check_memory(1)?;
         self.reserve_steps(1)?;
-        self.sequence.takes(state);
+        self.sequence.accept(state);
         self.steps += 1;
         self.store(state);
         Ok(())
@@ -319,7 +319,13 @@ impl TimeSeries {
     #[cfg(feature = "embedded")]
     pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
         self.contact_frames().map(move |frame| {
-            FaceForces::on(face, &self.elements, &self.pressure_depths, frame.states, frame.modes)
+            FaceForces::of_face(
+                face,
+                &self.elements,
+                &self.pressure_depths,
+                frame.states,
+                frame.modes,
+            )
         })
     }
 

@@ -5,17 +5,26 @@ use std::fmt;
 use crate::text::column::column;
 use crate::text::readable_number::{number, of_body};
 
-/// Side of the balance on which a term stands.
+/// Place of a term in the energy balance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// Left-hand side of the balance: stored, or still available.
-    Balance,
+    /// Left-hand side: stored energy, and energy that the time scheme adds or removes.
+    Stored,
     /// Left-hand side: energy that the structure has lost to heat or to the ground.
     Lost,
     /// Right-hand side.
     Input,
     /// Not part of the balance.
-    Beside,
+    Outside,
+}
+
+/// Row of the table of energies.
+struct EnergyTermRow {
+    /// Word in files and programs, `soil`.
+    word: &'static str,
+    side: Side,
+    /// Name in tables and pictures.
+    name: &'static str,
 }
 
 /// Declares the terms as an enum, and the energy balance with a field for each, from rows in the order of columns.
@@ -28,7 +37,11 @@ macro_rules! energies {
             $($(#[$doc])* $variant,)+
         }
 
-        const ENERGY_TERM_ROWS: &[(&str, Side, &str)] = &[$((stringify!($field), Side::$side, $name)),+];
+        const ENERGY_TERM_ROWS: &[EnergyTermRow] = &[$(EnergyTermRow {
+            word: stringify!($field),
+            side: Side::$side,
+            name: $name,
+        }),+];
 
         impl EnergyTerm {
             /// All terms, in the order of columns.
@@ -76,11 +89,11 @@ macro_rules! energies {
 
 energies! {
     /// Kinetic energy ½ v·M v.
-    Kinetic kinetic, Balance, "kinetic and strain";
+    Kinetic kinetic, Stored, "kinetic and strain";
     /// Strain energy ½ u·K u, plus the stored energy of the nonlinear internal force.
     ///
     /// If the structure does not separate stored from dissipated energy, the work of that force since t = 0.
-    Strain strain, Balance, "kinetic and strain";
+    Strain strain, Stored, "kinetic and strain";
     /// Heat of hysteretic parts of the structure; it never falls.
     ///
     /// See [`NonlinearForce::energy`](crate::structure::NonlinearForce::energy).
@@ -92,7 +105,7 @@ energies! {
     /// In the structure it is zero for the midpoint rule. In compliant interfaces the traction at the end of the
     /// step acts throughout the step. With a nonlinear force of known energies, it includes the difference between
     /// its work in the discrete equation and these energies: the error of one point in a step, of either sign.
-    Algorithmic algorithmic, Balance, "time scheme";
+    Algorithmic algorithmic, Stored, "time scheme";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
@@ -101,40 +114,40 @@ energies! {
     /// weight of soil that follows a wall ([`EarthPressure`](crate::interface::EarthPressure)), and with no other
     /// law of the crate.
     Contact contact, Lost, "friction and impact";
-    /// Elastic energy stored in compliant interfaces, as a change against the static state.
+    /// Elastic energy stored in compliant interfaces, minus that of the static state.
     ///
     /// See [`crate::interface::InterfaceLaw::compliance`]; zero for hard contact.
-    Interface interface, Balance, "interface layer";
-    /// Potential of the static tractions against the change of the jump.
-    StaticContact static_contact, Balance, "static pressures";
+    Interface interface, Stored, "interface layer";
+    /// Potential energy of the static tractions on the change of the jump.
+    StaticContact static_contact, Stored, "static pressures";
     /// Work of external loads and of the free field, and the energy of an initial motion.
     Input input, Input, "input";
     /// Relative input energy (Uang & Bertero 1990); not part of the balance.
     ///
     /// Work of the loads, and of the inertia forces −M R ÿ of the free field's translation y, on displacements
     /// relative to it. Compare it with the value of a structure on a fixed base.
-    RelativeInput relative_input, Beside, "relative input";
+    RelativeInput relative_input, Outside, "relative input";
     /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is approximate.
     ///
     /// The terms above balance with the approximate history, so the residual does not contain this error. With the
     /// exact history the soil may take this much more or less energy.
-    SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
+    SoilErrorBound soil_error_bound, Outside, "error bound of the soil";
     /// Largest energy since the start, to which residuals are relative.
     ///
     /// Magnitude of any term of the balance at the end of any step, ½ M v² of the whole structure moving with the
     /// ground, and the energy of the static state in compliant interfaces and nonlinear parts.
-    Largest largest, Beside, "largest energy";
+    Largest largest, Outside, "largest energy";
 }
 
 impl EnergyTerm {
     /// Name of the term in tables and pictures; terms with one name are shown as their sum.
     pub(crate) fn name(self) -> &'static str {
-        ENERGY_TERM_ROWS[self as usize].2
+        ENERGY_TERM_ROWS[self as usize].name
     }
 
     /// Column of the term in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
     pub(crate) fn column(self, in_plan: bool) -> String {
-        let word = ENERGY_TERM_ROWS[self as usize].0;
+        let word = ENERGY_TERM_ROWS[self as usize].word;
         let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
         column(&name, of_body("J/m", in_plan))
     }
@@ -145,14 +158,14 @@ impl EnergyTerm {
     }
 
     fn side(self) -> Side {
-        ENERGY_TERM_ROWS[self as usize].1
+        ENERGY_TERM_ROWS[self as usize].side
     }
 }
 
 /// Prints the word of its field, `soil`.
 impl fmt::Display for EnergyTerm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(ENERGY_TERM_ROWS[*self as usize].0)
+        f.pad(ENERGY_TERM_ROWS[*self as usize].word)
     }
 }
 
@@ -162,16 +175,16 @@ impl EnergyBalance {
         self.terms()[term as usize]
     }
 
-    /// Terms of the left-hand side.
-    fn balance(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
+    /// Terms of the left-hand side, with their energies.
+    fn left_hand_terms(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
         let all = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
-        all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
+        all.filter(|(term, _)| matches!(term.side(), Side::Stored | Side::Lost))
     }
 
-    /// Parts of the input energy, J, in the plane J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    /// Parts of the input energy, J, in the plane J/m; terms with one [name](EnergyTerm::name) are added.
     pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
-        for (term, energy) in self.balance() {
+        for (term, energy) in self.left_hand_terms() {
             match parts.iter_mut().find(|(name, _)| *name == term.name()) {
                 Some((_, sum)) => *sum += energy,
                 None => parts.push((term.name(), energy)),
@@ -196,8 +209,8 @@ impl EnergyBalance {
 
     /// Largest energy so far, the present terms included.
     pub(crate) fn scale(&self) -> f64 {
-        let terms = self.balance().map(|(_, energy)| energy).chain([self.input]);
-        terms.fold(self.largest, |m, term| m.max(term.abs()))
+        let energies = self.left_hand_terms().map(|(_, energy)| energy).chain([self.input]);
+        energies.fold(self.largest, |largest, energy| largest.max(energy.abs()))
     }
 
     /// Whether there is no energy balance: every term is then NaN.
@@ -212,9 +225,10 @@ impl EnergyBalance {
         if self.is_left_out() {
             return f64::NAN;
         }
-        let open = (self.balance().map(|(_, energy)| energy).sum::<f64>() - self.input).abs();
-        // `max` ignores NaN, but the sum does not.
-        if open == 0.0 { 0.0 } else { open / self.scale() }
+        let left_hand_side = self.left_hand_terms().map(|(_, energy)| energy).sum::<f64>();
+        let imbalance = (left_hand_side - self.input).abs();
+        // A term that is NaN makes the imbalance NaN; `scale` ignores it.
+        if imbalance == 0.0 { 0.0 } else { imbalance / self.scale() }
     }
 }
 
@@ -232,15 +246,16 @@ impl fmt::Display for EnergyBalance {
         if self.is_left_out() {
             return write!(f, "energy balance left out");
         }
-        let shown = |energy: f64| number(1e-3 * energy);
-        writeln!(f, "energy, kJ (in the plane kJ/m): input {}", shown(self.input))?;
+        let kilojoules = |energy: f64| number(1e-3 * energy);
+        writeln!(f, "energy, kJ (in the plane kJ/m): input {}", kilojoules(self.input))?;
         for pair in self.parts().chunks(2) {
-            let cell = |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", shown(*energy));
+            let cell =
+                |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", kilojoules(*energy));
             writeln!(f, "  {}", pair.iter().map(cell).collect::<Vec<_>>().join("    "))?;
         }
         write!(f, "  {:<24}{:>12.1e}", "residual", self.residual())?;
         if self.soil_error_bound > 0.0 {
-            let bound = shown(self.soil_error_bound);
+            let bound = kilojoules(self.soil_error_bound);
             write!(f, "\n  {:<24}{bound:>12}", EnergyTerm::SoilErrorBound.name())?;
         }
         Ok(())

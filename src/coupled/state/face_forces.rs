@@ -38,7 +38,7 @@ pub struct FaceForces {
 }
 
 impl State {
-    /// Forces on a face; all zero and its place NaN for a wall of a base without walls.
+    /// Forces on a face; zero with `place` NaN for a wall of a base without walls.
     ///
     /// ```
     /// # use basemat::prelude::*;
@@ -63,15 +63,15 @@ impl State {
     /// ```
     pub fn face(&self, face: Face) -> FaceForces {
         let Context { elements, pressure_depths, .. } = &*self.context;
-        FaceForces::on(face, elements, pressure_depths, &self.contact, &self.modes)
+        FaceForces::of_face(face, elements, pressure_depths, &self.contact, &self.modes)
     }
 }
 
 impl FaceForces {
-    /// Forces on a face, from state and mode of each of the `elements` of a ground.
+    /// Forces on a face, from state and mode of each element of a ground.
     ///
-    /// `pressure_depths`: distances of the resultant pressure below the middle of each element; empty for none.
-    pub(crate) fn on(
+    /// `pressure_depths`: distance of the resultant pressure below the middle of each element, m; empty where it is zero.
+    pub(crate) fn of_face(
         face: Face,
         elements: &[ContactElement],
         pressure_depths: &[f64],
@@ -83,29 +83,29 @@ impl FaceForces {
         let bottom = floor.first().map_or(0.0, |element| element.center()[2]);
         let ends =
             [floor.first().map(ContactElement::left), floor.last().map(ContactElement::right)];
-        let middle = middle(ends.map(Option::unwrap_or_default));
+        let floor_middle = middle(ends.map(Option::unwrap_or_default));
         let mut thrust = 0.0;
         let mut shear = 0.0;
         let mut moment = 0.0;
-        let mut open = 0.0;
-        let mut length = 0.0;
+        let mut open_length = 0.0;
+        let mut total_length = 0.0;
         for e in faces[face as usize].clone() {
             let element = &elements[e];
             let state = &contact[e];
             let area = element.area();
             let center = element.center();
-            let below_middle = pressure_depths.get(e).copied().unwrap_or(0.0);
-            let height = center[2] - below_middle - bottom;
-            let arm = if face == Face::Base { center[0] - middle } else { height };
+            let pressure_depth = pressure_depths.get(e).copied().unwrap_or(0.0);
+            let height = center[2] - pressure_depth - bottom;
+            let arm = if face == Face::Base { center[0] - floor_middle } else { height };
             thrust += area * state.pressure;
             shear += area * state.shear;
             moment += area * state.pressure * arm;
-            length += area;
+            total_length += area;
             if !modes[e].is_closed() {
-                open += area;
+                open_length += area;
             }
         }
-        let open_fraction = if length > 0.0 { open / length } else { 0.0 };
+        let open_fraction = if total_length > 0.0 { open_length / total_length } else { 0.0 };
         Self { thrust, shear, place: moment / thrust, open_fraction }
     }
 }

@@ -50,24 +50,24 @@ impl Transition {
     }
 }
 
-/// Number of the simulation that a state belongs to.
+/// Identity of the simulation to which a state belongs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Origin(u64);
 
 impl Origin {
     /// Identity of a new simulation.
     pub(crate) fn new() -> Self {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
-        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+        static NEXT_ORIGIN: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT_ORIGIN.fetch_add(1, Ordering::Relaxed))
     }
 
     /// Whether both identities belong to one simulation.
-    pub(crate) fn is(self, other: Self) -> bool {
+    pub(crate) fn is_same(self, other: Self) -> bool {
         self.0 == other.0
     }
 }
 
-/// Shared data for computing results.
+/// Data of a simulation from which results of every state are computed.
 #[derive(Debug)]
 pub(crate) struct Context {
     pub(crate) probes: Vec<Probe>,
@@ -91,7 +91,7 @@ pub(crate) struct Context {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct State {
-    /// Steps made.
+    /// Number of steps since the start of the simulation.
     pub step: usize,
     /// Time, s.
     pub time: f64,
@@ -99,7 +99,7 @@ pub struct State {
     pub contact: Vec<ContactState>,
     /// Mode of each element.
     pub modes: Vec<Mode>,
-    /// Changes of mode in this step.
+    /// Changes of mode in the step.
     pub transitions: Vec<Transition>,
     /// Values of the probes, in the order of the builder.
     pub probes: Vec<f64>,
@@ -142,14 +142,14 @@ pub struct State {
     pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) kinematics: Kinematics,
-    /// Start of the next step for the laws, per element.
+    /// Contact of each element at the start of the next step, for its law.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: PreviousContacts,
 }
 
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
-        // Named one by one, so that a new field is compared or left out on purpose.
+        // All fields are named, so that the compiler reports a new field that is not compared.
         let Self {
             step,
             time,
@@ -203,9 +203,8 @@ impl State {
     ///
     /// For each connected part, its displacement since t = 0 minus the mean translation of the ground under it.
     ///
-    /// These four are computed at their first use in a step. A structure in modal coordinates takes n² operations
-    /// for them; without use they cost nothing. Absolute displacements are computed in every step that uses them.
-    /// To record a few quantities at every step, a [`Probe`](super::Probe) takes less time.
+    /// Displacements, velocities and accelerations are computed at their first use in a step. In modal coordinates this
+    /// takes n² operations. To record a few quantities at every step, a [`Probe`](super::Probe) takes less time.
     pub fn displacement(&self) -> &[f64] {
         self.kinematics.dofs(DofResponse::Displacement)
     }
@@ -227,7 +226,7 @@ impl State {
 
     /// The value of the probe called `name`.
     ///
-    /// Every call searches for the name; [`State::probes`] gives the value by its index at once.
+    /// Every call searches for the name; [`State::probes`] contains the values by index.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -254,16 +253,15 @@ impl State {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe has this name.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        // The list of values is public: it may have been shortened.
-        let known = &self.context.probes;
-        let known = &known[..known.len().min(self.probes.len())];
-        probe_index(known, name, |probe| &probe.name).map(|place| self.probes[place])
+        // The caller may have shortened the public list of values.
+        let all_probes = &self.context.probes;
+        let probes = &all_probes[..all_probes.len().min(self.probes.len())];
+        probe_index(probes, name, |probe| &probe.name).map(|index| self.probes[index])
     }
 
     /// Largest rotation of a foundation about a horizontal axis, rad.
     pub(crate) fn tilt(&self) -> f64 {
-        let tilts = self.foundations.iter();
-        let tilts = tilts.map(|foundation| {
+        let tilts = self.foundations.iter().map(|foundation| {
             resultant(foundation.base_rotation, foundation.rotation_across).abs()
         });
         tilts.fold(0.0, f64::max)

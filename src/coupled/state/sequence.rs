@@ -7,9 +7,11 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(crate) struct Sequence {
     origin: Origin,
-    elements: usize,
-    probes: usize,
+    element_count: usize,
+    probe_count: usize,
+    /// Elements of each foundation.
     foundations: Vec<Range<usize>>,
+    /// Time of the last state, s.
     end: f64,
 }
 
@@ -18,8 +20,8 @@ impl Sequence {
     pub(crate) fn new(state: &State) -> Self {
         Self {
             origin: state.origin,
-            elements: state.contact.len(),
-            probes: state.probes.len(),
+            element_count: state.contact.len(),
+            probe_count: state.probes.len(),
             foundations: state
                 .foundations
                 .iter()
@@ -38,10 +40,13 @@ impl Sequence {
     /// Sequence that accepts no state; its last state was at `end`, s.
     #[cfg(feature = "serde")]
     pub(crate) fn ended(end: f64) -> Self {
-        let elements = 0;
-        let probes = 0;
-        let foundations = Vec::new();
-        Self { origin: Origin::new(), elements, probes, foundations, end }
+        Self {
+            origin: Origin::new(),
+            element_count: 0,
+            probe_count: 0,
+            foundations: Vec::new(),
+            end,
+        }
     }
 
     /// Writes only the time of the last state.
@@ -55,22 +60,22 @@ impl Sequence {
 
     /// Whether `state` belongs to the same simulation and is later than the last one.
     pub(crate) fn is_next(&self, state: &State) -> bool {
-        // The fields of a state are public and may have been changed.
-        state.origin.is(self.origin)
-            && state.contact.len() == self.elements
-            && state.modes.len() == self.elements
-            && state.probes.len() == self.probes
+        // The caller may have changed the public fields of a state.
+        state.origin.is_same(self.origin)
+            && state.contact.len() == self.element_count
+            && state.modes.len() == self.element_count
+            && state.probes.len() == self.probe_count
             && state.foundations.iter().map(|foundation| &foundation.elements).eq(&self.foundations)
             && state.time > self.end
     }
 
-    /// Whether `state` is the next one; if so, stores its time as the last.
-    pub(crate) fn takes(&mut self, state: &State) -> bool {
-        let takes = self.is_next(state);
-        if takes {
+    /// Adds `state` if it is the next one, and returns whether it is.
+    pub(crate) fn accept(&mut self, state: &State) -> bool {
+        let is_next = self.is_next(state);
+        if is_next {
             self.end = state.time;
         }
-        takes
+        is_next
     }
 
     /// Time of the last state, s.
