@@ -17,7 +17,7 @@ pub enum UnilateralCondition {
     /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
     /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that step.
     Velocity {
-        /// Largest gap at which an element counts as closed, m.
+        /// Largest gap at which an element is regarded as closed, m.
         closed_below: f64,
     },
 }

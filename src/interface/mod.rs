@@ -273,7 +273,7 @@ pub trait InterfaceLaw: Send {
     /// work on the inelastic gap and slip, and the energy released by a compliance that changes.
     ///
     /// The simulation calls this method for every mode at the static state, and once per step for the mode at its end. A law
-    /// without state variables that is hard in every mode at the static state counts as hard for the whole
+    /// without state variables that is hard in every mode at the static state is treated as hard in the whole
     /// run.
     fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]

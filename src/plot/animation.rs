@@ -131,8 +131,8 @@ impl Screen {
         let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
         let PixelBox { left, top, right, bottom } = STRUCTURE_BOX;
         let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
-        let left = left + 0.5 * (right - left - scale * sides[0]);
-        Self { scale, left, bottom, origin: bounds.map(|[low, _]| low) }
+        let structure_left = left + 0.5 * (right - left - scale * sides[0]);
+        Self { scale, left: structure_left, bottom, origin: bounds.map(|[low, _]| low) }
     }
 
     /// Pixels of a point in m.

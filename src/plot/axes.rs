@@ -138,7 +138,7 @@ impl ChartAxis {
     }
 }
 
-/// Marks and description of an axis of known length.
+/// Marks and description of an axis that fit its length in pixels.
 struct AxisLayout {
     range: Range<f64>,
     marks: Vec<(f64, String)>,

@@ -73,8 +73,10 @@ impl BaseAxis {
         let mut foundations: Vec<DrawnFoundation> = Vec::new();
         for element in &elements {
             match foundations.last_mut() {
-                Some(last) if element.left() - last.right < GAP_ROUNDING * element.length() => {
-                    last.right = element.right();
+                Some(previous)
+                    if element.left() - previous.right < GAP_ROUNDING * element.length() =>
+                {
+                    previous.right = element.right();
                 }
                 _ => foundations.push(DrawnFoundation {
                     left: element.left(),
@@ -113,10 +115,11 @@ impl BaseAxis {
     /// Axis along the base, with marks on the foundations only.
     pub(super) fn axis(&self) -> ChartAxis {
         let description = "x along the base, m";
-        let (Some(first), Some(last)) = (self.foundations.first(), self.foundations.last()) else {
+        let (Some(leftmost), Some(rightmost)) = (self.foundations.first(), self.foundations.last())
+        else {
             return ChartAxis::linear(0.0..1.0, description);
         };
-        let range = first.start..last.start + last.right - last.left;
+        let range = leftmost.start..rightmost.start + rightmost.right - rightmost.left;
         if self.gaps.is_empty() {
             return ChartAxis::linear(range, description);
         }
@@ -124,8 +127,8 @@ impl BaseAxis {
         for foundation in &self.foundations {
             let fraction = (foundation.right - foundation.left) / (range.end - range.start);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to 11")]
-            let count = ((fraction * AXIS_MARKS as f64).round() as usize).max(2);
-            let ticks = linear_ticks(&(foundation.left..foundation.right), count);
+            let mark_count = ((fraction * AXIS_MARKS as f64).round() as usize).max(2);
+            let ticks = linear_ticks(&(foundation.left..foundation.right), mark_count);
             if ticks.offset.is_some() {
                 // The numbers are too long for an axis: one mark has the rounded coordinate.
                 marks.push((foundation.start, short(foundation.left)));

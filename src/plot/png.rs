@@ -42,9 +42,9 @@ impl Svg {
     pub fn png(&self, scale: f64) -> Result<Vec<u8>> {
         let options = Options { fontdb: fonts(), ..Options::default() };
         let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
-        let size = tree.size();
-        let width = f64::from(size.width()) * scale;
-        let height = f64::from(size.height()) * scale;
+        let picture_size = tree.size();
+        let width = f64::from(picture_size.width()) * scale;
+        let height = f64::from(picture_size.height()) * scale;
         // Comparisons with NaN are false, so a scale that is NaN is an error.
         let fits = width >= 1.0 && height >= 1.0 && width * height <= MAX_BITMAP_PIXELS;
         let needed = "above zero, and a bitmap of 100 million pixels at most";

@@ -24,7 +24,7 @@ pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
     };
     let mut smaller_steps = Vec::new();
     let mut more_elements = Vec::new();
-    let mut both = Vec::new();
+    let mut finer_in_both = Vec::new();
     for setting in &refinement.settings {
         let has_smaller_step = setting.time_step < coarsest.time_step;
         let has_more_elements = setting.elements > coarsest.elements;
@@ -37,12 +37,15 @@ pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
                 more_elements.push(point);
             }
             if has_more_elements == has_smaller_step {
-                both.push(point);
+                finer_in_both.push(point);
             }
         }
     }
-    let curves =
-        [("smaller steps", smaller_steps), ("more elements", more_elements), ("both", both)];
+    let curves = [
+        ("smaller steps", smaller_steps),
+        ("more elements", more_elements),
+        ("both", finer_in_both),
+    ];
     let points = curves.iter().flat_map(|(_, points)| points);
     let run_times = padded_range(points.clone().map(|point| point.0));
     let errors = padded_range(points.map(|point| point.1));

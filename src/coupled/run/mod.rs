@@ -73,7 +73,7 @@ impl Fallbacks {
 /// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings.
 ///
 /// It prints as a page for a report. Quantities are named and signed as in [`State`]: forces per metre of
-/// thickness (in plan, of the whole body), on the soil. The initial state of the run counts as a step.
+/// thickness (in plan, of the whole body), on the soil. Extremes include the initial state of the run.
 ///
 /// With the feature `serde` all its fields are written, including
 /// [numbers](crate#settings-and-results-in-serdes-formats) that are not finite. A run read from a file ignores

@@ -74,10 +74,10 @@ impl Sampler<'_> {
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
             for component in field.chunks_exact(element_count) {
-                let first = component[floor.start];
-                let last = component[floor.end - 1];
-                squared_difference += (last - first).powi(2);
-                mean_square += 0.5 * (first * first + last * last);
+                let left_value = component[floor.start];
+                let right_value = component[floor.end - 1];
+                squared_difference += (right_value - left_value).powi(2);
+                mean_square += 0.5 * (left_value * left_value + right_value * right_value);
             }
         }
         squared_difference > RUNNING_WAVE_THRESHOLD * mean_square

@@ -32,7 +32,7 @@ pub enum Warning {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// A foundation has settled by more than a tenth of its width, which counts as bearing failure.
+    /// A foundation has settled by more than a tenth of its width: bearing failure.
     #[error(
         "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of the width \
          the soil has failed in bearing"

@@ -123,7 +123,7 @@ impl Warning {
     ///
     /// `rate`: damping of a rigid translation over its mass, 1/s. `slip_duration`: of the longest slip event, s.
     pub(crate) fn of_translation_damping(rate: f64, slip_duration: f64) -> Option<Self> {
-        // Sliding to rest against friction takes ln(1 + x)/rate, with x the damping force over friction at the
+        // Sliding to rest against friction lasts ln(1 + x)/rate, with x the damping force over friction at the
         // start. It covers 2 (1 − ln(1 + x)/x)/x of the distance without damping.
         let x = (rate * slip_duration).exp_m1();
         // Digits of the formula cancel if x is small; the first term of its series is 2x/3.

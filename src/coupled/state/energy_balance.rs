@@ -177,8 +177,8 @@ impl EnergyBalance {
 
     /// Terms of the left-hand side, with their energies.
     fn left_hand_terms(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
-        let all = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
-        all.filter(|(term, _)| matches!(term.side(), Side::Stored | Side::Lost))
+        let energies = EnergyTerm::ALL_TERMS.into_iter().zip(self.terms());
+        energies.filter(|(term, _)| matches!(term.side(), Side::Stored | Side::Lost))
     }
 
     /// Parts of the input energy, J, in the plane J/m; terms with one [name](EnergyTerm::name) are added.
