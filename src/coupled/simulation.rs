@@ -75,7 +75,7 @@ impl Simulation {
         // From here on no error can occur.
         let Self { scene, structure, ground, forcing, increment, state, warnings, .. } = self;
         if let Some(friction) = increment.substituted_friction {
-            Warning::count_friction(warnings, friction);
+            Warning::count_substituted_friction(warnings, friction);
         }
         if let Some(energies) = &mut self.energies {
             let data = StepData { scene, structure: structure.as_ref(), state, forcing };

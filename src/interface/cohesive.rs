@@ -8,11 +8,11 @@ use crate::error::{Result, not_negative};
 /// Cohesive contact: a bond with strengths that breaks for good, then Coulomb friction.
 ///
 /// An element sticks until its tensile strength or its cohesion is exceeded. From that step on, it obeys
-/// Coulomb's law. While bonded, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Its state variable is
-/// 1 while it is bonded and 0 after it has broken; an element that is open at first is broken. The traction
-/// of a broken element passes to its neighbours at once. A base may therefore unzip in a step, and the
-/// released elastic energy is radiated. Within a step bonds only break. First, the bonds with the
-/// largest overload break while the others hold; then, with the tractions redistributed, the next ones.
+/// Coulomb's law. A bonded element has p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). The state variable of an
+/// element is 1 while it is bonded and 0 after its bond has broken; an element that is open initially has no bond. The
+/// neighbours of a broken element take over its traction in the same step. Many bonds may therefore break in one step, and
+/// the released elastic energy is radiated. First, the bonds with the largest overload break while the others remain
+/// intact. Then the tractions are computed again, and the next bonds break.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -43,7 +43,7 @@ pub struct Cohesive {
         feature = "serde",
         serde(rename = "friction", serialize_with = "Coulomb::write_friction")
     )]
-    broken: Coulomb,
+    broken_contact: Coulomb,
 }
 
 validated! {
@@ -68,26 +68,27 @@ impl Cohesive {
         Ok(Self {
             tension: not_negative("tensile strength of the interface", tension)?,
             cohesion: not_negative("cohesion of the interface", cohesion)?,
-            broken: Coulomb::new(friction)?,
+            broken_contact: Coulomb::new(friction)?,
         })
     }
 
-    /// The friction coefficient.
+    /// The friction coefficient of broken elements.
     pub(crate) fn friction(&self) -> f64 {
-        self.broken.friction()
+        self.broken_contact.friction()
     }
 
-    /// Traction by which a bonded element exceeds its strength, Pa; below zero while the bond holds.
+    /// Traction by which a bonded element exceeds its strength, Pa; negative below the strength.
     fn overload(&self, trial: &ContactState) -> f64 {
-        let friction = match self.friction() * trial.pressure.max(0.0) {
-            limit if limit.is_nan() => 0.0,
-            limit => limit,
-        };
-        (-trial.pressure - self.tension).max(trial.shear.abs() - self.cohesion - friction)
+        let mut friction_limit = self.friction() * trial.pressure.max(0.0);
+        // Infinite friction times zero pressure.
+        if friction_limit.is_nan() {
+            friction_limit = 0.0;
+        }
+        (-trial.pressure - self.tension).max(trial.shear.abs() - self.cohesion - friction_limit)
     }
 }
 
-/// Whether the element was bonded at the start of the step, and is still bonded.
+/// Whether the bond of an element is intact, at the start of the step and in the present trial.
 fn is_bonded(start: &PreviousContact) -> bool {
     !start.has_opened && start.state_variables.first().is_some_and(|bonded| *bonded > 0.0)
 }
@@ -98,7 +99,7 @@ impl InterfaceLaw for Cohesive {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        self.broken.conditions(mode, start)
+        self.broken_contact.conditions(mode, start)
     }
 
     fn next_mode(
@@ -111,7 +112,7 @@ impl InterfaceLaw for Cohesive {
         if mode == Mode::Stick && is_bonded(start) && self.overload(trial) <= tolerance.traction {
             return Mode::Stick;
         }
-        self.broken.next_mode(mode, start, trial, tolerance)
+        self.broken_contact.next_mode(mode, start, trial, tolerance)
     }
 
     fn bond_overload(&self, start: &PreviousContact, trial: &ContactState) -> Option<f64> {
@@ -142,11 +143,11 @@ impl InterfaceLaw for Cohesive {
     ///
     /// An element whose strength is exceeded retains the strength until the end of the step, unless it opens.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        let broken = self.broken.limits(start)?;
+        let broken_limits = self.broken_contact.limits(start)?;
         if is_bonded(start) {
-            Ok(Limits { tension: self.tension, shear_strength: self.cohesion, ..broken })
+            Ok(Limits { tension: self.tension, shear_strength: self.cohesion, ..broken_limits })
         } else {
-            Ok(broken)
+            Ok(broken_limits)
         }
     }
 
@@ -161,7 +162,7 @@ impl InterfaceLaw for Cohesive {
     }
 }
 
-/// Base and soil never separate or slide.
+/// Bonded contact: base and soil never separate or slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bonded;

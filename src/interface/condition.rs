@@ -1,7 +1,8 @@
 //! Linear condition on gap, slip and tractions of an element.
 
-/// Linear condition on the end of a step:
-/// `gap·g + slip·s + pressure·p + shear·τ = value`, coefficients in the fields.
+/// Linear condition on an element at the end of a step.
+///
+/// `gap·g + slip·s + pressure·p + shear·τ = value`, with the coefficients in the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -24,12 +25,27 @@ impl Condition {
         Self { gap: 1.0, value, ..Self::default() }
     }
 
-    /// Sum of all numbers: finite only if all of them are.
+    /// Condition that the slip is `value`.
+    pub fn slip_is(value: f64) -> Self {
+        Self { slip: 1.0, value, ..Self::default() }
+    }
+
+    /// Condition that the pressure is `value`.
+    pub fn pressure_is(value: f64) -> Self {
+        Self { pressure: 1.0, value, ..Self::default() }
+    }
+
+    /// Condition that the shear traction is `value`.
+    pub fn shear_is(value: f64) -> Self {
+        Self { shear: 1.0, value, ..Self::default() }
+    }
+
+    /// Sum of all coefficients and the right-hand side; it is finite only if all of them are.
     pub(crate) fn sum(&self) -> f64 {
         self.gap + self.slip + self.pressure + self.shear + self.value
     }
 
-    /// The first number that is not finite, with its name.
+    /// The first coefficient or right-hand side that is not finite, with its name.
     pub(crate) fn not_finite(&self) -> Option<(&'static str, f64)> {
         let Self { gap, slip, pressure, shear, value } = *self;
         [
@@ -51,8 +67,8 @@ impl Condition {
 
     /// The pressure that this condition prescribes; `None` if other quantities occur in it.
     pub(crate) fn pressure_alone(&self) -> Option<f64> {
-        let alone = self.gap == 0.0 && self.slip == 0.0 && self.shear == 0.0;
-        (alone && self.pressure != 0.0).then(|| self.value / self.pressure)
+        let has_other_terms = self.gap != 0.0 || self.slip != 0.0 || self.shear != 0.0;
+        (!has_other_terms && self.pressure != 0.0).then(|| self.value / self.pressure)
     }
 
     /// The component (0 normal, 1 tangential) whose traction this condition alone prescribes.
@@ -64,20 +80,5 @@ impl Condition {
             Self { pressure: 0.0, shear, .. } if shear != 0.0 => Some(1),
             _ => None,
         }
-    }
-
-    /// Condition that the slip is `value`.
-    pub fn slip_is(value: f64) -> Self {
-        Self { slip: 1.0, value, ..Self::default() }
-    }
-
-    /// Condition that the pressure is `value`.
-    pub fn pressure_is(value: f64) -> Self {
-        Self { pressure: 1.0, value, ..Self::default() }
-    }
-
-    /// Condition that the shear traction is `value`.
-    pub fn shear_is(value: f64) -> Self {
-        Self { shear: 1.0, value, ..Self::default() }
     }
 }

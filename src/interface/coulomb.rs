@@ -3,7 +3,7 @@
 use super::{InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::{Result, not_negative, require};
 
-/// Quantity to which the contact conditions of a closed element apply.
+/// Quantity in the contact conditions of a closed element: the gap or its change.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -15,17 +15,17 @@ pub enum UnilateralCondition {
     /// Change of the gap (Moreau 1988; Jean 1999).
     ///
     /// An element whose gap at the start is at most `closed_below` (m) obeys Δg ≥ 0, p ≥ 0, p·Δg = 0; any
-    /// other element is free. The base may penetrate the soil by its motion within the step of its landing.
+    /// other element is free. In the step in which the base lands, it may penetrate the soil by its motion in that step.
     Velocity {
-        /// Largest gap at which an element counts as closed, m.
+        /// Largest gap at which an element is regarded as closed, m.
         closed_below: f64,
     },
 }
 
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
-/// Signorini's conditions hold normal to the base. Along it |τ| ≤ friction · p, and slip has the direction of
-/// the shear traction. Infinite friction is "uplift only", zero friction a frictionless base. For a
+/// Gap and pressure satisfy Signorini's conditions. Shear satisfies |τ| ≤ friction · p, and slip has the direction of
+/// the shear traction. With infinite friction the base uplifts but does not slide; with zero friction it is frictionless. For a
 /// coefficient that changes, use [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
@@ -66,8 +66,8 @@ pub(super) fn check_friction(friction: f64) -> Result<()> {
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
-    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare a run with one of the scene's
-    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports it.
+    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare the run with a run of the scene's
+    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports such a coefficient.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
@@ -130,11 +130,12 @@ impl Coulomb {
         crate::text::forms::number::serialize(&self.friction, to)
     }
 
-    fn strength(&self, start: &PreviousContact) -> f64 {
+    /// Tensile strength of the element, which it loses when it first opens, Pa.
+    fn remaining_strength(&self, start: &PreviousContact) -> f64 {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// Gap of a closed element at the step's end; `None` if it cannot close.
+    /// Gap of a closed element at the end of the step, m; `None` if the element cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
             UnilateralCondition::Position => Some(0.0),
@@ -151,7 +152,7 @@ impl InterfaceLaw for Coulomb {
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        let tension = self.strength(start);
+        let tension = self.remaining_strength(start);
         Ok(Limits {
             friction: self.friction,
             attraction: tension,

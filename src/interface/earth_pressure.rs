@@ -7,9 +7,9 @@ use crate::error::{Error, Result, not_negative, require};
 
 /// Coulomb friction of a wall on soil between its active and its passive pressure.
 ///
-/// The soil beside a wall bears no more than its passive pressure, and presses with no less than its active pressure: a
-/// wedge of it slides up before a wall that is pushed in, and down behind a wall that moves away. The state variable of
-/// each element is the movement w of the soil's face, positive away from the wall. The normal conditions of an element,
+/// The pressure of soil on a wall is at most passive and at least active: a wedge of soil slides up if the wall is pushed
+/// into the soil, and down if the wall moves away. The state variable of each element is the movement w of the soil's face,
+/// positive away from the wall. The normal conditions of an element,
 /// combined with stick and slip:
 ///
 /// | | |
@@ -19,12 +19,14 @@ use crate::error::{Error, Result, not_negative, require};
 /// | active | p = active, g ≥ −w; w becomes −g |
 ///
 /// Pressure falls as the gap g grows, as in plasticity with fixed yield stresses: without friction the contact problem of a
-/// step is convex and has one solution. Soil that has followed the wall stays where it is, and resists a wall that
-/// returns at once: pressures ratchet. With an active pressure of zero the soil stands by its cohesion instead, the wall
-/// opens as under [`Yielding`](super::Yielding), and meets the soil again at g = −w.
+/// step is convex and has one solution. Soil that has followed the wall does not move
+/// back, and resists a wall that returns immediately: pressures increase from cycle to cycle. With an active pressure of
+/// zero the soil stands without the wall because of its cohesion. The wall then opens as under
+/// [`Yielding`](super::Yielding), and meets the soil again at g = −w.
 ///
-/// The energy balance counts p times the movement of the soil in `contact`. While soil follows a wall, its weight does
-/// work on the wall, and `contact` falls by the active pressure times the movement. Over a cycle of movement it never falls.
+/// In the energy balance, `contact` includes p times the movement of the soil. While soil follows a wall, its weight does
+/// work on the wall, and `contact` decreases by the active pressure times the movement. Over a cycle of movement `contact`
+/// never decreases.
 ///
 /// [`TrenchGround::interfaces`](crate::bem::embedded::TrenchGround::interfaces) makes the laws of walls from the
 /// strengths of soils.
@@ -62,9 +64,7 @@ validated! {
 }
 
 impl EarthPressure {
-    /// Law with an active and a passive pressure (Pa), and friction.
-    ///
-    /// The friction coefficient is zero or more.
+    /// Law with an active and a passive pressure (Pa), and a friction coefficient of zero or more.
     ///
     /// If the coefficient is infinite, nothing ever slides.
     ///
@@ -73,8 +73,8 @@ impl EarthPressure {
     /// and above the active one, and a coefficient that is NaN or negative.
     pub fn new(active: f64, passive: f64, friction: f64) -> Result<Self> {
         not_negative("active pressure", active)?;
-        let is_above = passive > active && passive.is_finite();
-        require("passive pressure", passive, is_above, "finite and above the active pressure")?;
+        let is_valid = passive > active && passive.is_finite();
+        require("passive pressure", passive, is_valid, "finite and above the active pressure")?;
         Ok(Self { active, passive, contact: Coulomb::new(friction)? })
     }
 
@@ -88,8 +88,8 @@ impl EarthPressure {
         self.contact.friction()
     }
 
-    /// Whether the soil stands without the wall, which then opens.
-    fn opens(&self) -> bool {
+    /// Whether the soil stands without the wall, so that elements can open.
+    fn can_open(&self) -> bool {
         self.active == 0.0
     }
 
@@ -108,7 +108,7 @@ impl EarthPressure {
 impl InterfaceLaw for EarthPressure {
     fn modes(&self) -> &[Mode] {
         let friction = self.friction();
-        if self.opens() {
+        if self.can_open() {
             Mode::with_yield(friction)
         } else {
             Mode::with_following(friction)
@@ -132,17 +132,17 @@ impl InterfaceLaw for EarthPressure {
     ) -> Mode {
         let limits = self.passive_limits(start);
         let next = limits.next_mode(mode, self.modes()[0], start, trial, tolerance, [0.0; 2]);
-        if self.opens() {
+        if self.can_open() {
             return next;
         }
-        let follows = if mode.is_active() {
+        let is_following = if mode.is_active() {
             trial.gap - limits.gap_offset >= -tolerance.length
         } else {
             trial.pressure < self.active - tolerance.traction
         };
-        // Limits without the active pressure open elements under tension.
-        let closed = if next.is_closed() { next } else { mode.elastic() };
-        if follows { closed.elastic().following() } else { closed }
+        // The limits have no active pressure, and open an element under tension.
+        let closed_mode = if next.is_closed() { next } else { mode.elastic() };
+        if is_following { closed_mode.elastic().following() } else { closed_mode }
     }
 
     fn state_variables(&self) -> usize {
@@ -168,15 +168,15 @@ impl InterfaceLaw for EarthPressure {
         Some(self.friction())
     }
 
-    /// No reason: the numbers of the law are valid, also without limits.
+    /// No error: the numbers of the law are valid, although it may have no limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
-    /// Limits of soil that stands: in plan there are no walls.
+    /// Limits of soil with an active pressure of zero; other soil acts in the plane alone.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let needed = "an active pressure of zero, to act by limits alone";
-        if self.opens() {
+        if self.can_open() {
             Ok(self.passive_limits(start))
         } else {
             Err(Error::Scene { quantity: "earth pressure", needed })

@@ -94,7 +94,7 @@ impl Limits {
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
-    /// Returns these limits, or an error if one is not possible.
+    /// Returns these limits, or an error that names an invalid one.
     pub(crate) fn checked(self) -> Result<Self> {
         for (quantity, value) in
             [("friction coefficient", self.friction), ("greatest pressure", self.pressure_cap)]
@@ -114,7 +114,7 @@ impl Limits {
     /// Conditions of a mode in the plane.
     ///
     /// `compliance`: of the law's elastic layer, as in [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
-    /// NaN for limits that are not possible: [`Limits::checked`] names them.
+    /// The conditions are NaN for invalid limits, which [`Limits::checked`] reports.
     pub(super) fn conditions(
         &self,
         mode: Mode,
@@ -124,24 +124,27 @@ impl Limits {
         if self.checked().is_err() {
             return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
         }
-        let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
-        let tangential = compliance[1];
+        let open_conditions = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
+        let [normal_compliance, shear_compliance] = compliance;
         let ContactState { slip, shear, .. } = start.state;
-        let closed = Condition { pressure: compliance[0], ..Condition::gap_is(self.gap_offset) };
-        let sticks =
-            Condition { shear: 0.0 - tangential, ..Condition::slip_is(slip - tangential * shear) };
+        let closed =
+            Condition { pressure: normal_compliance, ..Condition::gap_is(self.gap_offset) };
+        let no_slip = Condition {
+            shear: 0.0 - shear_compliance,
+            ..Condition::slip_is(slip - shear_compliance * shear)
+        };
         if self.bonded {
-            return [closed, sticks];
+            return [closed, no_slip];
         }
         if mode == Mode::Open || self.gap_offset == f64::NEG_INFINITY {
-            return open;
+            return open_conditions;
         }
-        let yields = mode.is_yield() && self.pressure_cap.is_finite();
-        let normal = if yields { self.yield_condition(compliance[0]) } else { closed };
+        let is_yielding = mode.is_yield() && self.pressure_cap.is_finite();
+        let normal = if is_yielding { self.yield_condition(normal_compliance) } else { closed };
         match mode.elastic() {
             Mode::SlipRight => [normal, self.slip_condition(1.0)],
             Mode::SlipLeft => [normal, self.slip_condition(-1.0)],
-            _ => [normal, sticks],
+            _ => [normal, no_slip],
         }
     }
 
@@ -156,10 +159,10 @@ impl Limits {
         }
     }
 
-    /// τ = ±R, in a form that has a limit for infinite friction.
+    /// τ = ±R, in a form that remains finite for infinite friction.
     ///
-    /// The limit is p + attraction = 0 with the shear traction free. Without it the incremental problem need not have a
-    /// solution: an element about to open under shear could neither stick nor open.
+    /// For infinite friction the condition is p + attraction = 0 with any shear traction. Without this mode the incremental
+    /// problem need not have a solution: an element that is about to open under shear could neither stick nor open.
     fn slip_condition(&self, direction: f64) -> Condition {
         let Self { friction, attraction, shear_strength, .. } = *self;
         if friction > 1.0 {
@@ -178,7 +181,7 @@ impl Limits {
     /// The mode to try after a `trial` in `mode` in the plane.
     ///
     /// `closing_mode`: mode of an element that closes. `compliance`: as for [`Limits::conditions`]. An element that
-    /// slides keeps no tension beyond the attraction.
+    /// slides opens at a tension above the attraction.
     pub(super) fn next_mode(
         &self,
         mode: Mode,
@@ -194,17 +197,17 @@ impl Limits {
         if self.gap_offset == f64::NEG_INFINITY {
             return Mode::Open;
         }
-        let tangential = compliance[1];
-        let gap = trial.gap - self.gap_offset + compliance[0] * trial.pressure;
+        let [normal_compliance, shear_compliance] = compliance;
+        let inelastic_gap = trial.gap - self.gap_offset + normal_compliance * trial.pressure;
         if mode == Mode::Open {
-            return if gap < -tolerance.length { closing_mode } else { Mode::Open };
+            return if inelastic_gap < -tolerance.length { closing_mode } else { Mode::Open };
         }
         let traction_tolerance = tolerance.traction;
         let friction_pressure = trial.pressure + self.attraction;
         let has_shear = self.friction > 0.0 || self.shear_strength > 0.0;
         let slip_increment =
-            trial.slip - start.state.slip - tangential * (trial.shear - start.state.shear);
-        let slip_tolerance = tolerance.length + tangential * traction_tolerance;
+            trial.slip - start.state.slip - shear_compliance * (trial.shear - start.state.shear);
+        let slip_tolerance = tolerance.length + shear_compliance * traction_tolerance;
         let sliding_mode = |direction: f64| {
             if friction_pressure < -traction_tolerance
                 || (has_shear && direction * trial.shear < -traction_tolerance)
@@ -216,22 +219,22 @@ impl Limits {
                 mode.elastic()
             }
         };
-        let limit = self.friction * friction_pressure.max(0.0) + self.shear_strength;
+        let shear_limit = self.friction * friction_pressure.max(0.0) + self.shear_strength;
         let next = match mode.elastic() {
             Mode::SlipRight => sliding_mode(1.0),
             Mode::SlipLeft => sliding_mode(-1.0),
             _ if trial.pressure + self.tension < -traction_tolerance => Mode::Open,
-            // Infinite friction times zero pressure is not a limit.
+            // The shear limit is NaN for infinite friction without pressure.
             _ if self.friction == f64::INFINITY => Mode::Stick,
-            _ if trial.shear > limit + traction_tolerance => Mode::SlipRight,
-            _ if trial.shear < -limit - traction_tolerance => Mode::SlipLeft,
+            _ if trial.shear > shear_limit + traction_tolerance => Mode::SlipRight,
+            _ if trial.shear < -shear_limit - traction_tolerance => Mode::SlipLeft,
             _ => Mode::Stick,
         };
-        let yields = if mode.is_yield() {
-            self.pressure_cap.is_finite() && gap <= tolerance.length
+        let is_yielding = if mode.is_yield() {
+            self.pressure_cap.is_finite() && inelastic_gap <= tolerance.length
         } else {
             trial.pressure > self.pressure_cap + traction_tolerance
         };
-        if yields { next.yielding() } else { next }
+        if is_yielding { next.yielding() } else { next }
     }
 }

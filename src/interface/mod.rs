@@ -1,16 +1,15 @@
 //! Interface laws between the base and the soil.
 //!
 //! A law describes one contact element at a time, by the [`Limits`] of its tractions: an [`InterfaceLaw`] needs this one
-//! method. In the plane two linear [`Condition`]s for each [`Mode`] follow from the limits, between the element's opening
-//! and its traction, and the next mode after a trial. A law of the plane that no limits describe states them itself: it is
-//! a [`PlaneLaw`], with three methods. The mode search of [`crate::contact`] is the same for all laws.
+//! method. In the plane, the limits determine two linear [`Condition`]s for each [`Mode`], between the element's opening
+//! and its traction, and the next mode after a trial. A law of the plane without such limits implements [`PlaneLaw`], whose
+//! three methods return modes, conditions and the next mode. The mode search of [`crate::contact`] is the same for all laws.
 
 mod cohesive;
 mod condition;
 mod coulomb;
 mod cyclic_yielding;
 mod earth_pressure;
-mod law_form;
 mod limits;
 mod mode;
 mod plane_law;
@@ -26,7 +25,6 @@ pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
 pub use cyclic_yielding::CyclicYielding;
 pub use earth_pressure::EarthPressure;
-pub(crate) use law_form::LawForm;
 pub use limits::Limits;
 pub use mode::Mode;
 pub use plane_law::{InPlane, PlaneLaw};
@@ -37,6 +35,23 @@ pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
 
 use crate::error::{Result, require_part, same_length};
+use crate::geometry::ContactLayout;
+
+/// Form in which a ground applies the laws of its elements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LawForm {
+    /// Conditions of each mode, if elements slide along one axis.
+    Modes,
+    /// Limits of the tractions, if elements slide along two axes.
+    Limits,
+}
+
+impl LawForm {
+    /// Form for the elements of a layout.
+    pub(crate) fn of(layout: ContactLayout) -> Self {
+        if layout.is_plan() { Self::Limits } else { Self::Modes }
+    }
+}
 
 /// Opening and **total** traction (static part included) of one contact element, as element means.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -59,14 +74,14 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
-/// A number of an element: word, SI unit, whether in plan only, value.
-type Number = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
+/// Column of a contact state in files: word, SI unit, whether in plan only, value.
+type ContactColumn = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
     /// All numbers, in the order of columns in files.
     ///
-    /// Each has its word, its SI unit, whether only grounds in plan have it, and its value.
-    pub const NUMBER_COLUMNS: [Number; 6] = [
+    /// Each column has its word, its SI unit, whether only grounds in plan have it, and its value.
+    pub const NUMBER_COLUMNS: [ContactColumn; 6] = [
         ("gap", "m", false, |state| state.gap),
         ("slip", "m", false, |state| state.slip),
         ("pressure", "Pa", false, |state| state.pressure),
@@ -77,7 +92,7 @@ impl ContactState {
 
     /// Gap, slip and tractions of an element from their components.
     ///
-    /// Components: down, along x, and in plan along y.
+    /// `jump` and `traction` return a component by its index: 0 down, 1 along x, and in plan 2 along y.
     #[inline]
     pub(crate) fn from_components(
         jump: impl Fn(usize) -> f64,
@@ -124,7 +139,7 @@ impl Tolerance {
     }
 }
 
-/// Data of the scene with which a law can check itself.
+/// Data of the scene with which a law checks whether it applies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactScene {
@@ -153,8 +168,8 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// A law needs one method: the [`limits`](InterfaceLaw::limits) of an element's tractions. A law of the plane that no
 /// limits describe (an open element that bears, a slip that is resisted by its speed) implements [`PlaneLaw`] instead.
 ///
-/// A law is a rule and stores nothing itself. [`PreviousContact`] holds the end of the previous step. If a
-/// law needs more of the past, it declares state variables per element. The simulation stores them, passes
+/// A law stores nothing that changes in a run. [`PreviousContact`] contains the end of the previous step. If a
+/// law depends on earlier steps, it declares state variables per element. The simulation stores them, passes
 /// them in [`PreviousContact::state_variables`] and saves them in checkpoints. A law that returns a number
 /// that is not finite, or a mode that it does not list, causes a [`LawError`].
 ///
@@ -205,9 +220,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 pub trait InterfaceLaw: Send {
     /// Limits of the tractions of an element in the step after `start`.
     ///
-    /// The one method that a law needs, on a ground in the plane or in plan. In plan the slip follows the shear
-    /// traction, and the limits are all that a run needs of the law: they are returned once per attempted step. In the
-    /// plane modes and conditions follow from them, unless the law has its own.
+    /// This is the only required method. In plan the slip has the direction of the shear traction, and a run uses the limits
+    /// alone: it calls this method once per attempted step. In the plane, modes and conditions follow from the limits, unless
+    /// the law implements their methods.
     ///
     /// # Errors
     /// If the law has no limits for this element, as [`Error::Scene`](crate::Error::Scene) or
@@ -216,7 +231,7 @@ pub trait InterfaceLaw: Send {
 
     /// The modes of this law in the plane, first the mode of rest.
     ///
-    /// The default has all modes of a law with [`limits`](InterfaceLaw::limits). A law replaces it to leave out modes that
+    /// The default has all modes of a law with [`limits`](InterfaceLaw::limits). A law overrides it to omit modes that
     /// its limits exclude.
     fn modes(&self) -> &[Mode] {
         Mode::WITH_LIMITS
@@ -225,7 +240,7 @@ pub trait InterfaceLaw: Send {
     /// The two conditions that `mode` imposes at the end of the step.
     ///
     /// The default follows from [`limits`](InterfaceLaw::limits) and [`compliance`](InterfaceLaw::compliance). A law
-    /// replaces it only if it acts by other rules in the plane than in plan.
+    /// overrides it only if its conditions in the plane do not follow from its limits.
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let compliance = self.compliance(Mode::Stick, start);
         self.limits(start).map_or_else(
@@ -254,11 +269,11 @@ pub trait InterfaceLaw: Send {
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
     ///
     /// Zero (the default) for hard contact. The energy balance includes the energy stored in this compliance,
-    /// ½ compliance · traction² at the end of the step. Friction, impact and damage can dissipate only the
-    /// work of the rest of gap and slip, and of a compliance that changes.
+    /// ½ compliance · traction² at the end of the step. Friction, impact and damage dissipate only the
+    /// work on the inelastic gap and slip, and the energy released by a compliance that changes.
     ///
-    /// Called for every mode at the static state, and once per solved step for the mode at its end. A law
-    /// without state variables that is hard in every mode at the static state counts as hard for the whole
+    /// The simulation calls this method for every mode at the static state, and once per step for the mode at its end. A law
+    /// without state variables that is hard in every mode at the static state is treated as hard in the whole
     /// run.
     fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]
@@ -271,14 +286,14 @@ pub trait InterfaceLaw: Send {
 
     /// Sets the initial state variables of an element; by default they are zero.
     ///
-    /// `start` is the start of its first step. If the law acts during the gravity stage, the method is also
-    /// called for that, with a start without pressure. Not called for a law without state variables.
+    /// `start` is the start of the element's first step. If the law acts during the gravity stage, the method is also
+    /// called for that stage, with a start without pressure. It is not called for a law without state variables.
     fn initial_state_variables(&self, _start: &PreviousContact, _state_variables: &mut [f64]) {}
 
     /// Updates the state variables of an element at the `end` of a step in `mode`.
     ///
-    /// On entry they hold the values at the `start` of the step. Called once per accepted step, after its
-    /// modes are found; not called for a law without state variables.
+    /// On entry `state_variables` contains the values at the `start` of the step. The method is called once per accepted
+    /// step, after its modes are found, and not for a law without state variables.
     fn commit(
         &self,
         _start: &PreviousContact,
@@ -291,8 +306,8 @@ pub trait InterfaceLaw: Send {
     /// The friction coefficient for the factor of safety against sliding.
     ///
     /// The resistance of the base is this coefficient times the pressure
-    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). Of a friction that varies take the
-    /// smallest coefficient: with a larger one, a base slides at a factor above one. Infinite for a law that never
+    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). For friction that varies, return the
+    /// smallest coefficient: with a larger one, the base slides at a factor of safety above one. Infinite for a law that never
     /// slides; `None` (the default) for a law without such a coefficient.
     fn friction_coefficient(&self) -> Option<f64> {
         None
@@ -300,21 +315,21 @@ pub trait InterfaceLaw: Send {
 
     /// Traction by which `trial` exceeds the strength of a bond that breaks for good, Pa.
     ///
-    /// Below zero while the bond holds; `None` (the default) for an element without a bond, or with a broken
+    /// Negative for an intact bond; `None` (the default) for an element without a bond, or with a broken
     /// one.
     ///
-    /// A step first keeps elements with a bond in their mode of rest, at any traction, until all other modes
-    /// are found. Then the bonds with the largest overload break, the modes are found again, and so on. From
-    /// then on `start.has_opened` is true for a broken bond.
+    /// The mode search first keeps bonded elements in their mode of rest, at any traction, until all other modes
+    /// are found. Then the bonds with the largest overload break, and the search is repeated until no bond is overloaded.
+    /// `start.has_opened` is true for a broken bond.
     fn bond_overload(&self, _start: &PreviousContact, _trial: &ContactState) -> Option<f64> {
         None
     }
 
-    /// Reason for a condition that is not finite, if the law can name it.
+    /// Reason for a condition that is not finite, if the law can determine it.
     ///
     /// # Errors
-    /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
-    /// default errors of the [`limits`](InterfaceLaw::limits) from which the conditions follow.
+    /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). The default
+    /// returns errors of the [`limits`](InterfaceLaw::limits) from which the conditions follow.
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
         self.limits(start)?.checked().map(drop)
     }
@@ -323,22 +338,22 @@ pub trait InterfaceLaw: Send {
     ///
     /// It acts on a ground in the plane.
     ///
-    /// By default, hard and frictionless contact. Building returns an error where the law does not hold the static state
-    /// found with it. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and
+    /// The default is hard and frictionless contact. `build` returns an error if the static state that was found without
+    /// friction is not in equilibrium under the law itself. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and
     /// shear strength; its state variables begin as without pressure.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         Box::new(Coulomb::frictionless())
     }
 
-    /// Checks whether this law makes sense in the simulation that is being built; called once.
+    /// Checks whether this law applies in the simulation that is being built; called once.
     ///
     /// # Errors
-    /// The reason why it does not, for example as [`Error::part`](crate::Error::part).
+    /// The reason why it does not apply, for example as [`Error::part`](crate::Error::part).
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
     }
 }
 
 former_constants! {
-    ContactState { NUMBERS: [Number; 6] = NUMBER_COLUMNS, "use `NUMBER_COLUMNS`"; }
+    ContactState { NUMBERS: [ContactColumn; 6] = NUMBER_COLUMNS, "use `NUMBER_COLUMNS`"; }
 }

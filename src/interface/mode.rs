@@ -1,4 +1,4 @@
-//! Modes of an element in a step: stick, slip or open.
+//! Contact modes of an element in a step.
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -24,12 +24,12 @@ pub enum Mode {
     Slip,
     /// Slip in plan on soil that yields under the pressure.
     YieldSlip,
-    /// Closed, no slip; soil follows a wall that moves away, at its active pressure
+    /// Closed, no slip; the soil follows a wall that moves away, at the soil's active pressure
     /// ([`EarthPressure`](super::EarthPressure)).
     Active,
-    /// Soil follows the wall at its active pressure, and the structure slides to the left.
+    /// Closed; the soil follows the wall at its active pressure, and the structure slides to the left.
     ActiveLeft,
-    /// Soil follows the wall at its active pressure, and the structure slides to the right.
+    /// Closed; the soil follows the wall at its active pressure, and the structure slides to the right.
     ActiveRight,
 }
 
@@ -134,21 +134,21 @@ impl Mode {
         Self::YieldRight,
     ];
 
-    /// The modes of contact with uplift and Coulomb friction, on soil that yields.
+    /// The modes of a law with uplift and this friction coefficient, on soil that yields.
     pub(super) fn with_yield(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
             &[Self::SlipRight, Self::Open, Self::YieldRight]
         } else if friction == f64::INFINITY {
-            // The slip modes of infinite friction have no pressure.
+            // In the slip modes of infinite friction the pressure is zero, so the soil does not yield.
             &[Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open, Self::Yield]
         } else {
             Self::WITH_LIMITS
         }
     }
 
-    /// The modes of Coulomb friction on soil that yields and follows a wall.
+    /// The modes of a law with this friction coefficient, on soil that yields and follows a wall.
     ///
-    /// Nothing opens.
+    /// Elements do not open.
     pub(super) fn with_following(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
             &[Self::SlipRight, Self::ActiveRight, Self::YieldRight]
@@ -169,7 +169,7 @@ impl Mode {
         }
     }
 
-    /// The modes of contact with uplift and Coulomb friction.
+    /// The modes of a law with uplift and this friction coefficient.
     pub(super) fn with_friction(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
             // Without friction both slip modes are the same, so one is enough.

@@ -1,4 +1,4 @@
-//! Laws of the plane that no limits describe, and the law of the contact problem made of one.
+//! Contact laws of the plane by conditions of each mode, for laws without limits.
 
 use super::{
     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
@@ -6,10 +6,10 @@ use super::{
 };
 use crate::error::Result;
 
-/// Contact law of the plane by two linear conditions per mode, for a law that no [`Limits`] describe.
+/// Contact law of the plane by linear conditions, for laws without [`Limits`].
 ///
-/// Examples are an open element that bears, or a slip that its speed resists. Such a law needs three methods. In a scene
-/// it acts as [`InPlane`]`(law)`. All other laws implement [`InterfaceLaw`] by its limits.
+/// Examples are an open element with traction, or slip against viscous resistance. Such a law needs three methods. A scene
+/// uses it as [`InPlane`]`(law)`. All other laws implement [`InterfaceLaw`] by their limits.
 ///
 /// Rubber pads, bonded to both sides, under a block without weight:
 /// ```
@@ -109,7 +109,7 @@ pub trait PlaneLaw: Send {
         None
     }
 
-    /// Reason for a condition that is not finite, if the law can name it; none by default.
+    /// Reason for a condition that is not finite, if the law can determine it; none by default.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part).
@@ -124,10 +124,10 @@ pub trait PlaneLaw: Send {
         Box::new(Coulomb::frictionless())
     }
 
-    /// Checks whether this law makes sense in the simulation that is being built, as [`InterfaceLaw::check`].
+    /// Checks whether this law applies in the simulation that is being built, as [`InterfaceLaw::check`].
     ///
     /// # Errors
-    /// The reason why it does not, for example as [`Error::part`](crate::Error::part).
+    /// The reason why it does not apply, for example as [`Error::part`](crate::Error::part).
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
     }
@@ -135,8 +135,8 @@ pub trait PlaneLaw: Send {
 
 /// A [`PlaneLaw`] as the interface law of a scene in the plane.
 ///
-/// Its [`limits`](InterfaceLaw::limits) are an [`Error::Scene`](crate::Error::Scene) with the name of the law: `build` refuses a ground in
-/// plan.
+/// Its [`limits`](InterfaceLaw::limits) return an [`Error::Scene`](crate::Error::Scene) with the name of the law, so
+/// `build` returns an error on a ground in plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct InPlane<L>(pub L);
 

@@ -1,4 +1,4 @@
-//! Previous contact: the past of each element at the start of a step, for its law.
+//! State of each element at the start of a step, as its law receives it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
 use crate::error::{LawError, Result, finite, memory, same_length};
@@ -28,10 +28,10 @@ pub struct PreviousContact<'a> {
     pub time_step: f64,
     /// Settlement of the yielding soil in the present trial of the step, m; zero in its first trial.
     ///
-    /// A law whose pressure is a curve over the settlement returns the curve's tangent at it, as
+    /// A law whose pressure is a curve over the settlement returns the curve's tangent at this settlement, as
     /// [`Limits::pressure_cap`](super::Limits::pressure_cap) and [`Limits::hardening`](super::Limits::hardening). The step
-    /// is solved again until the pressure is on the curve. The curve rises, and its slope falls. Other laws need not use
-    /// it: with a hardening of zero at a settlement of zero there is no other trial.
+    /// is solved again until the pressure is on the curve. The curve must rise with a slope that falls. Other laws ignore
+    /// this field: with a hardening of zero at a settlement of zero the step has one trial.
     pub trial_settlement: f64,
     /// State variables of the law for this element ([`InterfaceLaw::state_variables`]); empty for a
     /// law without state variables.
@@ -41,8 +41,8 @@ pub struct PreviousContact<'a> {
 impl<'a> PreviousContact<'a> {
     /// Start of a step of `time_step` seconds from `state`, to test a law without a simulation.
     ///
-    /// The element has opened if it is open. Its slip rate is zero, its static pressure is the pressure of
-    /// `state`, and it has no state variables. All fields can then be set.
+    /// `has_opened` is true if the mode is open. The slip rate is zero, the static pressure is the pressure of
+    /// `state`, and there are no state variables. All fields can then be changed.
     ///
     /// ```
     /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
@@ -106,19 +106,19 @@ impl<'a> PreviousContact<'a> {
 /// The start of a step for all elements, from left to right, with state variables.
 ///
 /// A [`Simulation`](crate::Simulation) contains one. A code with another integrator obtains one from
-/// [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it to return to
-/// it later. [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
+/// [`ContactProblem::start`](crate::contact::ContactProblem::start) and may store a clone, to repeat steps from
+/// it. [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreviousContacts {
-    /// Past of each element, without its state variables.
-    past: Vec<PreviousContact<'static>>,
+    /// Contact of each element at the start of the step, without its state variables.
+    contacts: Vec<PreviousContact<'static>>,
     /// State variables of all elements, one after the other.
     state_variables: Vec<f64>,
-    /// Ends of the state variables of each element; empty if no law has any.
+    /// End of each element's range in `state_variables`; empty if no law has any.
     ends: Vec<usize>,
 }
 
-/// Ends of the state variables of each element; empty if no law has any.
+/// End of each element's range in the list of all state variables; empty if no law has any.
 pub(crate) fn state_variable_ends(
     laws: &[Box<dyn InterfaceLaw>],
     count: usize,
@@ -132,8 +132,8 @@ pub(crate) fn state_variable_ends(
         end = end.saturating_add(law_of(laws, element).state_variables());
         ends.push(end);
     }
-    // Stored in the state, the increment and their copies.
-    memory::check("numbers that the interface laws remember", end as f64, 32.0 * end as f64)?;
+    // State, increment and the copy of each store every variable: four numbers of eight bytes.
+    memory::check("state variables of the interface laws", end as f64, 32.0 * end as f64)?;
     Ok(ends)
 }
 
@@ -146,9 +146,9 @@ impl PreviousContacts {
         elements: &[PreviousContact<'_>],
     ) -> Result<Self> {
         let ends = state_variable_ends(laws, elements.len())?;
-        let past = elements.iter().map(PreviousContact::without_state_variables).collect();
+        let contacts = elements.iter().map(PreviousContact::without_state_variables).collect();
         let state_variables = vec![0.0; ends.last().copied().unwrap_or(0)];
-        let mut starts = Self { past, state_variables, ends };
+        let mut starts = Self { contacts, state_variables, ends };
         for (e, start) in elements.iter().enumerate() {
             let range = starts.state_variable_range(e);
             if start.state_variables.is_empty() && !range.is_empty() {
@@ -170,7 +170,7 @@ impl PreviousContacts {
 
     /// Number of elements.
     pub(crate) fn len(&self) -> usize {
-        self.past.len()
+        self.contacts.len()
     }
 
     /// The start of each element, as passed to its law.
@@ -180,20 +180,20 @@ impl PreviousContacts {
         (0..self.len()).map(|e| self.element(e))
     }
 
-    /// Length of the coming step, s.
+    /// Duration of the next step, s.
     pub(crate) fn time_step(&self) -> f64 {
-        self.past.first().map_or(1.0, |start| start.time_step)
+        self.contacts.first().map_or(1.0, |start| start.time_step)
     }
 
     /// The start of an element; the element must exist.
     #[inline]
     pub(crate) fn element(&self, element: usize) -> PreviousContact<'_> {
-        self.past[element].with_state_variables(self.state_variables_of(element))
+        self.contacts[element].with_state_variables(self.state_variables_of(element))
     }
 
     /// Opening and traction of an element at the end of the previous step.
     pub(crate) fn state(&self, element: usize) -> &ContactState {
-        &self.past[element].state
+        &self.contacts[element].state
     }
 
     /// State variables of an element's law.
@@ -214,7 +214,7 @@ impl PreviousContacts {
         self.ends.get(element).copied().unwrap_or(0)
     }
 
-    /// Ends of the state variables of each element; empty if no law has any.
+    /// End of each element's range in the list of all state variables; empty if no law has any.
     pub(crate) fn state_variable_ends(&self) -> &[usize] {
         &self.ends
     }
@@ -231,12 +231,12 @@ impl PreviousContacts {
 
     /// Mutable access to the slip velocities of the previous step.
     pub(crate) fn slip_rates_mut(&mut self) -> impl Iterator<Item = &mut f64> {
-        self.past.iter_mut().map(|past| &mut past.slip_rate)
+        self.contacts.iter_mut().map(|contact| &mut contact.slip_rate)
     }
 
     /// Sets an element's opening and traction, its mode, and whether it has been open.
     pub(crate) fn restore(&mut self, e: usize, state: ContactState, mode: Mode, has_opened: bool) {
-        self.past[e] = PreviousContact { state, mode, has_opened, ..self.past[e] };
+        self.contacts[e] = PreviousContact { state, mode, has_opened, ..self.contacts[e] };
     }
 
     /// Updates `state_variables` by the laws at the end of a step in `states` and `modes`.
@@ -265,21 +265,22 @@ impl PreviousContacts {
 
     /// Advances to the start of the next step.
     ///
-    /// The step before ended in `states`, `modes` and `state_variables`.
+    /// The present step ended in `states`, `modes` and `state_variables`.
     pub(crate) fn advance(
         &mut self,
         states: &[ContactState],
         modes: &[Mode],
         state_variables: &[f64],
     ) {
-        for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
-            let along = state.slip - past.state.slip;
-            let across = state.slip_across - past.state.slip_across;
-            let is_in_plan = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
-            past.slip_rate = if is_in_plan { along.hypot(across) } else { along } / past.time_step;
-            past.has_opened |= !mode.is_closed();
-            past.state = *state;
-            past.mode = *mode;
+        for ((contact, state), mode) in self.contacts.iter_mut().zip(states).zip(modes) {
+            let slip_x = state.slip - contact.state.slip;
+            let slip_y = state.slip_across - contact.state.slip_across;
+            let is_in_plan = slip_y != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
+            let slip_increment = if is_in_plan { slip_x.hypot(slip_y) } else { slip_x };
+            contact.slip_rate = slip_increment / contact.time_step;
+            contact.has_opened |= !mode.is_closed();
+            contact.state = *state;
+            contact.mode = *mode;
         }
         if !state_variables.is_empty() {
             self.state_variables.copy_from_slice(state_variables);

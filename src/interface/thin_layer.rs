@@ -9,7 +9,7 @@
 //! A four-node element of length L and thickness t, integrated at its centre, has the mean strains ε_yy = g/t
 //! and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L relative to them). Its nodal
 //! forces equal the forces of tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law for one
-//! element's means, without additional degrees of freedom.
+//! element's means, without additional degrees of freedom. [PS] is the paper of Patel & Spyrakos.
 
 use super::coulomb::check_friction;
 use super::{
@@ -17,6 +17,11 @@ use super::{
 };
 use crate::error::{Error, Result, not_negative, positive, require, require_part};
 use crate::soil::Soil;
+
+/// Thickness of the layer over the height of the adjacent element [PS, eq. 13].
+const DEFAULT_THICKNESS_RATIO: f64 = 0.1;
+/// Fraction of the stiffness that remains in debonding, so that a debonded layer is not singular.
+const DEFAULT_DEBONDED_RATIO: f64 = 1e-3;
 
 /// Pressure that limits friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -42,7 +47,7 @@ words! { pub(crate) FrictionLimit, "friction limit", {
     Dynamic = "dynamic",
 } }
 
-/// Quantity that decides the sense of slip, and whether slip continues.
+/// Quantity that determines the direction of slip, and whether slip continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -50,7 +55,7 @@ words! { pub(crate) FrictionLimit, "friction limit", {
 pub enum SlipSense {
     /// Slip beyond the elastic slip, as in plasticity.
     ///
-    /// It starts in the sense of the shear traction and continues while it grows.
+    /// Slip starts in the direction of the shear traction and continues while it grows.
     #[default]
     Inelastic,
     /// The relative velocity of this step, including the elastic part [PS, eq. 12].
@@ -105,20 +110,14 @@ words! { pub(crate) SlipSense, "sense of slip", {
 #[cfg_attr(feature = "serde", serde(try_from = "ThinLayerForm"))]
 pub struct ThinLayer {
     /// k_n and k_s of a layer as thick as the adjacent element is high.
-    #[cfg_attr(feature = "serde", serde(rename = "reference_stiffness"))]
-    reference: [f64; 2],
-    #[cfg_attr(feature = "serde", serde(rename = "thickness_ratio"))]
-    ratio: f64,
+    reference_stiffness: [f64; 2],
+    thickness_ratio: f64,
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     friction: f64,
-    #[cfg_attr(feature = "serde", serde(rename = "debonded_ratio"))]
-    debonded: f64,
-    #[cfg_attr(feature = "serde", serde(rename = "friction_limit"))]
-    limit: FrictionLimit,
-    #[cfg_attr(feature = "serde", serde(rename = "slip_sense"))]
-    sense: SlipSense,
-    #[cfg_attr(feature = "serde", serde(rename = "slip_stiffness_ratio"))]
-    slip_stiffness: f64,
+    debonded_ratio: f64,
+    friction_limit: FrictionLimit,
+    slip_sense: SlipSense,
+    slip_stiffness_ratio: f64,
 }
 
 validated! {
@@ -155,7 +154,7 @@ impl ThinLayer {
         let nu = soil.poisson();
         let normal = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);
         Self::from_stiffness(normal / neighbour_height, shear / neighbour_height, friction)?
-            .with_thickness_ratio(0.1)
+            .with_thickness_ratio(DEFAULT_THICKNESS_RATIO)
     }
 
     /// Layer with the stiffnesses k_n and k_s (Pa/m) at a thickness ratio of one.
@@ -167,13 +166,13 @@ impl ThinLayer {
         positive("shear stiffness of the thin layer", shear)?;
         check_friction(friction)?;
         Ok(Self {
-            reference: [normal, shear],
-            ratio: 1.0,
+            reference_stiffness: [normal, shear],
+            thickness_ratio: 1.0,
             friction,
-            debonded: 1e-3,
-            limit: FrictionLimit::Total,
-            sense: SlipSense::Inelastic,
-            slip_stiffness: 0.0,
+            debonded_ratio: DEFAULT_DEBONDED_RATIO,
+            friction_limit: FrictionLimit::Total,
+            slip_sense: SlipSense::Inelastic,
+            slip_stiffness_ratio: 0.0,
         })
     }
 
@@ -182,7 +181,7 @@ impl ThinLayer {
     /// # Errors
     /// [`Error::Input`] unless the ratio is finite and above zero, and the resulting stiffness is finite.
     pub fn with_thickness_ratio(mut self, ratio: f64) -> Result<Self> {
-        self.ratio = positive("thickness ratio of the thin layer", ratio)?;
+        self.thickness_ratio = positive("thickness ratio of the thin layer", ratio)?;
         for stiffness in self.stiffness() {
             positive("stiffness of the thin layer", stiffness)?;
         }
@@ -194,45 +193,44 @@ impl ThinLayer {
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
     pub fn with_debonded_ratio(mut self, ratio: f64) -> Result<Self> {
-        self.debonded = fraction_of_one("ratio of stiffness left in debonding", ratio)?;
+        self.debonded_ratio = fraction_of_one("ratio of stiffness left in debonding", ratio)?;
         Ok(self)
     }
 
     /// Sets the pressure in the friction limit.
     #[must_use]
     pub fn with_friction_limit(mut self, limit: FrictionLimit) -> Self {
-        self.limit = limit;
+        self.friction_limit = limit;
         self
     }
 
     /// Sets the rule for the sense of slip.
     #[must_use]
     pub fn with_slip_sense(mut self, sense: SlipSense) -> Self {
-        self.sense = sense;
+        self.slip_sense = sense;
         self
     }
 
     /// Sets the fraction of the shear stiffness that resists slip besides friction.
     ///
-    /// It acts on the slip of each step.
-    ///
-    /// The default is zero. It acts as a viscosity, since the next step does not depend on it.
+    /// It resists the slip of each step like a viscosity. The default is zero.
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
     pub fn with_slip_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
-        self.slip_stiffness = fraction_of_one("ratio of shear stiffness left in slip", ratio)?;
+        self.slip_stiffness_ratio =
+            fraction_of_one("ratio of shear stiffness left in slip", ratio)?;
         Ok(self)
     }
 
     /// k_n and k_s, Pa/m.
     pub fn stiffness(&self) -> [f64; 2] {
-        self.reference.map(|k| k / self.ratio)
+        self.reference_stiffness.map(|stiffness| stiffness / self.thickness_ratio)
     }
 
-    /// Friction limit of the shear traction; `None` if it is not known before the step.
+    /// Friction limit of the shear traction, Pa; `None` if it depends on the pressure in the step.
     fn prescribed_limit(&self, start: &PreviousContact) -> Option<f64> {
-        let pressure = match self.limit {
+        let pressure = match self.friction_limit {
             FrictionLimit::Total => return None,
             _ if self.friction == f64::INFINITY => return None,
             FrictionLimit::Lagged => start.state.pressure.max(0.0),
@@ -242,11 +240,11 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + ratio · k_s (±Δs), for any friction.
+    /// ± τ = limit + ratio · k_s (±Δs), in a form that remains finite for infinite friction.
     ///
-    /// The form has a limit for infinite friction (see [`super::Coulomb`]).
+    /// See [`Limits`] for the condition with infinite friction.
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
-        let slip_resistance = self.slip_stiffness * self.stiffness()[1];
+        let slip_resistance = self.slip_stiffness_ratio * self.stiffness()[1];
         let initial_resistance = slip_resistance * start.state.slip;
         if let Some(limit) = self.prescribed_limit(start) {
             let value = direction * limit - initial_resistance;
@@ -266,7 +264,7 @@ impl ThinLayer {
     /// Slip of the structure in this step, as [`SlipSense`] defines it.
     fn slip_increment(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let increment = trial.slip - start.state.slip;
-        match self.sense {
+        match self.slip_sense {
             SlipSense::Inelastic => {
                 increment - (trial.shear - start.state.shear) / self.stiffness()[1]
             }
@@ -288,21 +286,21 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let ratio = if mode == Mode::Open { self.debonded } else { 1.0 };
-        let [normal, shear] = self.stiffness().map(|k| ratio * k);
-        let layer = Condition { gap: normal, ..Condition::pressure_is(0.0) };
-        let along = match mode {
+        let ratio = if mode == Mode::Open { self.debonded_ratio } else { 1.0 };
+        let [normal_stiffness, shear_stiffness] = self.stiffness().map(|k| ratio * k);
+        let normal = Condition { gap: normal_stiffness, ..Condition::pressure_is(0.0) };
+        let tangential = match mode {
             Mode::SlipRight => self.slip_condition(1.0, start),
             Mode::SlipLeft => self.slip_condition(-1.0, start),
             _ => {
                 // The shear that a closed layer carried is lost when it opens.
                 let is_opening = mode == Mode::Open && start.mode.is_closed();
                 let initial_shear = if is_opening { 0.0 } else { start.state.shear };
-                let value = initial_shear - shear * start.state.slip;
-                Condition { slip: -shear, ..Condition::shear_is(value) }
+                let value = initial_shear - shear_stiffness * start.state.slip;
+                Condition { slip: -shear_stiffness, ..Condition::shear_is(value) }
             }
         };
-        [layer, along]
+        [normal, tangential]
     }
 
     fn next_mode(
@@ -319,15 +317,15 @@ impl InterfaceLaw for ThinLayer {
         if trial.pressure < -traction_tolerance {
             return Mode::Open;
         }
-        let limit_before_step = self.prescribed_limit(start);
-        let limit = limit_before_step.unwrap_or(self.friction * trial.pressure.max(0.0));
+        let prescribed_limit = self.prescribed_limit(start);
+        let shear_limit = prescribed_limit.unwrap_or(self.friction * trial.pressure.max(0.0));
         let sliding_mode = |direction: f64| {
             let slip_tolerance = tolerance.length + traction_tolerance / self.stiffness()[1];
-            let has_slip_stiffness = self.slip_stiffness > 0.0 && self.friction.is_finite();
-            let shear_needs_pressure = limit_before_step.is_none() && !has_slip_stiffness;
+            let has_slip_stiffness = self.slip_stiffness_ratio > 0.0 && self.friction.is_finite();
+            let is_shear_from_pressure = prescribed_limit.is_none() && !has_slip_stiffness;
             if self.friction == 0.0 {
                 mode
-            } else if shear_needs_pressure && direction * trial.shear < -traction_tolerance {
+            } else if is_shear_from_pressure && direction * trial.shear < -traction_tolerance {
                 Mode::Open
             } else if direction * self.slip_increment(start, trial) < -slip_tolerance {
                 Mode::Stick
@@ -338,14 +336,15 @@ impl InterfaceLaw for ThinLayer {
         match mode {
             Mode::SlipRight => sliding_mode(1.0),
             Mode::SlipLeft => sliding_mode(-1.0),
-            // Infinite friction times zero pressure is not a limit.
-            _ if self.friction == f64::INFINITY
-                || trial.shear.abs() <= limit + traction_tolerance =>
-            {
-                Mode::Stick
+            // The shear limit is NaN for infinite friction without pressure.
+            _ if self.friction == f64::INFINITY => Mode::Stick,
+            _ if trial.shear.abs() <= shear_limit + traction_tolerance => Mode::Stick,
+            _ if self.slip_sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => {
+                Mode::SlipLeft
             }
-            _ if self.sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => Mode::SlipLeft,
-            _ if self.sense == SlipSense::LastVelocity && start.slip_rate > 0.0 => Mode::SlipRight,
+            _ if self.slip_sense == SlipSense::LastVelocity && start.slip_rate > 0.0 => {
+                Mode::SlipRight
+            }
             _ if trial.shear > 0.0 => Mode::SlipRight,
             _ => Mode::SlipLeft,
         }
@@ -353,13 +352,13 @@ impl InterfaceLaw for ThinLayer {
 
     fn compliance(&self, mode: Mode, _: &PreviousContact) -> [f64; 2] {
         match mode {
-            Mode::Open if self.debonded == 0.0 => [0.0; 2],
-            Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),
+            Mode::Open if self.debonded_ratio == 0.0 => [0.0; 2],
+            Mode::Open => self.stiffness().map(|stiffness| 1.0 / (self.debonded_ratio * stiffness)),
             _ => self.stiffness().map(f64::recip),
         }
     }
 
-    /// No reason: limits exist in plan alone, and the numbers of a layer are valid.
+    /// No error: the numbers of a layer are valid, although it may have no limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
@@ -369,11 +368,11 @@ impl InterfaceLaw for ThinLayer {
     /// An open element carries no traction; slip excludes the elastic deformation.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let quantity = "thin layer in plan";
-        if self.debonded > 0.0 {
-            let needed = "`with_debonded_ratio(0.0)`: an open element carries nothing there";
+        if self.debonded_ratio > 0.0 {
+            let needed = "`with_debonded_ratio(0.0)`: an open element in plan has no traction";
             return Err(Error::Scene { quantity, needed });
         }
-        if self.sense != SlipSense::Inelastic || self.slip_stiffness > 0.0 {
+        if self.slip_sense != SlipSense::Inelastic || self.slip_stiffness_ratio > 0.0 {
             let needed = "slip that is inelastic, without a stiffness in slip";
             return Err(Error::Scene { quantity, needed });
         }
@@ -389,12 +388,13 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-        Box::new(Self { friction: 0.0, limit: FrictionLimit::Total, slip_stiffness: 0.0, ..*self })
+        let friction_limit = FrictionLimit::Total;
+        Box::new(Self { friction: 0.0, friction_limit, slip_stiffness_ratio: 0.0, ..*self })
     }
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
         let quantity = "friction limited by the static pressure";
-        let has_pressure = self.limit != FrictionLimit::Static || scene.gravity != 0.0;
+        let has_pressure = self.friction_limit != FrictionLimit::Static || scene.gravity != 0.0;
         require_part(quantity, has_pressure, "there is none without gravity")
     }
 }

@@ -4,15 +4,15 @@ use super::coulomb::{Coulomb, UnilateralCondition};
 use super::{InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::Result;
 
-type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
+type FrictionFunction = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
-/// [`Coulomb`]'s law with a friction coefficient that a closure gives for each step.
+/// [`Coulomb`]'s law with a friction coefficient from a closure for each step.
 ///
-/// The closure receives the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. It has no
-/// state variables: friction that depends on the distance slid needs a user's [`InterfaceLaw`].
+/// The closure receives the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. The law has no
+/// state variables: friction that depends on the sliding distance needs a user's [`InterfaceLaw`].
 ///
-/// The coefficient is evaluated at the start of the step, so that it cannot change while the modes of the step are
-/// searched for. It therefore lags by one step.
+/// The coefficient is evaluated at the start of the step, so that it is constant during the mode search. It therefore lags
+/// by one step.
 ///
 /// Friction that falls from 0.3 to 0.2 as sliding gets faster:
 /// ```
@@ -38,7 +38,7 @@ type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct VariableFriction {
-    coefficient: Coefficient,
+    coefficient: FrictionFunction,
     /// Contact law without the coefficient.
     contact: Coulomb,
 }
@@ -66,13 +66,13 @@ impl VariableFriction {
     ///
     /// # Errors
     /// The errors of [`Coulomb::with_unilateral_condition`].
-    pub fn with_unilateral_condition(mut self, activation: UnilateralCondition) -> Result<Self> {
-        self.contact = self.contact.with_unilateral_condition(activation)?;
+    pub fn with_unilateral_condition(mut self, condition: UnilateralCondition) -> Result<Self> {
+        self.contact = self.contact.with_unilateral_condition(condition)?;
         Ok(self)
     }
 
     /// The law with the coefficient of this step.
-    fn at(&self, start: &PreviousContact) -> Coulomb {
+    fn law_of_step(&self, start: &PreviousContact) -> Coulomb {
         Coulomb { friction: (self.coefficient)(start), ..self.contact }
     }
 }
@@ -83,11 +83,11 @@ impl InterfaceLaw for VariableFriction {
     }
 
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
-        Coulomb::new(self.at(start).friction()).map(|_| ())
+        Coulomb::new(self.law_of_step(start).friction()).map(|_| ())
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        self.at(start).limits(start)
+        self.law_of_step(start).limits(start)
     }
 
     /// This law without friction, with the same tensile strength.

@@ -5,9 +5,10 @@ use crate::error::{Result, positive};
 
 /// Coulomb friction and uplift on soil whose contact pressure is bounded.
 ///
-/// Where the pressure reaches the bearing pressure q, the base sinks permanently. The state variable of each
-/// element is its indentation w ≥ 0: after uplift, the base meets the surface at w below its first position.
-/// The normal conditions of the element, combined with stick and slip:
+/// Where the pressure reaches the bearing pressure q, the base sinks permanently.
+/// [`ShallowFooting`](crate::soil::ShallowFooting) computes q of a footing from the strength of its soil. The state
+/// variable of each element is its indentation w ≥ 0: after uplift, the base meets the surface at w below its initial
+/// position. The normal conditions of the element, combined with stick and slip:
 ///
 /// | | |
 /// |---|---|
@@ -15,9 +16,9 @@ use crate::error::{Result, positive};
 /// | closed | g = −w, 0 ≤ p ≤ q |
 /// | yielding | p = q, g ≤ −w; w becomes −g |
 ///
-/// The energy balance counts q times the indentation in `contact`. The law models the near field of a
-/// foundation: a rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El
-/// Naggar 2003), while the half-plane below stays elastic. Sliding does not lower q.
+/// In the energy balance, `contact` includes q times the indentation. The law models the near field of a
+/// foundation: a rocking base settles and rounds its soil, as in beds of yielding springs (Allotey & El
+/// Naggar 2003), while the half-plane below remains elastic. Sliding does not reduce q.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -65,7 +66,8 @@ validated! {
 impl Yielding {
     /// Law with a bearing pressure (Pa) and a friction coefficient of zero or more.
     ///
-    /// If the coefficient is infinite, nothing ever slides.
+    /// [`ShallowFooting::drained_pressure`](crate::soil::ShallowFooting::drained_pressure) and
+    /// [`ShallowFooting::undrained_pressure`](crate::soil::ShallowFooting::undrained_pressure) return bearing pressures. If the coefficient is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, and for a

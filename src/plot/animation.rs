@@ -3,11 +3,14 @@
 use std::fmt::Write;
 
 use super::deformed::trench_outline;
-use super::deformed::{FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, places};
+use super::deformed::{
+    FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, displaced_points,
+};
+use super::element_state::ElementStates;
 use super::marks::{self, KEY_LEFT, PixelBox, hex};
-use super::shown::ShownStates;
 use super::svg::{Svg, changes, escaped, polygon};
 use super::text_width::{fitted, length_text, short, width};
+use super::ticks::round_down;
 use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
@@ -23,6 +26,10 @@ const STRUCTURE_BOX: PixelBox = PixelBox { left: 40.0, top: 60.0, right: 690.0, 
 const MAX_FRAMES: usize = 600;
 /// Largest number of texts of the clock.
 const MAX_CLOCK_TEXTS: usize = 150;
+/// Largest length of the scale bar, pixels.
+const MAX_BAR_LENGTH: f64 = 150.0;
+/// Width of the soil around a base in plan, over the longer side of the base.
+const FLOOR_MARGIN_RATIO: f64 = 0.15;
 /// Width of the soil drawn beside a trench, over the width of the trench.
 const TRENCH_SIDE_RATIO: f64 = 0.15;
 
@@ -52,40 +59,44 @@ pub fn animation(
     positive("magnification", magnification)?;
     positive("slowness", slowness)?;
     let frames: Vec<_> = time_series.motion_frames().collect();
-    require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
+    require_part(
+        "animation",
+        frames.len() > 1,
+        "the recorder must keep the motion (`Recorder::motion`)",
+    )?;
     let needed = "600 or fewer: keep fewer of them";
     require("frames of an animation", frames.len() as f64, frames.len() <= MAX_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let view = StructureView::whole(time_series.up());
-    let mut moved: Vec<Vec<[f64; 2]>> = Vec::with_capacity(frames.len());
+    let view = StructureView::overview(time_series.up());
+    let mut frame_points: Vec<Vec<[f64; 2]>> = Vec::with_capacity(frames.len());
     for frame in &frames {
-        moved.push(view.all(&places(shape, frame, magnification)?));
+        frame_points.push(view.project_all(&displaced_points(shape, frame, magnification)?));
     }
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
-
     let mut out = head(title);
     let screen = match view {
         StructureView::Slanted => {
             let floor = Floor::new(time_series);
-            let screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
+            let screen =
+                Screen::around(&frame_points, &view.project_all(&floor.corners(floor.margin)));
             out += &floor.draw(time_series, &screen, frames.len(), &duration);
             screen
         }
         StructureView::AlongX | StructureView::AlongY => {
             let trench = trench_outline(time_series.elements());
-            let mut surface = vec![[moved[0][0][0], 0.0]];
-            if let Some([first, .., last]) = trench {
-                // Space for the marks of the walls.
-                let side = TRENCH_SIDE_RATIO * (last[0] - first[0]);
-                surface.extend([[first[0] - side, 0.0], [last[0] + side, 0.0]]);
+            let mut surface = vec![[frame_points[0][0][0], 0.0]];
+            if let Some([left_edge, .., right_edge]) = trench {
+                // The marks of the walls need space.
+                let side = TRENCH_SIDE_RATIO * (right_edge[0] - left_edge[0]);
+                surface.extend([[left_edge[0] - side, 0.0], [right_edge[0] + side, 0.0]]);
             }
-            let screen = Screen::around(&moved, &surface);
+            let screen = Screen::around(&frame_points, &surface);
             out += &screen.ground(trench);
-            out += &marks::base(
+            out += &marks::element_marks(
                 time_series,
                 screen.scale,
-                |place| screen.place(place),
+                |point| screen.pixels(point),
                 STRUCTURE_BOX.bottom,
                 frames.len(),
                 &duration,
@@ -93,8 +104,8 @@ pub fn animation(
             screen
         }
     };
-    out += &screen.structure(&view.far_to_near(shape), shape.has_faces(), &moved, &duration);
-    out += &screen.bar(magnification);
+    out += &screen.structure(&view.far_to_near(shape), shape.has_faces(), &frame_points, &duration);
+    out += &screen.scale_bar(magnification);
     out += &clock(&times, &duration);
     Ok(Svg::new(out + "</svg>\n"))
 }
@@ -112,20 +123,20 @@ struct Screen {
 }
 
 impl Screen {
-    /// Screen that contains these places and the `others`.
-    fn around(moved: &[Vec<[f64; 2]>], others: &[[f64; 2]]) -> Self {
-        let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
-        all.extend(others);
-        let bounds = bounds(&all);
+    /// Screen that contains the points of all frames and of the surface.
+    fn around(frame_points: &[Vec<[f64; 2]>], surface: &[[f64; 2]]) -> Self {
+        let mut all_points: Vec<[f64; 2]> = frame_points.iter().flatten().copied().collect();
+        all_points.extend(surface);
+        let bounds = bounds(&all_points);
         let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
         let PixelBox { left, top, right, bottom } = STRUCTURE_BOX;
         let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
-        let left = left + 0.5 * (right - left - scale * sides[0]);
-        Self { scale, left, bottom, origin: bounds.map(|[low, _]| low) }
+        let structure_left = left + 0.5 * (right - left - scale * sides[0]);
+        Self { scale, left: structure_left, bottom, origin: bounds.map(|[low, _]| low) }
     }
 
-    /// Pixels of a place in m.
-    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    /// Pixels of a point in m.
+    fn pixels(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.left + self.scale * (x - self.origin[0]),
             self.bottom - self.scale * (y - self.origin[1]),
@@ -134,15 +145,15 @@ impl Screen {
 
     /// Pixels of corners (x, height, y) on the floor, in the slanted view.
     fn corners(&self, corners: [[f64; 3]; 4]) -> [[f64; 2]; 4] {
-        corners.map(|corner| self.place(StructureView::Slanted.project(corner)))
+        corners.map(|corner| self.pixels(StructureView::Slanted.project(corner)))
     }
 
-    /// The cells at all instants; those that are faces hide what was drawn before.
+    /// The cells at all instants, as SVG; cells that are faces hide what was drawn before.
     fn structure(
         &self,
         cells: &[&[usize]],
         are_faces: bool,
-        moved: &[Vec<[f64; 2]>],
+        frame_points: &[Vec<[f64; 2]>],
         duration: &str,
     ) -> String {
         // Faces are drawn one by one, so that each hides those behind it.
@@ -152,8 +163,9 @@ impl Screen {
             "<g fill=\"{fill}\" fill-opacity=\"{FACE_OPACITY}\" stroke=\"#1f77b4\" stroke-width=\"1.2\" \
              stroke-linejoin=\"round\">\n"
         );
-        for cells in cells.chunks(cells_per_path) {
-            let paths: Vec<String> = moved.iter().map(|places| self.path(cells, places)).collect();
+        for path_cells in cells.chunks(cells_per_path) {
+            let paths: Vec<String> =
+                frame_points.iter().map(|points| self.path(path_cells, points)).collect();
             let _ = writeln!(
                 out,
                 "<path d=\"{}\"><animate attributeName=\"d\" dur=\"{duration}\" \
@@ -166,13 +178,13 @@ impl Screen {
     }
 
     /// Outlines of the cells as an SVG path, with the same commands for every frame.
-    fn path(&self, cells: &[&[usize]], places: &[[f64; 2]]) -> String {
+    fn path(&self, cells: &[&[usize]], points: &[[f64; 2]]) -> String {
         let mut path = String::new();
         for corners in cells {
             for (k, &corner) in corners.iter().enumerate() {
-                let place = self.place(places[corner]);
+                let [x, y] = self.pixels(points[corner]);
                 let command = if k == 0 { 'M' } else { 'L' };
-                let _ = write!(path, "{command}{:.1} {:.1}", place[0], place[1]);
+                let _ = write!(path, "{command}{x:.1} {y:.1}");
             }
             if corners.len() > 2 {
                 path.push('Z');
@@ -184,9 +196,9 @@ impl Screen {
     /// The soil and its surface, with the outline of a trench.
     fn ground(&self, trench: Option<[[f64; 2]; 4]>) -> String {
         let PixelBox { left, right, bottom, .. } = STRUCTURE_BOX;
-        let surface = self.place([0.0; 2])[1];
+        let surface = self.pixels([0.0; 2])[1];
         let mut trench_path = String::new();
-        for [x, y] in trench.iter().flatten().map(|corner| self.place(*corner)) {
+        for [x, y] in trench.iter().flatten().map(|corner| self.pixels(*corner)) {
             let _ = write!(trench_path, "L{x:.1} {y:.1}");
         }
         format!(
@@ -199,9 +211,9 @@ impl Screen {
         )
     }
 
-    /// A bar with its length in metres, for the structure and for its displacements.
-    fn bar(&self, magnification: f64) -> String {
-        let length = round_down(150.0 / self.scale);
+    /// A bar with its length in the scale of the structure and of its displacements, as SVG.
+    fn scale_bar(&self, magnification: f64) -> String {
+        let length = round_down(MAX_BAR_LENGTH / self.scale);
         let end = KEY_LEFT + self.scale * length;
         let y = 300.0;
         format!(
@@ -220,13 +232,6 @@ impl Screen {
             short(magnification)
         )
     }
-}
-
-/// Rounds down to 1, 2 or 5 times a power of ten.
-fn round_down(value: f64) -> f64 {
-    let power = 10.0_f64.powf(value.log10().floor());
-    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= value);
-    factor.unwrap_or(1.0) * power
 }
 
 /// The beginning of the file, with the title.
@@ -256,10 +261,10 @@ const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, 
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let along = far_ends(time_series.elements().iter().map(|element| element.ends()[0]));
-        let across = far_ends(time_series.elements().iter().map(|element| element.ends()[1]));
-        let side = (along[1] - along[0]).max(across[1] - across[0]);
-        Self { ends: [along, across], margin: 0.15 * side }
+        let x_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[0]));
+        let y_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[1]));
+        let longer_side = (x_ends[1] - x_ends[0]).max(y_ends[1] - y_ends[0]);
+        Self { ends: [x_ends, y_ends], margin: FLOOR_MARGIN_RATIO * longer_side }
     }
 
     /// Corners (x, height, y) at a distance `margin` outside the base.
@@ -274,7 +279,7 @@ impl Floor {
         &self,
         time_series: &TimeSeries,
         screen: &Screen,
-        frames: usize,
+        frame_count: usize,
         duration: &str,
     ) -> String {
         let soil = polygon(&screen.corners(self.corners(self.margin)));
@@ -286,11 +291,11 @@ impl Floor {
         self.draw_axes(screen, &mut out);
         let [[left, _], [_, back]] = self.ends;
         let contact: Vec<_> = time_series.contact_frames().collect();
-        if contact.len() != frames {
+        if contact.len() != frame_count {
             return out;
         }
-        let states = ShownStates::new(&contact, true);
-        out += &marks::key(states.in_key.clone());
+        let states = ElementStates::new(&contact, true);
+        out += &marks::color_key(states.key_states.clone());
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",
@@ -302,13 +307,13 @@ impl Floor {
             .min((PLAN_BOX.bottom - PLAN_BOX.top) / sides[1]);
         for (e, element) in time_series.elements().iter().enumerate() {
             let corners = Self { ends: element.ends(), margin: 0.0 }.corners(0.0);
-            let in_plan = corners.map(|[x, _, y]| {
+            let plan_corners = corners.map(|[x, _, y]| {
                 [PLAN_BOX.left + scale * (x - left), PLAN_BOX.top + scale * (back - y)]
             });
             let colors: Vec<String> =
-                states.by_frame.iter().map(|frame| hex(frame[e].color())).collect();
+                states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
             let change = changes("fill", &colors, duration);
-            for cell in [polygon(&screen.corners(corners)), polygon(&in_plan)] {
+            for cell in [polygon(&screen.corners(corners)), polygon(&plan_corners)] {
                 let _ = writeln!(
                     out,
                     "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
@@ -328,7 +333,7 @@ impl Floor {
             ("y", [right + distance, 0.0, front], [right + distance, 0.0, back]),
         ] {
             let [[x, y], [to_x, to_y]] =
-                [from, to].map(|place| screen.place(StructureView::Slanted.project(place)));
+                [from, to].map(|point| screen.pixels(StructureView::Slanted.project(point)));
             let _ = writeln!(
                 out,
                 "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
@@ -343,13 +348,13 @@ impl Floor {
     }
 }
 
-/// The running time: a bar, and a sequence of texts, because SMIL cannot count.
+/// The running time as SVG: a bar, and a sequence of texts, because SMIL has no counter.
 fn clock(times: &[f64], duration: &str) -> String {
     let begin = times[0];
     let end = times[times.len() - 1];
-    let first = format!("{begin:.2} s");
-    let last = format!("{end:.2} s");
-    let left = 30.0 + width(&first, 18).max(width(&last, 18));
+    let begin_text = format!("{begin:.2} s");
+    let end_text = format!("{end:.2} s");
+    let left = 30.0 + width(&begin_text, 18).max(width(&end_text, 18));
     let length = PICTURE_WIDTH - 2.0 * left;
     let y = 600.0;
     let mut out = format!(
@@ -357,33 +362,35 @@ fn clock(times: &[f64], duration: &str) -> String {
          <rect x=\"{left:.1}\" y=\"{y}\" width=\"0\" height=\"8\" fill=\"#444\">\
          <animate attributeName=\"width\" from=\"0\" to=\"{length:.1}\" dur=\"{duration}\" \
          repeatCount=\"indefinite\"/></rect>\n\
-         <text x=\"{:.1}\" y=\"{}\" text-anchor=\"end\">{first}</text>\
-         <text x=\"{:.1}\" y=\"{}\">{last}</text>\n",
+         <text x=\"{:.1}\" y=\"{}\" text-anchor=\"end\">{begin_text}</text>\
+         <text x=\"{:.1}\" y=\"{}\">{end_text}</text>\n",
         left - 10.0,
         y + 9.0,
         left + length + 10.0,
         y + 9.0
     );
-    // The last frame has no duration, so texts begin at the other frames.
+    // The last frame has no duration, so only the other frames have texts.
     let frames_per_text = (times.len() - 1).div_ceil(MAX_CLOCK_TEXTS);
-    let shown: Vec<f64> =
+    let text_times: Vec<f64> =
         times[..times.len() - 1].iter().copied().step_by(frames_per_text).collect();
     // Fractions of the run at which texts begin, and its end.
-    let mut fractions: Vec<f64> =
-        shown.iter().map(|time| ((time - begin) / (end - begin)).clamp(0.0, 1.0)).collect();
+    let mut fractions: Vec<f64> = text_times
+        .iter()
+        .map(|time| ((time - begin) / (end - begin)).clamp(0.0, 1.0))
+        .collect();
     fractions.push(1.0);
-    for (k, &time) in shown.iter().enumerate() {
-        let from = fractions[k];
-        let until = fractions[k + 1];
+    for (k, &time) in text_times.iter().enumerate() {
+        let text_start = fractions[k];
+        let text_end = fractions[k + 1];
         let is_visible_at_start = k == 0;
-        let (without_animation, states, key_times) = if is_visible_at_start {
-            ("visible", "visible;hidden", format!("0;{until:.5}"))
+        let (initial_state, states, key_times) = if is_visible_at_start {
+            ("visible", "visible;hidden", format!("0;{text_end:.5}"))
         } else {
-            ("hidden", "hidden;visible;hidden", format!("0;{from:.5};{until:.5}"))
+            ("hidden", "hidden;visible;hidden", format!("0;{text_start:.5};{text_end:.5}"))
         };
         let _ = writeln!(
             out,
-            "<text x=\"{KEY_LEFT}\" y=\"400\" font-size=\"20\" visibility=\"{without_animation}\">t = {time:.2} s\
+            "<text x=\"{KEY_LEFT}\" y=\"400\" font-size=\"20\" visibility=\"{initial_state}\">t = {time:.2} s\
              <animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{duration}\" \
              repeatCount=\"indefinite\" values=\"{states}\" keyTimes=\"{key_times}\"/></text>"
         );

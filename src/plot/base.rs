@@ -1,17 +1,19 @@
 //! Pictures of the contact along the base: modes over time, and the envelope of pressure.
 
 use super::axes::{ChartAxis, chart, draw_curve};
-use super::base_axis::{BaseAxis, label_gaps, unrolled};
+use super::base_axis::{BaseAxis, GAP_ROUNDING, label_gaps, unrolled};
 use super::drawing::{CURVE_COLORS, Stroke, range_of};
+use super::element_state::{ElementState, ElementStates};
 use super::key::{KeySample, PictureKey};
 use super::plan::largest_pressures;
-use super::shown::{ElementState, ShownStates};
 use super::svg::{Sheet, Svg};
 use crate::bem::ContactElement;
 use crate::error::{Result, require_part};
 use crate::results::{ContactFrame, ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 
+/// Distance between the rectangles of neighbouring elements over the length of an element, halved.
+const ELEMENT_MARGIN_RATIO: f64 = 0.04;
 /// Largest number of columns of the map, about one per pixel.
 const MAX_MAP_COLUMNS: usize = 1000;
 
@@ -36,24 +38,24 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let begin = frames[0].time;
     let end = frames[frames.len() - 1].time;
     let frames_per_column = (frames.len() - 1).div_ceil(MAX_MAP_COLUMNS).max(1);
-    let states = ShownStates::new(&frames, false);
-    let key = states.in_key.iter().map(|state| (state.name(), KeySample::Area(state.color())));
+    let states = ElementStates::new(&frames, false);
+    let key = states.key_states.iter().map(|state| (state.name(), KeySample::Area(state.color())));
     let base = BaseAxis::new(elements.iter().copied());
     Sheet::new(title, PictureKey::new(key)).picture(|area| {
         let mut chart =
             chart(area, &ChartAxis::linear(begin..end, "time, s"), &base.axis(), false)?;
-        label_gaps(&mut chart, &base, |place| (0.5 * (begin + end), place))?;
+        label_gaps(&mut chart, &base, |position| (0.5 * (begin + end), position))?;
         for (e, element) in elements.iter().enumerate() {
             let columns = mode_columns(&frames, &states, e, frames_per_column);
             let mut start = begin;
-            let margin = 0.04 * element.length();
-            let low = base.place(element.left());
+            let margin = ELEMENT_MARGIN_RATIO * element.length();
+            let low = base.drawn_position(element.left());
             let high = low + element.length();
-            for stretch in columns.chunk_by(|a, b| a.state == b.state) {
-                let stop = stretch[stretch.len() - 1].end;
-                let area = [(start, low + margin), (stop, high - margin)];
-                let color = stretch[0].state.color();
-                chart.draw_series([Rectangle::new(area, color.filled())])?;
+            for equal_columns in columns.chunk_by(|a, b| a.state == b.state) {
+                let stop = equal_columns[equal_columns.len() - 1].end;
+                let corners = [(start, low + margin), (stop, high - margin)];
+                let color = equal_columns[0].state.color();
+                chart.draw_series([Rectangle::new(corners, color.filled())])?;
                 start = stop;
             }
         }
@@ -69,20 +71,20 @@ struct ModeColumn {
     state: ElementState,
 }
 
-/// States of an element over time, each for so many frames.
+/// Columns of an element in the map, each for `frames_per_column` frames.
 fn mode_columns(
     frames: &[ContactFrame<'_>],
-    states: &ShownStates,
+    states: &ElementStates,
     element: usize,
     frames_per_column: usize,
 ) -> Vec<ModeColumn> {
     let mut columns = Vec::new();
     // The first frame is the start, before any step.
-    let frames = frames[1..].chunks(frames_per_column);
-    let states = states.by_frame[1..].chunks(frames_per_column);
-    for (frames, states) in frames.zip(states) {
-        if let Some(state) = states.iter().map(|frame| frame[element]).max() {
-            columns.push(ModeColumn { end: frames[frames.len() - 1].time, state });
+    let frame_groups = frames[1..].chunks(frames_per_column);
+    let state_groups = states.frame_states[1..].chunks(frames_per_column);
+    for (frame_group, state_group) in frame_groups.zip(state_groups) {
+        if let Some(state) = state_group.iter().map(|frame| frame[element]).max() {
+            columns.push(ModeColumn { end: frame_group[frame_group.len() - 1].time, state });
         }
     }
     columns
@@ -119,7 +121,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         let top = range.end - 0.04 * (range.end - range.start);
         let pressure_axis = ChartAxis::linear(range, "pressure, kPa");
         let mut chart = chart(area, &base.axis(), &pressure_axis, true)?;
-        label_gaps(&mut chart, &base, |place| (place, top))?;
+        label_gaps(&mut chart, &base, |position| (position, top))?;
         for ((_, value), stroke) in curves.into_iter().zip(strokes) {
             let points = steps_along_base(envelope, &elements, &base, value);
             draw_curve(&mut chart, &points, stroke, 2)?;
@@ -137,9 +139,9 @@ fn steps_along_base(
 ) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
     for (extremes, element) in envelope.iter().zip(elements) {
-        // A gap between two strips is a gap in the curve.
-        let left = base.place(element.left());
-        if points.last().is_some_and(|last| left - last.0 > 1e-6 * element.length()) {
+        // A gap between two foundations is a gap in the curve.
+        let left = base.drawn_position(element.left());
+        if points.last().is_some_and(|last| left - last.0 > GAP_ROUNDING * element.length()) {
             points.push((f64::NAN, f64::NAN));
         }
         points.push((left, value(extremes)));

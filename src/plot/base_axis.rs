@@ -1,8 +1,9 @@
 //! The axis along a base, on which wide gaps between foundations are drawn short.
 
-use super::axes::{Chart, ChartAxis, LABEL_FONT, linear};
+use super::axes::{Chart, ChartAxis, LABEL_FONT};
 use super::drawing::Drawing;
 use super::text_width::{short, width};
+use super::ticks::linear_ticks;
 use crate::bem::ContactElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -12,6 +13,9 @@ const MAX_GAP_RATIO: f64 = 0.1;
 
 /// Number of marks of the whole axis.
 const AXIS_MARKS: usize = 11;
+
+/// Distance between elements that is due to rounding, relative to the length of an element.
+pub(super) const GAP_ROUNDING: f64 = 1e-6;
 
 /// A foundation: adjacent elements without gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,27 +32,27 @@ struct DrawnFoundation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ShortenedGap {
     /// Drawn position of the left end, m.
-    pub(super) from: f64,
+    pub(super) start: f64,
     /// Drawn position of the right end, m.
-    pub(super) to: f64,
+    pub(super) end: f64,
     /// True width, m.
     pub(super) width: f64,
 }
 
-/// Elements of a base on its line: walls continue it to both sides.
+/// Elements of a base on one line, which walls continue on both sides.
 pub(super) fn unrolled(elements: impl Iterator<Item = ContactElement>) -> Vec<ContactElement> {
     let elements: Vec<ContactElement> = elements.collect();
-    let flat = elements.iter().find(|element| element.faces_down());
-    let bottom = flat.map_or(0.0, |element| element.center()[2]);
+    let floor_element = elements.iter().find(|element| element.faces_down());
+    let bottom = floor_element.map_or(0.0, |element| element.center()[2]);
     let mut unrolled = Vec::with_capacity(elements.len());
     for element in &elements {
         if element.faces_down() {
             unrolled.push(*element);
         } else {
             let side = element.directions()[0][0].signum();
-            let half = 0.5 * element.length();
+            let half_length = 0.5 * element.length();
             let middle = element.left() + side * (element.center()[2] - bottom);
-            unrolled.push(ContactElement::new(middle - half, middle + half));
+            unrolled.push(ContactElement::new(middle - half_length, middle + half_length));
         }
     }
     unrolled
@@ -62,14 +66,17 @@ pub(super) struct BaseAxis {
 }
 
 impl BaseAxis {
+    /// Axis along these elements, in any order.
     pub(super) fn new(elements: impl Iterator<Item = ContactElement>) -> Self {
         let mut elements: Vec<ContactElement> = elements.collect();
         elements.sort_by(|a, b| a.left().total_cmp(&b.left()));
         let mut foundations: Vec<DrawnFoundation> = Vec::new();
         for element in &elements {
             match foundations.last_mut() {
-                Some(last) if element.left() - last.right < 1e-6 * element.length() => {
-                    last.right = element.right();
+                Some(previous)
+                    if element.left() - previous.right < GAP_ROUNDING * element.length() =>
+                {
+                    previous.right = element.right();
                 }
                 _ => foundations.push(DrawnFoundation {
                     left: element.left(),
@@ -82,11 +89,11 @@ impl BaseAxis {
             * foundations.iter().map(|foundation| foundation.right - foundation.left).sum::<f64>();
         let mut gaps = Vec::new();
         for k in 1..foundations.len() {
-            let last = foundations[k - 1];
-            let end = last.start + last.right - last.left;
-            let width = foundations[k].left - last.right;
+            let previous = foundations[k - 1];
+            let end = previous.start + previous.right - previous.left;
+            let width = foundations[k].left - previous.right;
             if width > max_gap {
-                gaps.push(ShortenedGap { from: end, to: end + max_gap, width });
+                gaps.push(ShortenedGap { start: end, end: end + max_gap, width });
             }
             foundations[k].start = end + width.min(max_gap);
         }
@@ -94,7 +101,7 @@ impl BaseAxis {
     }
 
     /// Drawn position of a point of the base, m.
-    pub(super) fn place(&self, x: f64) -> f64 {
+    pub(super) fn drawn_position(&self, x: f64) -> f64 {
         // Between two foundations nothing is drawn; the position refers to the foundation on the left.
         let foundation = self
             .foundations
@@ -108,10 +115,11 @@ impl BaseAxis {
     /// Axis along the base, with marks on the foundations only.
     pub(super) fn axis(&self) -> ChartAxis {
         let description = "x along the base, m";
-        let (Some(first), Some(last)) = (self.foundations.first(), self.foundations.last()) else {
+        let (Some(leftmost), Some(rightmost)) = (self.foundations.first(), self.foundations.last())
+        else {
             return ChartAxis::linear(0.0..1.0, description);
         };
-        let range = first.start..last.start + last.right - last.left;
+        let range = leftmost.start..rightmost.start + rightmost.right - rightmost.left;
         if self.gaps.is_empty() {
             return ChartAxis::linear(range, description);
         }
@@ -119,10 +127,10 @@ impl BaseAxis {
         for foundation in &self.foundations {
             let fraction = (foundation.right - foundation.left) / (range.end - range.start);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to 11")]
-            let count = ((fraction * AXIS_MARKS as f64).round() as usize).max(2);
-            let ticks = linear(&(foundation.left..foundation.right), count);
+            let mark_count = ((fraction * AXIS_MARKS as f64).round() as usize).max(2);
+            let ticks = linear_ticks(&(foundation.left..foundation.right), mark_count);
             if ticks.offset.is_some() {
-                // Numbers too long for an axis: one mark with the approximate place.
+                // The numbers are too long for an axis: one mark has the rounded coordinate.
                 marks.push((foundation.start, short(foundation.left)));
                 continue;
             }
@@ -134,24 +142,24 @@ impl BaseAxis {
     }
 }
 
-/// Writes the true width into every shortened gap that has space for it.
+/// Writes its true width into every shortened gap that has space for the text.
 ///
-/// `text_place` returns the middle of the text for a position on the axis.
+/// `text_point` returns the middle of a text from its position on the axis.
 pub(super) fn label_gaps(
     chart: &mut Chart<'_, '_>,
     base: &BaseAxis,
-    text_place: impl Fn(f64) -> (f64, f64),
+    text_point: impl Fn(f64) -> (f64, f64),
 ) -> Drawing<()> {
     let style = TextStyle::from(LABEL_FONT.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
     let mut texts = Vec::new();
     for gap in &base.gaps {
-        let from = chart.plotting_area().map_coordinate(&text_place(gap.from));
-        let to = chart.plotting_area().map_coordinate(&text_place(gap.to));
+        let start = chart.plotting_area().map_coordinate(&text_point(gap.start));
+        let end = chart.plotting_area().map_coordinate(&text_point(gap.end));
         let text = format!("gap {} m", short(gap.width));
-        let gap_width = from.0.abs_diff(to.0);
-        let gap_height = from.1.abs_diff(to.1);
+        let gap_width = start.0.abs_diff(end.0);
+        let gap_height = start.1.abs_diff(end.1);
         if f64::from(gap_width) > width(&text, LABEL_FONT.1) || gap_height >= LABEL_FONT.1 {
-            texts.push(Text::new(text, text_place(0.5 * (gap.from + gap.to)), style.clone()));
+            texts.push(Text::new(text, text_point(0.5 * (gap.start + gap.end)), style.clone()));
         }
     }
     chart.draw_series(texts)?;
@@ -163,14 +171,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wide_gaps_are_short_and_marks_tell_where_one_is() {
+    fn wide_gaps_are_drawn_short() {
         let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
         let elements = elements.map(|(left, right)| ContactElement::new(left, right));
         let base = BaseAxis::new(elements.into_iter());
         // 17.5 m of foundations: the gap of 32 m becomes 1.75 m; the gap of 0.5 m keeps its width.
-        assert_eq!(base.gaps, [ShortenedGap { from: 8.0, to: 9.75, width: 32.0 }]);
-        for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {
-            assert!((base.place(x) - place).abs() < 1e-12, "{x}");
+        assert_eq!(base.gaps, [ShortenedGap { start: 8.0, end: 9.75, width: 32.0 }]);
+        for (x, position) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {
+            assert!((base.drawn_position(x) - position).abs() < 1e-12, "{x}");
         }
     }
 }

@@ -15,51 +15,59 @@ use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-/// Error if only one of shape and ground is in plan.
+/// Error unless the shape has the dimension of the ground.
 pub(super) fn check_dimension(shape: &DeformedShape, time_series: &TimeSeries) -> Result<()> {
-    let needed = "must be one in plan on a ground in plan, and one of the plane else";
+    let needed = "must be in space on a ground in plan, and in the plane on a ground in the plane";
     require_part("deformed shape", shape.up() == time_series.up(), needed)
 }
 
-/// Places of the points (x, height, y), m, with magnified displacements relative to the free field.
-pub(super) fn places(
+/// Points (x, height, y), m, with magnified displacements relative to the free field.
+pub(super) fn displaced_points(
     shape: &DeformedShape,
     frame: &MotionFrame<'_>,
     magnification: f64,
 ) -> Result<Vec<[f64; 3]>> {
     let displacements = shape.displacements(frame.displacement)?;
-    let mut places = Vec::with_capacity(displacements.len());
+    let mut points = Vec::with_capacity(displacements.len());
     for (point, displacement) in shape.points().iter().zip(displacements) {
         let at_rest = point.place();
-        places.push([0, 1, 2].map(|k| at_rest[k] + magnification * displacement[k]));
+        points.push([0, 1, 2].map(|k| at_rest[k] + magnification * displacement[k]));
     }
-    for value in places.iter().flatten() {
+    for value in points.iter().flatten() {
         require("magnified coordinate", *value, is_drawable(*value), "below 1e60 m")?;
     }
-    Ok(places)
+    Ok(points)
 }
 
+/// Opacity of faces of elements.
+pub(super) const FACE_OPACITY: f64 = 0.8;
 /// Colour of the soil below its surface y = 0.
 pub(super) const SOIL_COLOR: RGBColor = RGBColor(238, 229, 214);
 /// Colour of the surface of the soil.
 pub(super) const SURFACE_COLOR: RGBColor = RGBColor(125, 98, 62);
 
+/// Smallest side of a drawn structure, m, so that the scale is finite.
+const MIN_SIDE: f64 = 1e-6;
+/// Size of the chart over the size of the shapes.
+const SHAPE_MARGIN_FACTOR: f64 = 1.1;
+
 /// Smallest and largest coordinate along each axis.
-pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    [0, 1].map(|axis| span(places.iter().map(|place| place[axis])))
+pub(super) fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    [0, 1].map(|axis| span(points.iter().map(|point| point[axis])))
 }
 
-/// Draws the cells of a shape at these places in a view; faces of elements hide those behind them.
+/// Draws the cells of a shape in a view, with these projections of its points; faces hide cells behind them.
 fn draw_shape(
     chart: &mut Chart<'_, '_>,
     shape: &DeformedShape,
     view: StructureView,
-    places: &[[f64; 2]],
+    projections: &[[f64; 2]],
     stroke: Stroke,
 ) -> Drawing<()> {
     let mut points = Vec::new();
     for cell in view.far_to_near(shape) {
-        let mut outline: Vec<_> = cell.iter().map(|&k| (places[k][0], places[k][1])).collect();
+        let mut outline: Vec<_> =
+            cell.iter().map(|&k| (projections[k][0], projections[k][1])).collect();
         if cell.len() > 2 {
             if shape.has_faces() {
                 chart.draw_series([Polygon::new(outline.clone(), WHITE.mix(FACE_OPACITY))])?;
@@ -72,9 +80,6 @@ fn draw_shape(
     }
     draw_markers(chart, &points, stroke)
 }
-
-/// Opacity of faces of elements.
-pub(super) const FACE_OPACITY: f64 = 0.8;
 
 /// Picture of the structure at rest and at some instants.
 ///
@@ -102,8 +107,8 @@ pub fn deformed_shapes(
         key.push((named.name.as_str(), KeySample::Line(shape_stroke(k))));
     }
     key.push(("soil", KeySample::Area(SOIL_COLOR)));
-    let scale = format!("displacements × {}", short(magnification));
-    key.push((&scale, KeySample::Nothing));
+    let scale_text = format!("displacements × {}", short(magnification));
+    key.push((&scale_text, KeySample::Nothing));
     let sheet = Sheet::new(title, PictureKey::new(key));
     let elevations = elevations(&shapes, time_series.up(), sheet.chart_size());
     sheet.picture(|area| {
@@ -125,7 +130,7 @@ struct Elevation {
     view: StructureView,
     /// Ranges of the horizontal and the vertical axis, m.
     ranges: [Range<f64>; 2],
-    /// Places of all points at every instant.
+    /// Projections of all points at every instant, m.
     shapes: Vec<Vec<[f64; 2]>>,
 }
 
@@ -140,15 +145,15 @@ impl Elevation {
 fn elevations(shapes: &[NamedShape], up: usize, chart_size: [f64; 2]) -> Vec<Elevation> {
     let views = StructureView::elevations(up);
     let space_between = f64::from(SPACE_LEFT + SPACE_RIGHT) * (views.len() - 1) as f64;
-    let size = [(chart_size[0] - space_between) / views.len() as f64, chart_size[1]];
+    let view_size = [(chart_size[0] - space_between) / views.len() as f64, chart_size[1]];
     let mut elevations = Vec::new();
     for &view in views {
-        let shapes: Vec<Vec<[f64; 2]>> =
-            shapes.iter().map(|named| view.all(&named.places)).collect();
-        let mut all_places = shapes.concat();
-        all_places.push([all_places[0][0], 0.0]);
-        let ranges = ranges(bounds(&all_places), size);
-        elevations.push(Elevation { view, ranges, shapes });
+        let projected_shapes: Vec<Vec<[f64; 2]>> =
+            shapes.iter().map(|named| view.project_all(&named.points)).collect();
+        let mut all_points = projected_shapes.concat();
+        all_points.push([all_points[0][0], 0.0]);
+        let ranges = equal_scale_ranges(bounds(&all_points), view_size);
+        elevations.push(Elevation { view, ranges, shapes: projected_shapes });
     }
     // All views use the scale of the widest one.
     let max_width = elevations.iter().map(Elevation::width).fold(0.0, f64::max);
@@ -156,8 +161,8 @@ fn elevations(shapes: &[NamedShape], up: usize, chart_size: [f64; 2]) -> Vec<Ele
         let ratio = max_width / elevation.width();
         elevation.ranges = elevation.ranges.clone().map(|Range { start, end }| {
             let middle = middle([start, end]);
-            let half = 0.5 * ratio * (end - start);
-            middle - half..middle + half
+            let half_width = 0.5 * ratio * (end - start);
+            middle - half_width..middle + half_width
         });
     }
     elevations
@@ -178,8 +183,8 @@ fn draw_elevation(
     let y_axis = ChartAxis::linear(y.clone(), vertical);
     let mut chart = chart(area, &x_axis, &y_axis, false)?;
     draw_soil(&mut chart, x, y.start, trench_outline(time_series.elements()))?;
-    for (k, places) in elevation.shapes.iter().enumerate() {
-        draw_shape(&mut chart, shape, elevation.view, places, shape_stroke(k))?;
+    for (k, projections) in elevation.shapes.iter().enumerate() {
+        draw_shape(&mut chart, shape, elevation.view, projections, shape_stroke(k))?;
     }
     Ok(())
 }
@@ -204,8 +209,8 @@ fn draw_soil(
 struct NamedShape {
     /// The instant, for the key.
     name: String,
-    /// Places of all points (x, height, y), m.
-    places: Vec<[f64; 3]>,
+    /// All points (x, height, y), m.
+    points: Vec<[f64; 3]>,
 }
 
 /// The shape at rest and at the frames nearest to the times.
@@ -216,7 +221,7 @@ fn shapes_at(
     magnification: f64,
 ) -> Result<Vec<NamedShape>> {
     let at_rest = shape.points().iter().map(ShapePoint::place).collect();
-    let mut shapes = vec![NamedShape { name: "at rest".to_owned(), places: at_rest }];
+    let mut shapes = vec![NamedShape { name: "at rest".to_owned(), points: at_rest }];
     for &time in times {
         finite("time of a deformed shape", time)?;
         let nearest = time_series
@@ -227,19 +232,20 @@ fn shapes_at(
             needed: "the recorder must keep the motion (`Recorder::motion`)",
         })?;
         let name = format!("t = {:.2} s", frame.time);
-        shapes.push(NamedShape { name, places: places(shape, &frame, magnification)? });
+        shapes.push(NamedShape { name, points: displaced_points(shape, &frame, magnification)? });
     }
     Ok(shapes)
 }
 
 /// Ranges of both axes at one scale, in an area of [width, height] pixels.
-fn ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
-    let scales = [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / size[k]);
+fn equal_scale_ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
+    let scales =
+        [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(MIN_SIDE) * SHAPE_MARGIN_FACTOR / size[k]);
     let metres_per_pixel = scales[0].max(scales[1]);
     [0, 1].map(|k| {
         let middle = middle(bounds[k]);
-        let half = 0.5 * metres_per_pixel * size[k];
-        middle - half..middle + half
+        let half_width = 0.5 * metres_per_pixel * size[k];
+        middle - half_width..middle + half_width
     })
 }
 
@@ -248,7 +254,7 @@ pub(super) fn trench_outline(elements: &[ContactElement]) -> Option<[[f64; 2]; 4
     if !ContactElement::any_wall(elements) {
         return None;
     }
-    let x = far_ends(elements.iter().map(|element| element.ends()[0]));
-    let z = far_ends(elements.iter().map(ContactElement::heights));
-    Some([[x[0], z[1]], [x[0], z[0]], [x[1], z[0]], [x[1], z[1]]])
+    let [left, right] = far_ends(elements.iter().map(|element| element.ends()[0]));
+    let [bottom, top] = far_ends(elements.iter().map(ContactElement::heights));
+    Some([[left, top], [left, bottom], [right, bottom], [right, top]])
 }

@@ -13,14 +13,19 @@ pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + 
 /// Largest magnitude that is drawn: above it the arithmetic of the chart would overflow.
 const MAX_DRAWN_VALUE: f64 = 1e60;
 
+/// Margin of a range at each end, relative to the span of its values.
+pub(super) const RANGE_MARGIN_RATIO: f64 = 0.06;
+/// Span of values that is due to rounding, relative to their magnitude.
+const SPAN_ROUNDING: f64 = 1e-9;
+
 /// Whether a chart can show a value.
 pub(super) fn is_drawable(value: f64) -> bool {
     value.abs() < MAX_DRAWN_VALUE
 }
 
-/// Range from the lowest to the highest value that can be drawn, with a margin; never empty.
+/// Range of the values that can be drawn, with a margin; never empty.
 ///
-/// Spans below 1e-9 of the values, or below 1/`MAX_DRAWN_VALUE`, count as zero.
+/// Spans below 1e-9 of the values, or below 1/`MAX_DRAWN_VALUE`, are treated as zero.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     let mut low = f64::INFINITY;
     let mut high = f64::NEG_INFINITY;
@@ -31,12 +36,16 @@ pub(super) fn range_of(values: impl Iterator<Item = f64>) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    let min_span = (1e-9 * low.abs().max(high.abs())).max(1.0 / MAX_DRAWN_VALUE);
-    let margin = if high - low > min_span { 0.06 * (high - low) } else { low.abs().max(1.0) };
+    let min_span = (SPAN_ROUNDING * low.abs().max(high.abs())).max(1.0 / MAX_DRAWN_VALUE);
+    let margin = if high - low > min_span {
+        RANGE_MARGIN_RATIO * (high - low)
+    } else {
+        low.abs().max(1.0)
+    };
     low - margin..high + margin
 }
 
-/// Colours of curves, in their order.
+/// Colours of curves, in the order of the curves.
 pub(super) const CURVE_COLORS: [RGBColor; 7] = [
     RGBColor(31, 119, 180),
     RGBColor(214, 39, 40),
@@ -62,45 +71,55 @@ const CURVE_MARKERS: [Marker; 5] = [
 /// Number of markers along a curve.
 const MARKERS_PER_CURVE: usize = 9;
 
-/// Colour and marker of a curve.
+/// Phase of the markers of the first curve.
+const FIRST_PHASE: f64 = 0.1;
+/// Increment of the phase from curve to curve: multiples of the golden ratio are spread evenly.
+const GOLDEN_RATIO: f64 = 0.618;
+
+/// Colour and markers of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
     pub(super) color: RGBColor,
     pub(super) marker: Option<Marker>,
-    /// Distance of the first marker over the distance between markers.
+    /// Distance from the start of the curve to its first marker, over the distance between markers.
     ///
-    /// It differs between curves, so that markers rarely overlap.
+    /// The phase differs between curves, so that markers rarely overlap.
     phase: f64,
 }
 
 impl Stroke {
+    /// Stroke without markers.
     pub(super) fn plain(color: RGBColor) -> Self {
         Self { color, marker: None, phase: 0.0 }
     }
 
-    /// Style of curve number `k`: the first seven have no markers; styles repeat after 42.
+    /// Stroke of curve number `k`: the first seven have no markers; strokes repeat after 42.
     pub(super) fn nth(k: usize) -> Self {
         let marker = (k / CURVE_COLORS.len())
             .checked_sub(1)
-            .map(|round| CURVE_MARKERS[round % CURVE_MARKERS.len()]);
-        let phase = (0.1 + 0.618 * (k % 100) as f64).fract();
+            .map(|cycle| CURVE_MARKERS[cycle % CURVE_MARKERS.len()]);
+        let phase = (FIRST_PHASE + GOLDEN_RATIO * (k % 100) as f64).fract();
         Self { color: CURVE_COLORS[k % CURVE_COLORS.len()], marker, phase }
     }
 
-    /// Style of the measured points number `k`: a marker for each, in other colours than the first curves.
+    /// Stroke of the measured points number `k`: markers in other colours than the first curves.
     pub(super) fn points(k: usize) -> Self {
         let marker = Some(CURVE_MARKERS[k % CURVE_MARKERS.len()]);
         let color = CURVE_COLORS[CURVE_COLORS.len() - 2 - k % (CURVE_COLORS.len() - 1)];
         Self { color, marker, phase: 0.0 }
     }
 
-    /// Points of a curve of `count` points that have a marker.
-    pub(super) fn marked(self, count: usize) -> impl Iterator<Item = usize> {
-        (0..MARKERS_PER_CURVE.min(count)).map(move |k| {
+    /// Indices of the points with a marker, in a curve of `point_count` points.
+    pub(super) fn marked_points(self, point_count: usize) -> impl Iterator<Item = usize> {
+        (0..MARKERS_PER_CURVE.min(point_count)).map(move |k| {
             let fraction = (k as f64 + self.phase) / MARKERS_PER_CURVE as f64;
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "< count")]
-            let index = (fraction * count as f64) as usize;
-            index.min(count.saturating_sub(1))
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "below point_count"
+            )]
+            let index = (fraction * point_count as f64) as usize;
+            index.min(point_count.saturating_sub(1))
         })
     }
 }

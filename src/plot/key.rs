@@ -1,4 +1,4 @@
-//! Key to a chart's colours, in a separate strip at the right.
+//! Key to a picture's colours, in a separate strip at the right.
 
 use super::drawing::{Area, Drawing, Stroke};
 use super::text_width::{lines, width};
@@ -10,7 +10,7 @@ const KEY_FONT: (&str, u32) = ("sans-serif", 15);
 const MAX_NAME_WIDTH: f64 = 230.0;
 /// Largest number of lines of a name; the rest is cut.
 const MAX_NAME_LINES: usize = 3;
-/// Largest number of names shown; further names are only counted.
+/// Largest number of names in the key; the last line counts further names.
 const MAX_ENTRIES: usize = 42;
 /// Width beside the names, pixels.
 const SPACE_BESIDE_NAMES: u32 = 52;
@@ -28,6 +28,7 @@ pub(super) enum KeySample {
     Point(Stroke),
     /// A filled rectangle.
     Area(RGBColor),
+    /// No sample: the name is a remark.
     Nothing,
 }
 
@@ -35,22 +36,23 @@ pub(super) enum KeySample {
 pub(super) struct PictureKey(Vec<(Vec<String>, KeySample)>);
 
 impl PictureKey {
+    /// Key with these names and samples.
     pub(super) fn new<'n>(entries: impl IntoIterator<Item = (&'n str, KeySample)>) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
         // A line "and 1 more" would need as much room as the name itself.
-        let shown = if entries.len() > MAX_ENTRIES + 1 { MAX_ENTRIES } else { entries.len() };
-        let mut list = Vec::with_capacity(shown + 1);
-        for (name, sample) in &entries[..shown] {
-            list.push((name_lines(name), *sample));
+        let entry_count = if entries.len() > MAX_ENTRIES + 1 { MAX_ENTRIES } else { entries.len() };
+        let mut lines_and_samples = Vec::with_capacity(entry_count + 1);
+        for (name, sample) in &entries[..entry_count] {
+            lines_and_samples.push((name_lines(name), *sample));
         }
-        if shown < entries.len() {
-            let rest = format!("… and {} more", entries.len() - shown);
-            list.push((name_lines(&rest), KeySample::Nothing));
+        if entry_count < entries.len() {
+            let remark = format!("… and {} more", entries.len() - entry_count);
+            lines_and_samples.push((name_lines(&remark), KeySample::Nothing));
         }
-        Self(list)
+        Self(lines_and_samples)
     }
 
-    /// Curves in their order.
+    /// Key of curves with these names, in the order of their strokes.
     pub(super) fn of_curves<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
         let names = names.into_iter().enumerate();
         Self::new(names.map(|(k, name)| (name, KeySample::Line(Stroke::nth(k)))))
@@ -66,9 +68,9 @@ impl PictureKey {
 
     /// Height of the strip, pixels.
     pub(super) fn height(&self) -> u32 {
-        let lines: usize = self.0.iter().map(|(name, _)| name.len()).sum();
+        let line_count: usize = self.0.iter().map(|(name, _)| name.len()).sum();
         let text_height =
-            LINE_HEIGHT.unsigned_abs() * u32::try_from(lines).unwrap_or(u32::MAX / 100);
+            LINE_HEIGHT.unsigned_abs() * u32::try_from(line_count).unwrap_or(u32::MAX / 100);
         text_height + NAME_GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
     }
 

@@ -1,7 +1,7 @@
 //! Charts of curves over time or period: quantities, energy, spectra.
 
 use super::axes::{ChartAxis, chart, draw_curve};
-use super::drawing::{Area, Drawing, Stroke, is_drawable, range_of};
+use super::drawing::{Area, Drawing, RANGE_MARGIN_RATIO, Stroke, is_drawable, range_of};
 use super::key::{KeySample, PictureKey};
 use super::svg::{Sheet, Svg};
 use crate::error::{Result, at_least, require, require_part};
@@ -10,8 +10,8 @@ use crate::results::{Quantity, TimeSeries};
 use crate::text::readable_number::{PrintedUnit, of_body, printed};
 use plotters::prelude::*;
 
-/// Largest number of stretches of a curve that are drawn by their extremes, about one per pixel.
-const MAX_STRETCHES: usize = 1500;
+/// Largest number of intervals of a long curve that are drawn by their extremes, about one per pixel.
+const MAX_INTERVALS: usize = 1500;
 /// Largest demand drawn; larger demands are drawn at this value.
 const MAX_DRAWN_DEMAND: f64 = 4.0;
 /// Colour of the line at a demand of one.
@@ -20,7 +20,7 @@ const LIMIT_COLOR: RGBColor = RGBColor(120, 120, 120);
 /// A named curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Name in the legend.
+    /// Name in the key of the picture.
     pub name: String,
     /// Points; the curve is interrupted where a coordinate is not finite.
     pub points: Vec<(f64, f64)>,
@@ -47,10 +47,11 @@ fn curves_with_limit(
     let points = curves.iter().flat_map(|curve| &curve.points);
     at_least("points of a chart", points.clone().count(), 1)?;
     let x_range = range_of(points.clone().map(|point| point.0));
-    let levels: &[f64] = if limit.is_some() { &[0.0, 1.0] } else { &[] };
-    let y_range = range_of(points.map(|point| point.1).chain(levels.iter().copied()));
-    // Time needs no margin.
-    let margin = (x_range.end - x_range.start) * 0.06 / 1.12;
+    let y_levels: &[f64] = if limit.is_some() { &[0.0, 1.0] } else { &[] };
+    let y_range = range_of(points.map(|point| point.1).chain(y_levels.iter().copied()));
+    // Time needs no margin: its range is that of the values.
+    let margin =
+        (x_range.end - x_range.start) * RANGE_MARGIN_RATIO / (1.0 + 2.0 * RANGE_MARGIN_RATIO);
     let x_range = x_range.start + margin..x_range.end - margin;
     let mut key = Vec::new();
     for (k, curve) in curves.iter().enumerate() {
@@ -76,15 +77,15 @@ fn curves_with_limit(
 
 /// Chart of one quantity of one or more runs over time, in kN, mm, mrad or per cent.
 ///
-/// Factors of safety are drawn as their inverse, demand over capacity. This curve starts at zero and reaches
-/// one at the limit, while the factor itself would leave every chart. On a bonded base the demand can be
+/// Factors of safety are drawn as their inverse, demand over capacity, because the factors themselves may be infinite. The
+/// demand starts at zero and reaches one at the limit. On a bonded base the demand can be
 /// larger; values above four are drawn at four, and the axis states this.
 ///
 /// # Errors
 /// As for [`curves`]; [`Error::Scene`](crate::Error::Scene) for runs in the plane and in plan together, whose units
 /// differ.
 pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
-    let limit = quantity.limit();
+    let limit = quantity.limit_label();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
     let PrintedUnit { factor, symbol: unit } = quantity.printed(in_plan);
     let have_same_unit = runs.iter().all(|(_, run)| quantity.printed(run.in_plan()).symbol == unit);
@@ -95,25 +96,30 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
         let mut points = Vec::new();
         for (&time, &value) in time_series.times().iter().zip(time_series.series(quantity)) {
             let is_factor_of_safety = limit.is_some();
-            points.push((time, if is_factor_of_safety { demand(value) } else { factor * value }));
+            points.push((
+                time,
+                if is_factor_of_safety { drawn_demand(value) } else { factor * value },
+            ));
         }
         curves.push(Curve { name: (*name).to_owned(), points });
     }
     let name = quantity.name();
-    let is_cut = curves
+    let has_cut_values = curves
         .iter()
         .flat_map(|curve| &curve.points)
         .any(|point| point.1 == MAX_DRAWN_DEMAND);
     let y = match (limit, unit) {
-        (Some(_), _) if is_cut => format!("1 / {name} (larger ones drawn at {MAX_DRAWN_DEMAND})"),
+        (Some(_), _) if has_cut_values => {
+            format!("1 / {name} (larger ones drawn at {MAX_DRAWN_DEMAND})")
+        }
         (Some(_), _) => format!("1 / {name}"),
         (None, unit) => with_unit(name, unit),
     };
     curves_with_limit(title, "time, s", &y, &curves, limit)
 }
 
-/// Demand over capacity as drawn; NaN without a factor, in flight or without a friction coefficient.
-fn demand(factor_of_safety: f64) -> f64 {
+/// Demand over capacity as drawn; NaN if there is no factor of safety.
+fn drawn_demand(factor_of_safety: f64) -> f64 {
     if factor_of_safety.is_nan() {
         f64::NAN
     } else {
@@ -145,32 +151,32 @@ pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str)
     curves(title, "time, s", &with_unit(probe, unit), &probe_curves)
 }
 
-/// Description of an axis with the unit of its values.
+/// Description of an axis: name and unit of its values.
 pub(super) fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
-/// Reduces a curve to the extremes of its stretches; peaks and gaps are kept.
+/// Points of a curve; a long curve is reduced to the extremes and gaps of its intervals.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= 4 * MAX_STRETCHES {
+    if points.len() <= 4 * MAX_INTERVALS {
         return points.to_vec();
     }
-    let mut kept = Vec::with_capacity(4 * MAX_STRETCHES);
-    for stretch in points.chunks(points.len().div_ceil(MAX_STRETCHES)) {
-        let finite = stretch.iter().filter(|point| point.1.is_finite());
-        let chosen = [
-            stretch.first(),
-            stretch.last(),
-            finite.clone().min_by(|a, b| a.1.total_cmp(&b.1)),
-            finite.max_by(|a, b| a.1.total_cmp(&b.1)),
-            stretch.iter().find(|point| !point.1.is_finite()),
+    let mut drawn_points = Vec::with_capacity(4 * MAX_INTERVALS);
+    for interval in points.chunks(points.len().div_ceil(MAX_INTERVALS)) {
+        let finite_points = interval.iter().filter(|point| point.1.is_finite());
+        let extremes = [
+            interval.first(),
+            interval.last(),
+            finite_points.clone().min_by(|a, b| a.1.total_cmp(&b.1)),
+            finite_points.max_by(|a, b| a.1.total_cmp(&b.1)),
+            interval.iter().find(|point| !point.1.is_finite()),
         ];
-        let mut points: Vec<_> = chosen.into_iter().flatten().copied().collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        points.dedup_by(|a, b| a.0 == b.0);
-        kept.extend(points);
+        let mut interval_points: Vec<_> = extremes.into_iter().flatten().copied().collect();
+        interval_points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        interval_points.dedup_by(|a, b| a.0 == b.0);
+        drawn_points.extend(interval_points);
     }
-    kept
+    drawn_points
 }
 
 /// Chart of the terms of the energy balance over time.
@@ -180,27 +186,27 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// # Errors
 /// The errors of [`curves`].
 pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
-    let mut curves_of_terms: Vec<Curve> = Vec::new();
+    let mut term_curves: Vec<Curve> = Vec::new();
     for (time, balance) in time_series.times().iter().zip(time_series.energy_balances()) {
         let terms = [vec![("input", balance.input)], balance.parts()].concat();
-        if curves_of_terms.is_empty() {
+        if term_curves.is_empty() {
             for (name, _) in &terms {
-                curves_of_terms.push(Curve { name: (*name).to_owned(), points: Vec::new() });
+                term_curves.push(Curve { name: (*name).to_owned(), points: Vec::new() });
             }
         }
-        for (curve, (_, energy)) in curves_of_terms.iter_mut().zip(terms) {
+        for (curve, (_, energy)) in term_curves.iter_mut().zip(terms) {
             curve.points.push((*time, 1e-3 * energy));
         }
     }
-    let largest = curves_of_terms.iter().map(largest_value).fold(0.0, f64::max);
+    let largest_energy = term_curves.iter().map(largest_value).fold(0.0, f64::max);
     let mut is_input = true;
-    curves_of_terms.retain(|curve| {
-        let is_shown = is_input || largest_value(curve) > ENERGY_TERM_THRESHOLD * largest;
+    term_curves.retain(|curve| {
+        let is_shown = is_input || largest_value(curve) > ENERGY_TERM_THRESHOLD * largest_energy;
         is_input = false;
         is_shown
     });
     let y = with_unit("energy", of_body("kJ/m", time_series.in_plan()));
-    curves(title, "time, s", &y, &curves_of_terms)
+    curves(title, "time, s", &y, &term_curves)
 }
 
 /// Largest magnitude of a term of the energy balance that is left out, relative to the largest term.
@@ -211,6 +217,8 @@ fn largest_value(curve: &Curve) -> f64 {
     curve.points.iter().fold(0.0_f64, |largest, point| largest.max(point.1.abs()))
 }
 
+/// Largest ordinate of a spectrum that is drawn as zero, m/s².
+const MIN_DRAWN_ORDINATE: f64 = 1e-60;
 /// Periods that can be drawn, s.
 const DRAWN_PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
@@ -225,27 +233,32 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
         .picture(|area| draw_spectra(area, &axes, spectra))
 }
 
-/// Axes on which all spectra fit.
+/// Axes of period and pseudo-acceleration that contain all spectra.
 pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[ChartAxis; 2]> {
     let ordinates = spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
-    let mut first = f64::INFINITY;
-    let mut last = 0.0_f64;
-    let mut top = 0.0_f64;
+    let mut min_period = f64::INFINITY;
+    let mut max_period = 0.0_f64;
+    let mut max_acceleration = 0.0_f64;
     for ordinate in ordinates.clone() {
         let period = ordinate.period;
         let is_drawn = DRAWN_PERIODS.contains(&period);
         require("period of a spectrum", period, is_drawn, "from 1e-6 to 1e6 s")?;
-        first = first.min(ordinate.period);
-        last = last.max(ordinate.period);
+        min_period = min_period.min(period);
+        max_period = max_period.max(period);
         if is_drawable(ordinate.pseudo_acceleration) {
-            top = top.max(ordinate.pseudo_acceleration);
+            max_acceleration = max_acceleration.max(ordinate.pseudo_acceleration);
         }
     }
     at_least("ordinates of a spectrum", ordinates.count(), 1)?;
     // A single period has no width, and a zero spectrum no height.
-    let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
-    let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
-    let y = ChartAxis::linear(0.0..top, "pseudo-acceleration, m/s²");
+    let periods = if max_period > min_period {
+        min_period..max_period
+    } else {
+        0.5 * min_period..2.0 * min_period
+    };
+    let axis_end =
+        if max_acceleration > MIN_DRAWN_ORDINATE { 1.08 * max_acceleration } else { 1.0 };
+    let y = ChartAxis::linear(0.0..axis_end, "pseudo-acceleration, m/s²");
     Ok([ChartAxis::logarithmic(periods, "period, s"), y])
 }
 
@@ -277,7 +290,7 @@ mod tests {
         points[54_321].1 = -9.0;
         points[70_001].1 = f64::NAN;
         let few = thinned(&points);
-        assert!(few.len() < 6 * MAX_STRETCHES && few.windows(2).all(|pair| pair[1].0 > pair[0].0));
+        assert!(few.len() < 6 * MAX_INTERVALS && few.windows(2).all(|pair| pair[1].0 > pair[0].0));
         for k in [34_567, 54_321] {
             assert!(few.contains(&points[k]));
         }

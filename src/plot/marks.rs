@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::shown::{ElementState, ShownStates};
+use super::element_state::{ElementState, ElementStates};
 use super::svg::{changes, polygon};
 use crate::bem::ContactElement;
 use crate::results::TimeSeries;
@@ -10,6 +10,11 @@ use plotters::style::RGBColor;
 
 /// x of the left end of key, scale and clock, pixels.
 pub(super) const KEY_LEFT: f64 = 725.0;
+/// y of the first line of the key, pixels.
+const KEY_TOP: f64 = 80.0;
+/// Height of a line of the key, pixels.
+const KEY_LINE_HEIGHT: f64 = 26.0;
+
 /// A rectangle of the picture, pixels.
 pub(super) struct PixelBox {
     pub(super) left: f64,
@@ -26,11 +31,11 @@ pub(super) fn hex(RGBColor(red, green, blue): RGBColor) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// The key to the colours of contact modes.
-pub(super) fn key(states: Vec<ElementState>) -> String {
+/// The key to the colours of contact modes, as SVG.
+pub(super) fn color_key(states: Vec<ElementState>) -> String {
     let mut out = String::new();
     for (k, state) in states.into_iter().enumerate() {
-        let y = 80.0 + 26.0 * k as f64;
+        let y = KEY_TOP + KEY_LINE_HEIGHT * k as f64;
         let _ = writeln!(
             out,
             "<rect x=\"{KEY_LEFT}\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
@@ -44,33 +49,34 @@ pub(super) fn key(states: Vec<ElementState>) -> String {
     out
 }
 
-/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
+/// Marks of all contact elements, coloured by their modes, and the key to the colours, as SVG.
 ///
-/// Behind its face, or for a flat base at the lower edge.
+/// With walls the marks lie behind the faces of the elements, otherwise at the lower edge of the picture.
 ///
-/// `scale`: pixels per metre; `to_pixels`: pixels of a place (x, height) in m; `lower_edge`: its pixel; `frames`: number of
-/// frames of the animation; `duration`: as SMIL writes it.
-pub(super) fn base(
+/// `scale`: pixels per metre; `to_pixels`: pixels of a point (x, height) in m; `lower_edge`: of the picture, pixels;
+/// `frame_count`: of the animation; `duration`: of the animation, as in SMIL. Empty unless there is a frame of contact for
+/// every frame of the animation.
+pub(super) fn element_marks(
     time_series: &TimeSeries,
     scale: f64,
     to_pixels: impl Fn([f64; 2]) -> [f64; 2],
     lower_edge: f64,
-    frames: usize,
+    frame_count: usize,
     duration: &str,
 ) -> String {
     let contact: Vec<_> = time_series.contact_frames().collect();
-    if contact.len() != frames {
+    if contact.len() != frame_count {
         return String::new();
     }
-    let states = ShownStates::new(&contact, false);
-    let mut out = key(states.in_key);
+    let states = ElementStates::new(&contact, false);
+    let mut out = color_key(states.key_states);
     let has_walls = ContactElement::any_wall(time_series.elements());
     for (e, element) in time_series.elements().iter().enumerate() {
         let colors: Vec<String> =
-            states.by_frame.iter().map(|frame| hex(frame[e].color())).collect();
+            states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
         let change = changes("fill", &colors, duration);
         if has_walls {
-            let mark = mark(element, MARK_WIDTH / scale).map(&to_pixels);
+            let mark = mark_corners(element, MARK_WIDTH / scale).map(&to_pixels);
             let _ = writeln!(
                 out,
                 "<path d=\"{}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
@@ -94,13 +100,15 @@ pub(super) fn base(
     out
 }
 
-/// Corners (x, height), m, of a mark as long as the element, which reaches a `width` (m) into the soil.
-fn mark(element: &ContactElement, width: f64) -> [[f64; 2]; 4] {
-    let half = 0.5 * element.length();
-    [[-half, 0.0], [half, 0.0], [half, width], [-half, width]].map(|[along, into]| {
+/// Corners (x, height), m, of a mark of the element's length and of this `width` (m) into the soil.
+fn mark_corners(element: &ContactElement, width: f64) -> [[f64; 2]; 4] {
+    let half_length = 0.5 * element.length();
+    let local_corners =
+        [[-half_length, 0.0], [half_length, 0.0], [half_length, width], [-half_length, width]];
+    local_corners.map(|[tangential, depth]| {
         let center = element.center();
-        let from_center = element.vector([into, along, 0.0]);
-        [center[0] + from_center[0], center[2] + from_center[2]]
+        let offset = element.vector([depth, tangential, 0.0]);
+        [center[0] + offset[0], center[2] + offset[2]]
     })
 }
 
@@ -116,11 +124,11 @@ mod tests {
             corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect();
         assert_eq!(trench_outline(&elements), Some(corners));
         assert_eq!(trench_outline(&[ContactElement::new(-3.0, 3.0)]), None);
-        // Each begins at its face and reaches outwards by the width.
-        for (e, far) in [(0, [-3.5, -5.0]), (1, [3.0, -5.5]), (2, [3.5, 0.0])] {
-            let mark = mark(&elements[e], 0.5);
+        // Each mark begins at its face and extends outwards by the width.
+        for (e, outer_corner) in [(0, [-3.5, -5.0]), (1, [3.0, -5.5]), (2, [3.5, 0.0])] {
+            let mark = mark_corners(&elements[e], 0.5);
             assert_eq!(mark[..2], [corners[e], corners[e + 1]]);
-            assert_eq!(mark[2], far);
+            assert_eq!(mark[2], outer_corner);
         }
     }
 }

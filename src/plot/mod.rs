@@ -1,15 +1,15 @@
 //! Pictures of a run, as SVG (feature `plot`) and PNG (feature `png`).
 //!
 //! Every function returns an [`Svg`], to be saved or put into an HTML page; with the feature `png` also as a
-//! bitmap (`Svg::save_png`). Functions that need frames of contact or motion document this; the
-//! [`crate::results::Recorder`] keeps frames on request.
+//! bitmap (`Svg::save_png`). Some functions need frames of contact or motion, which the
+//! [`crate::results::Recorder`] stores on request.
 //!
 //! | picture | function |
 //! |---|---|
 //! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
 //! | moment or settlement of a foundation over its rotation, beside measured points | [`moment_rotation`], [`settlement_rotation`] |
 //! | contact modes over base and time | [`mode_map`] |
-//! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
+//! | largest, smallest and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
 //! | one value for each shell of a mat, such as a bending moment | [`shell_plan`] |
 //! | terms of the energy balance over time | [`energy`] |
@@ -37,6 +37,7 @@ mod base_axis;
 mod classes;
 mod deformed;
 mod drawing;
+mod element_state;
 mod key;
 mod lines;
 mod marks;
@@ -46,10 +47,10 @@ mod png;
 mod refinement;
 mod rocking;
 mod shells;
-mod shown;
 mod site_response;
 mod svg;
 mod text_width;
+mod ticks;
 mod view;
 
 pub use animation::animation;

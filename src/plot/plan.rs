@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::axes::{ChartAxis, chart};
 use super::classes::Classes;
 use super::drawing::Stroke;
+use super::element_state::ElementState;
 use super::key::{KeySample, PictureKey};
-use super::shown::ElementState;
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
 use crate::error::{Error, Result, finite, require_part};
@@ -15,30 +15,37 @@ use crate::interface::ContactState;
 use crate::results::{ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 
-/// Width of the frame around the base, relative to its larger side.
-const FRAME_RATIO: f64 = 0.06;
+/// Width of the margin around the base, relative to the larger side of the base.
+const MARGIN_RATIO: f64 = 0.06;
 /// Half the length of an arrow, relative to the shorter side of a cell.
 const ARROW_LENGTH_RATIO: f64 = 0.36;
 /// Length of the head of an arrow, relative to the shorter side of a cell.
 const ARROW_HEAD_RATIO: f64 = 0.15;
 
+/// Cosine of 30 degrees: the head of an arrow is an equilateral triangle.
+const BARB_COSINE: f64 = 0.87;
+
 /// A cell to be drawn.
 pub(super) struct PlanCell {
     pub(super) corners: Vec<(f64, f64)>,
     pub(super) color: RGBColor,
-    /// Direction in which it slides.
+    /// Arrow in the direction in which the cell slides.
     pub(super) arrow: Option<Arrow>,
 }
 
 impl PlanCell {
-    /// A contact element, which slides in the direction `sliding`, a unit vector.
-    fn of_element(element: &ContactElement, color: RGBColor, sliding: Option<[f64; 2]>) -> Self {
+    /// Cell of a contact element; `slip_direction`: unit vector, `None` unless the element slides.
+    fn of_element(
+        element: &ContactElement,
+        color: RGBColor,
+        slip_direction: Option<[f64; 2]>,
+    ) -> Self {
         let ends = element.ends();
         let [[left, right], [front, back]] = ends;
         let corners = vec![(left, front), (right, front), (right, back), (left, back)];
         let shorter_side = (right - left).min(back - front);
         let middle = ends.map(middle);
-        let arrow = sliding.map(|direction| Arrow { middle, direction, shorter_side });
+        let arrow = slip_direction.map(|direction| Arrow { middle, direction, shorter_side });
         Self { corners, color, arrow }
     }
 }
@@ -59,10 +66,10 @@ impl Arrow {
         let head = ARROW_HEAD_RATIO * shorter_side;
         let foot = (x - length * dx, y - length * dy);
         let tip = (x + length * dx, y + length * dy);
-        let back = head * 0.87;
+        let barb_length = head * BARB_COSINE;
         let barbs = [0.5, -0.5].map(|side| {
-            let aside = side * head;
-            (tip.0 - back * dx - aside * dy, tip.1 - back * dy + aside * dx)
+            let barb_width = side * head;
+            (tip.0 - barb_length * dx - barb_width * dy, tip.1 - barb_length * dy + barb_width * dx)
         });
         PathElement::new(vec![foot, tip, barbs[0], tip, barbs[1]], BLACK.stroke_width(1))
     }
@@ -89,61 +96,66 @@ pub fn contact_plan(title: &str, time_series: &TimeSeries, time: f64) -> Result<
     let max_pressure = frame.states.iter().fold(0.0_f64, |max, state| state.pressure.max(max));
     let classes = Classes::between([0.0, max_pressure]);
     let mut cells = Vec::new();
-    let mut states_shown = Vec::new();
+    let mut drawn_states = Vec::new();
     for (e, element) in time_series.elements().iter().enumerate() {
         let state = &frame.states[e];
-        let shown = ElementState::new(frame.modes[e], state, max_pressure);
-        let color = match shown {
-            ElementState::Open | ElementState::Weightless => shown.color(),
+        let drawn_state = ElementState::new(frame.modes[e], state, max_pressure);
+        let color = match drawn_state {
+            ElementState::Open | ElementState::WithoutPressure => drawn_state.color(),
             _ => classes.color(state.pressure),
         };
-        let sliding = sliding_direction(state).filter(|_| shown == ElementState::Slip);
-        cells.push(PlanCell::of_element(element, color, sliding));
-        states_shown.push(shown);
+        let slip_direction = shear_direction(state).filter(|_| drawn_state == ElementState::Slip);
+        cells.push(PlanCell::of_element(element, color, slip_direction));
+        drawn_states.push(drawn_state);
     }
     let mut key = classes.key(1e-3, " kPa");
-    for state in [ElementState::Open, ElementState::Weightless] {
-        if states_shown.contains(&state) {
+    for state in [ElementState::Open, ElementState::WithoutPressure] {
+        if drawn_states.contains(&state) {
             key.push((state.name().to_owned(), KeySample::Area(state.color())));
         }
     }
     if cells.iter().any(|cell| cell.arrow.is_some()) {
         key.push(("slides towards".to_owned(), KeySample::Line(Stroke::plain(BLACK))));
     }
-    draw(&format!("{title}, {} s", short(frame.time)), &cells, &key)
+    plan_picture(&format!("{title}, {} s", short(frame.time)), &cells, &key)
 }
 
 /// Direction of the shear on the soil, a unit vector; `None` without shear.
-fn sliding_direction(state: &ContactState) -> Option<[f64; 2]> {
-    let size = state.shear.hypot(state.shear_across);
-    (size > 0.0).then(|| [state.shear / size, state.shear_across / size])
+fn shear_direction(state: &ContactState) -> Option<[f64; 2]> {
+    let magnitude = state.shear.hypot(state.shear_across);
+    (magnitude > 0.0).then(|| [state.shear / magnitude, state.shear_across / magnitude])
 }
 
 /// Picture of the largest pressure under each element during a run on a ground in plan.
 pub(super) fn largest_pressures(title: &str, run: &Run) -> Result<Svg> {
     check_in_plan(run.in_plan)?;
-    let max_pressure = run.envelope.iter().map(max_pressure).fold(0.0, f64::max);
-    let classes = Classes::between([0.0, max_pressure]);
+    let base_pressure = run.envelope.iter().map(max_pressure).fold(0.0, f64::max);
+    let classes = Classes::between([0.0, base_pressure]);
     let mut cells = Vec::new();
     for envelope in &run.envelope {
-        let color = classes.color(self::max_pressure(envelope));
+        let color = classes.color(max_pressure(envelope));
         cells.push(PlanCell::of_element(&envelope.element, color, None));
     }
-    draw(title, &cells, &classes.key(1e-3, " kPa"))
+    plan_picture(title, &cells, &classes.key(1e-3, " kPa"))
 }
 
+/// Largest pressure of an element in a run, Pa.
 fn max_pressure(envelope: &ElementEnvelope) -> f64 {
     envelope.pressure.highest.value
 }
 
 /// Error for a base in the plane.
 fn check_in_plan(in_plan: bool) -> Result<()> {
-    let needed = "a ground of three directions: `mode_map` draws the base in the plane";
+    let needed = "a ground in plan: `mode_map` draws the base in the plane";
     require_part("contact in plan", in_plan, needed)
 }
 
 /// Picture of cells with one scale on both axes.
-pub(super) fn draw(title: &str, cells: &[PlanCell], key: &[(String, KeySample)]) -> Result<Svg> {
+pub(super) fn plan_picture(
+    title: &str,
+    cells: &[PlanCell],
+    key: &[(String, KeySample)],
+) -> Result<Svg> {
     let sheet =
         Sheet::new(title, PictureKey::new(key.iter().map(|(name, sample)| (&name[..], *sample))));
     let corners = cells.iter().flat_map(|cell| &cell.corners);
@@ -151,7 +163,7 @@ pub(super) fn draw(title: &str, cells: &[PlanCell], key: &[(String, KeySample)])
     let y_ends = span(corners.map(|corner| corner.1));
     let width = x_ends[1] - x_ends[0];
     let height = y_ends[1] - y_ends[0];
-    let margin = FRAME_RATIO * width.max(height);
+    let margin = MARGIN_RATIO * width.max(height);
     let chart_size = sheet.chart_size();
     let metres_per_pixel = 0.0_f64
         .max((width + 2.0 * margin) / chart_size[0])
@@ -166,8 +178,8 @@ pub(super) fn draw(title: &str, cells: &[PlanCell], key: &[(String, KeySample)])
             cells.iter().map(|cell| Polygon::new(cell.corners.clone(), cell.color.filled())),
         )?;
         chart.draw_series(cells.iter().map(|cell| {
-            let closed = cell.corners.iter().chain(cell.corners.first()).copied();
-            PathElement::new(closed.collect::<Vec<_>>(), WHITE.stroke_width(1))
+            let outline = cell.corners.iter().chain(cell.corners.first()).copied();
+            PathElement::new(outline.collect::<Vec<_>>(), WHITE.stroke_width(1))
         }))?;
         let arrows = cells.iter().filter_map(|cell| cell.arrow.as_ref());
         chart.draw_series(arrows.map(Arrow::path))?;
@@ -175,6 +187,7 @@ pub(super) fn draw(title: &str, cells: &[PlanCell], key: &[(String, KeySample)])
     })
 }
 
-fn range_around(middle: f64, half: f64) -> Range<f64> {
-    middle - half..middle + half
+/// Range of this half width about a middle.
+fn range_around(middle: f64, half_width: f64) -> Range<f64> {
+    middle - half_width..middle + half_width
 }

@@ -16,7 +16,7 @@ const MAX_BITMAP_PIXELS: f64 = 1e8;
 const NOT_DRAWN: Error =
     Error::Scene { quantity: "bitmap", needed: "a picture that can be drawn as one" };
 
-/// The only font, so that the picture is the same on every machine.
+/// The font of all bitmaps, which makes them equal on every machine.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     FONTS.get_or_init(|| Arc::new(load_fonts())).clone()
@@ -42,10 +42,10 @@ impl Svg {
     pub fn png(&self, scale: f64) -> Result<Vec<u8>> {
         let options = Options { fontdb: fonts(), ..Options::default() };
         let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
-        let size = tree.size();
-        let width = f64::from(size.width()) * scale;
-        let height = f64::from(size.height()) * scale;
-        // A NaN is an error as well.
+        let picture_size = tree.size();
+        let width = f64::from(picture_size.width()) * scale;
+        let height = f64::from(picture_size.height()) * scale;
+        // Comparisons with NaN are false, so a scale that is NaN is an error.
         let fits = width >= 1.0 && height >= 1.0 && width * height <= MAX_BITMAP_PIXELS;
         let needed = "above zero, and a bitmap of 100 million pixels at most";
         require("scale of a bitmap", scale, fits, needed)?;
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::plot::{Curve, curves};
 
-    fn drawn(title: &str, scale: f64) -> Pixmap {
+    fn bitmap_of_chart(title: &str, scale: f64) -> Pixmap {
         let points = vec![(0.0, 0.0), (1.0, 1.0)];
         let line = Curve { name: "line".into(), points };
         let svg = curves(title, "x", "y", &[line]).unwrap();
@@ -84,9 +84,9 @@ mod tests {
     }
 
     #[test]
-    fn a_bitmap_has_the_size_the_sheet_and_the_letters() {
-        let blank = drawn("", 1.0);
-        let title = drawn("Base shear", 1.0);
+    fn bitmaps_have_the_scaled_size_and_the_letters_of_the_title() {
+        let blank = bitmap_of_chart("", 1.0);
+        let title = bitmap_of_chart("Base shear", 1.0);
         assert_eq!([blank.width(), blank.height()], [1100, 560]);
         assert_eq!(blank.pixels()[0].red(), 255);
         assert!(
@@ -95,7 +95,7 @@ mod tests {
             dark_pixels(&title),
             dark_pixels(&blank)
         );
-        let large = drawn("Base shear", 2.5);
+        let large = bitmap_of_chart("Base shear", 2.5);
         assert_eq!([large.width(), large.height()], [2750, 1400]);
         // Areas grow with the square of the scale.
         let growth = dark_pixels(&large) as f64 / dark_pixels(&title) as f64;
@@ -104,10 +104,10 @@ mod tests {
 
     #[test]
     fn the_font_has_every_letter_that_pictures_use() {
-        let blank = drawn("", 1.0);
-        let fallback = drawn("\u{e000}", 1.0);
+        let blank = bitmap_of_chart("", 1.0);
+        let fallback = bitmap_of_chart("\u{e000}", 1.0);
         for letter in "µ²³⁻⁵·×÷°′–…αβφπτηξωΔ≤≥≈√∞".chars() {
-            let bitmap = drawn(&letter.to_string(), 1.0);
+            let bitmap = bitmap_of_chart(&letter.to_string(), 1.0);
             assert!(bitmap.data() != blank.data(), "{letter} is not drawn");
             assert!(bitmap.data() != fallback.data(), "{letter} is a box");
         }

@@ -2,16 +2,17 @@
 
 use std::ops::Range;
 
-use super::axes::{Chart, ChartAxis, Ticks, chart, draw_curve, linear};
+use super::axes::{Chart, ChartAxis, chart, draw_curve};
 use super::drawing::{Drawing, Stroke, is_drawable, range_of};
 use super::key::{KeySample, PictureKey};
 use super::lines::{Curve, with_unit};
 use super::svg::{Sheet, Svg};
+use super::ticks::{Ticks, linear_ticks};
 use crate::error::{Result, at_least, require_part};
 use crate::results::{Quantity, Rocking};
 use plotters::prelude::*;
 
-/// Number of points of a path above which close ones are left out.
+/// Number of points of a path above which close points are omitted.
 const MAX_DRAWN_POINTS: usize = 6000;
 /// Distance between points of a long path, over the range of the picture: about half a pixel.
 const POINT_DISTANCE: f64 = 5e-4;
@@ -32,7 +33,7 @@ pub fn moment_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    let moments = |rocking: &Rocking<'_>| path(rocking.rotation, rocking.moment);
+    let moments = |rocking: &Rocking<'_>| path_points(rocking.rotation, rocking.moment);
     RockingChart::new(runs, measured, Quantity::BaseMoment, moments)?.picture(title)
 }
 
@@ -48,12 +49,12 @@ pub fn settlement_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    let settlements = |rocking: &Rocking<'_>| path(rocking.rotation, rocking.settlement);
+    let settlements = |rocking: &Rocking<'_>| path_points(rocking.rotation, rocking.settlement);
     RockingChart::new(runs, measured, Quantity::Settlement, settlements)?.picture(title)
 }
 
-/// Pairs of a rotation and another number.
-fn path(rotation: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+/// Points of a path: rotation and another value at each step.
+fn path_points(rotation: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     rotation.iter().copied().zip(values.iter().copied()).collect()
 }
 
@@ -61,8 +62,8 @@ fn path(rotation: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
 struct RockingChart {
     runs: Vec<Curve>,
     measured: Vec<Curve>,
-    x: String,
-    y: String,
+    x_description: String,
+    y_description: String,
     /// Whether the values increase downwards.
     is_downward: bool,
 }
@@ -79,11 +80,11 @@ impl RockingChart {
         let needed = "the same in all runs: in the plane it is per metre";
         let have_same_unit = runs.iter().all(|(_, rocking)| rocking.in_plan == in_plan);
         require_part("unit of a moment", have_same_unit, needed)?;
-        let rotation = Quantity::BaseRotation.printed(in_plan);
-        let value = quantity.printed(in_plan);
+        let rotation_unit = Quantity::BaseRotation.printed(in_plan);
+        let value_unit = quantity.printed(in_plan);
         let is_downward = quantity == Quantity::Settlement;
-        let y_factor = if is_downward { -value.factor } else { value.factor };
-        let scaled = |(x, y): &(f64, f64)| (rotation.factor * x, y_factor * y);
+        let y_factor = if is_downward { -value_unit.factor } else { value_unit.factor };
+        let scaled = |(x, y): &(f64, f64)| (rotation_unit.factor * x, y_factor * y);
         let mut run_curves = Vec::with_capacity(runs.len());
         for (name, rocking) in runs {
             let points = points(rocking).iter().map(scaled).collect();
@@ -97,8 +98,8 @@ impl RockingChart {
         Ok(Self {
             runs: run_curves,
             measured: measured_points,
-            x: with_unit(Quantity::BaseRotation.name(), rotation.symbol),
-            y: with_unit(quantity.name(), value.symbol),
+            x_description: with_unit(Quantity::BaseRotation.name(), rotation_unit.symbol),
+            y_description: with_unit(quantity.name(), value_unit.symbol),
             is_downward,
         })
     }
@@ -116,11 +117,11 @@ impl RockingChart {
             key.push((curve.name.as_str(), KeySample::Point(Stroke::points(k))));
         }
         Sheet::new(title, PictureKey::new(key)).picture(|area| {
-            let x_axis = ChartAxis::linear(x_range.clone(), &self.x);
+            let x_axis = ChartAxis::linear(x_range.clone(), &self.x_description);
             let y_axis = if self.is_downward {
-                downward_axis(&y_range, &self.y)
+                downward_axis(&y_range, &self.y_description)
             } else {
-                ChartAxis::linear(y_range.clone(), &self.y)
+                ChartAxis::linear(y_range.clone(), &self.y_description)
             };
             let mut chart = chart(area, &x_axis, &y_axis, true)?;
             for (k, curve) in self.runs.iter().enumerate() {
@@ -137,7 +138,7 @@ impl RockingChart {
 
 /// Axis of values that increase downwards; `range`: of the negative values.
 fn downward_axis(range: &Range<f64>, description: &str) -> ChartAxis {
-    let Ticks { marks, offset } = linear(&(-range.end..-range.start), SETTLEMENT_MARKS);
+    let Ticks { marks, offset } = linear_ticks(&(-range.end..-range.start), SETTLEMENT_MARKS);
     let marks = marks.into_iter().rev().map(|(value, name)| (0.0 - value, name)).collect();
     let description = match offset {
         Some(offset) => format!("{description} (plus {offset})"),
@@ -149,33 +150,34 @@ fn downward_axis(range: &Range<f64>, description: &str) -> ChartAxis {
 /// Draws a marker at each point.
 fn draw_points(chart: &mut Chart<'_, '_>, points: &[(f64, f64)], stroke: Stroke) -> Drawing<()> {
     let Some(marker) = stroke.marker else { return Ok(()) };
-    let places = points.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y));
+    let drawable_points =
+        points.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y));
     let style = stroke.color.filled();
     // Half as large as on a curve: a measurement has hundreds of points.
     let corners: Vec<_> = marker.iter().map(|(x, y)| (x / 2, y / 2)).collect();
     chart.draw_series(
-        places.map(|place| EmptyElement::at(place) + Polygon::new(corners.clone(), style)),
+        drawable_points.map(|point| EmptyElement::at(point) + Polygon::new(corners.clone(), style)),
     )?;
     Ok(())
 }
 
-/// A path of at most some thousand points as it is; otherwise without points that are close to the one before.
-fn thinned_path(points: &[(f64, f64)], [x, y]: [&Range<f64>; 2]) -> Vec<(f64, f64)> {
+/// Points of a path; a path of many points loses those that are close to the previous point.
+fn thinned_path(points: &[(f64, f64)], ranges: [&Range<f64>; 2]) -> Vec<(f64, f64)> {
     if points.len() <= MAX_DRAWN_POINTS {
         return points.to_vec();
     }
-    let distances = [x, y].map(|range| POINT_DISTANCE * (range.end - range.start));
-    let mut kept = vec![points[0]];
+    let min_distances = ranges.map(|range| POINT_DISTANCE * (range.end - range.start));
+    let mut drawn_points = vec![points[0]];
     for (k, point) in points.iter().enumerate().skip(1) {
-        let last = kept[kept.len() - 1];
-        // A comparison with NaN is false: such a point is kept, and interrupts the curve.
-        let is_close =
-            (point.0 - last.0).abs() < distances[0] && (point.1 - last.1).abs() < distances[1];
+        let previous = drawn_points[drawn_points.len() - 1];
+        // Comparisons with NaN are false, so that a point with NaN remains and interrupts the curve.
+        let is_close = (point.0 - previous.0).abs() < min_distances[0]
+            && (point.1 - previous.1).abs() < min_distances[1];
         if !is_close || k + 1 == points.len() {
-            kept.push(*point);
+            drawn_points.push(*point);
         }
     }
-    kept
+    drawn_points
 }
 
 #[cfg(test)]
@@ -206,7 +208,7 @@ mod tests {
     fn settlement_increases_downwards() {
         let axis = downward_axis(&(-20.0..1.0), "settlement, mm");
         let marks = vec![(-20.0, "20"), (-15.0, "15"), (-10.0, "10"), (-5.0, "5"), (0.0, "0")];
-        let marks = marks.into_iter().map(|(place, name)| (place, name.to_owned())).collect();
+        let marks = marks.into_iter().map(|(value, name)| (value, name.to_owned())).collect();
         assert_eq!(axis, ChartAxis::marked(-20.0..1.0, marks, "settlement, mm"));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::classes::Classes;
 use super::key::KeySample;
-use super::plan::{PlanCell, draw};
+use super::plan::{PlanCell, plan_picture};
 use super::svg::Svg;
 use crate::error::{Error, Result, at_least, finite, in_bounds, require_part};
 use crate::fem::{Element, Mesh};
@@ -11,8 +11,8 @@ use crate::geometry::span;
 /// Picture of one value for each shell of a mat, seen from above.
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
-/// its corners ([`FemModel::shell_resultants`](crate::structure::FemModel::shell_resultants)). `quantity` is their name
-/// with the unit, for the key. Every shell has the colour of its value, in classes on both sides of zero; other elements
+/// its corners ([`FemModel::shell_resultants`](crate::structure::FemModel::shell_resultants)). `quantity` is the name
+/// and unit of the values, for the key. Every shell has the colour of its value, in classes on both sides of zero; other elements
 /// are not drawn.
 ///
 /// ```
@@ -50,21 +50,24 @@ pub fn shell_plan(
     }
     let classes = Classes::between(span(values.iter().map(|pair| pair.1).chain([0.0])));
     let mut cells = Vec::with_capacity(values.len());
-    for &(index, value) in values {
-        let corners = shell_corners(mesh, index)?;
+    for &(element_index, value) in values {
+        let corners = shell_corners(mesh, element_index)?;
         cells.push(PlanCell { corners, color: classes.color(value), arrow: None });
     }
     let mut key = vec![(quantity.to_owned(), KeySample::Nothing)];
     key.append(&mut classes.key(1.0, ""));
-    draw(title, &cells, &key)
+    plan_picture(title, &cells, &key)
 }
 
 /// Corners (x, y) of a shell; an error for any other element.
-fn shell_corners(mesh: &Mesh, index: usize) -> Result<Vec<(f64, f64)>> {
-    in_bounds("element of the mesh", index, mesh.elements().len())?;
-    let faces = mesh.elements().nth(index).map_or_else(Vec::new, Element::faces);
+fn shell_corners(mesh: &Mesh, element_index: usize) -> Result<Vec<(f64, f64)>> {
+    in_bounds("element of the mesh", element_index, mesh.elements().len())?;
+    let faces = mesh.elements().nth(element_index).map_or_else(Vec::new, Element::faces);
     let [shell] = &faces[..] else {
-        return Err(Error::part(format!("element {index}"), "it is not a shell".to_owned()));
+        return Err(Error::part(
+            format!("element {element_index}"),
+            "it is not a shell".to_owned(),
+        ));
     };
     let mut corners = Vec::new();
     for &node in shell.corners() {

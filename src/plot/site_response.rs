@@ -14,7 +14,7 @@ type LayerValue = fn(&LayerResponse, f64) -> f64;
 
 /// Shear wave speeds and strains over depth, and response spectra beside them.
 ///
-/// Depth goes down from y = 0. Spectra are, for example, those at the surface and at the rock.
+/// Depth increases downwards from y = 0. Spectra are, for example, those at the surface and at the rock.
 ///
 /// # Errors
 /// As for [`spectra`](crate::plot::spectra()).
@@ -42,19 +42,19 @@ pub fn site_response(
     for (k, (name, _)) in spectra.iter().enumerate() {
         key.push((*name, KeySample::Line(Stroke::nth(k))));
     }
-    let speeds = speeds.map(|(_, value)| steps_over_depth(response, value));
-    let strains = strains.map(|(_, value)| steps_over_depth(response, value));
+    let speed_curves = speeds.map(|(_, value)| steps_over_depth(response, value));
+    let strain_curves = strains.map(|(_, value)| steps_over_depth(response, value));
     Sheet::new(title, PictureKey::new(key)).picture(|area| {
         let width = area.dim_in_pixel().0;
-        let (left, rest) = area.split_horizontally(width * 3 / 10);
-        let (middle, right) = rest.split_horizontally(width * 3 / 10);
-        draw_over_depth(&left, "c_S, m/s", &speeds, &strokes[..2])?;
-        draw_over_depth(&middle, "strain, %", &strains, &strokes[2..])?;
-        draw_spectra(&right, &axes, spectra)
+        let (speed_area, remaining_area) = area.split_horizontally(width * 3 / 10);
+        let (strain_area, spectrum_area) = remaining_area.split_horizontally(width * 3 / 10);
+        draw_over_depth(&speed_area, "c_S, m/s", &speed_curves, &strokes[..2])?;
+        draw_over_depth(&strain_area, "strain, %", &strain_curves, &strokes[2..])?;
+        draw_spectra(&spectrum_area, &axes, spectra)
     })
 }
 
-/// A value over y, constant in each layer.
+/// Curve of a value over y, constant in each layer.
 fn steps_over_depth(response: &EquivalentLinear, value: LayerValue) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for (layer, soil_layer) in response.layers.iter().zip(response.profile.layers()) {
@@ -74,10 +74,10 @@ fn draw_over_depth(
     strokes: &[Stroke],
 ) -> Drawing<()> {
     let points = curves.iter().flatten();
-    let x = range_of(points.clone().map(|point| point.0).chain([0.0]));
-    let y = range_of(points.map(|point| point.1).chain([0.0]));
-    let x_axis = ChartAxis::linear(x, description);
-    let y_axis = ChartAxis::linear(y, "y, m");
+    let x_range = range_of(points.clone().map(|point| point.0).chain([0.0]));
+    let y_range = range_of(points.map(|point| point.1).chain([0.0]));
+    let x_axis = ChartAxis::linear(x_range, description);
+    let y_axis = ChartAxis::linear(y_range, "y, m");
     let mut chart = chart(area, &x_axis, &y_axis, true)?;
     for (points, stroke) in curves.iter().zip(strokes) {
         draw_curve(&mut chart, points, *stroke, 2)?;

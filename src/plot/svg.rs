@@ -1,4 +1,4 @@
-//! A finished picture, and a page of text and pictures.
+//! Pictures as SVG text, and pages of text and pictures.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -15,8 +15,9 @@ use crate::text::file::write_file;
 
 /// Width of the pictures, pixels.
 const PICTURE_WIDTH: u32 = 1100;
-/// Height of the pictures, pixels; they are higher if title or key need it.
+/// Height of the pictures, pixels; a long title or key makes them higher.
 const PICTURE_HEIGHT: u32 = 560;
+/// Font of the title.
 const TITLE_FONT: (&str, u32) = ("sans-serif", 22);
 /// Largest number of lines of the title; the rest is cut.
 const MAX_TITLE_LINES: usize = 2;
@@ -25,7 +26,7 @@ const TITLE_LINE_HEIGHT: u32 = 26;
 /// Height above and below the title, pixels.
 const TITLE_PADDING: u32 = 16;
 
-/// Text of a picture.
+/// Picture in the format SVG.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Svg(String);
 
@@ -53,6 +54,7 @@ impl Svg {
     }
 }
 
+/// Whether XML 1.0 does not allow a character.
 fn is_forbidden_in_xml(character: char) -> bool {
     matches!(
         character,
@@ -68,6 +70,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
+    /// Sheet of the height that title and key need.
     pub(super) fn new(title: &str, key: PictureKey) -> Self {
         let title = lines(title, TITLE_FONT.1, f64::from(PICTURE_WIDTH) - 40.0, MAX_TITLE_LINES);
         let mut sheet = Self { title, key, height: PICTURE_HEIGHT };
@@ -91,15 +94,15 @@ impl Sheet {
         ]
     }
 
-    /// Draws title, key and the result of `chart` on a white sheet.
+    /// Picture of title and key, and of the charts that `chart` draws.
     pub(super) fn picture(&self, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
         let mut text = String::new();
         {
             let area = SVGBackend::with_string(&mut text, (PICTURE_WIDTH, self.height));
             let area = area.into_drawing_area();
-            let drawn = self.draw(&area, chart);
-            let written = drawn.and_then(|()| area.present().map_err(Into::into));
-            written.map_err(|_| Error::Scene {
+            let result = self.draw(&area, chart);
+            let result = result.and_then(|()| area.present().map_err(Into::into));
+            result.map_err(|_| Error::Scene {
                 quantity: "picture",
                 needed: "values that a chart can show: finite, and not all too large",
             })?;
@@ -124,35 +127,35 @@ impl Sheet {
     }
 }
 
-/// Text of an element of XML or HTML.
+/// Text with the special characters of XML and HTML escaped.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Path of a closed polygon.
+/// SVG path of a closed polygon with these corners, pixels.
 pub(super) fn polygon(corners: &[[f64; 2]]) -> String {
     let points: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1} {y:.1}")).collect();
     format!("M{}Z", points.join("L"))
 }
 
-/// Animates an attribute with values for equal parts of the time; only changes are written.
+/// SMIL animation of an attribute, by values at equal intervals; equal successive values are written once.
 pub(super) fn changes(attribute: &str, values: &[String], duration: &str) -> String {
     let mut times = Vec::new();
-    let mut new_values: Vec<&str> = Vec::new();
+    let mut changed_values: Vec<&str> = Vec::new();
     for (k, value) in values.iter().enumerate() {
         if k == 0 || *value != values[k - 1] {
             times.push(format!("{:.5}", k as f64 / values.len() as f64));
-            new_values.push(value);
+            changed_values.push(value);
         }
     }
-    if new_values.len() < 2 {
+    if changed_values.len() < 2 {
         return String::new();
     }
     format!(
         "<animate attributeName=\"{attribute}\" calcMode=\"discrete\" dur=\"{duration}\" \
          repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
         times.join(";"),
-        new_values.join(";")
+        changed_values.join(";")
     )
 }
 

@@ -1,4 +1,4 @@
-//! Width of text, and cutting of text that is too long.
+//! Estimated width of text in pictures, and line breaks.
 //!
 //! The program that shows the SVG chooses the font. Widths are estimates for a wide font (DejaVu Sans, not
 //! condensed), so that other fonts fit as well.
@@ -30,12 +30,12 @@ pub(super) fn lines(text: &str, size: u32, max_width: f64, max_lines: usize) -> 
     wrapped(text, max_width, max_lines, |text| width(text, size))
 }
 
-/// The text, cut where it is wider than `max_width` pixels.
+/// The text, cut at a width of `max_width` pixels.
 pub(super) fn fitted(text: &str, size: u32, max_width: f64) -> String {
     lines(text, size, max_width, 1).swap_remove(0)
 }
 
-/// A number in four digits.
+/// Text of a number with at most four digits.
 pub(super) fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
         format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
@@ -44,7 +44,7 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// A length in m or mm.
+/// Text of a length in m, or in mm below half a metre.
 pub(super) fn length_text(length: f64) -> String {
     if length < 0.5 {
         format!("{} mm", short(1e3 * length))

@@ -1,8 +1,11 @@
-//! Views of a structure: directions, places in the picture, and the order of cells that hide each other.
+//! Views of a structure: projection of its points, and the order of cells that hide each other.
 
 use crate::results::DeformedShape;
 
-/// Directions of view of a structure.
+const COS_30_DEGREES: f64 = 0.866_025_403_784_438_6;
+const SIN_30_DEGREES: f64 = 0.5;
+
+/// Directions from which a structure is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StructureView {
     /// View along y: x to the right, height up.
@@ -21,12 +24,12 @@ impl StructureView {
         &[Self::AlongY, Self::AlongX][..up]
     }
 
-    /// One view of a structure whose axis `up` points up, with all axes of the surface in it.
-    pub(super) fn whole(up: usize) -> Self {
+    /// The single view that shows all axes of a structure whose axis `up` points up.
+    pub(super) fn overview(up: usize) -> Self {
         [Self::AlongY, Self::Slanted][up - 1]
     }
 
-    /// Place in the picture of a point (x, height, y), m.
+    /// Projection of a point (x, height, y), m: to the right and up in the picture.
     pub(super) fn project(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
         match self {
             Self::AlongY => [x, up],
@@ -35,9 +38,9 @@ impl StructureView {
         }
     }
 
-    /// Places in the picture of all points.
-    pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        places.iter().map(|place| self.project(*place)).collect()
+    /// Projections of points (x, height, y), m.
+    pub(super) fn project_all(self, points: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        points.iter().map(|point| self.project(*point)).collect()
     }
 
     /// Distance of a point (x, height, y) from the origin towards the viewer.
@@ -69,6 +72,3 @@ impl StructureView {
         distances.sum::<f64>() / cell.len() as f64
     }
 }
-
-const COS_30_DEGREES: f64 = 0.866_025_403_784_438_6;
-const SIN_30_DEGREES: f64 = 0.5;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
-use crate::coupled::run::page::factor;
+use crate::coupled::run::page::safety_text;
 use crate::coupled::run::quantity_row::ShownIn;
 use crate::text::column::{NumberCell, column, distinct};
 use crate::text::csv::Csv;
@@ -50,7 +50,7 @@ impl ComparisonRow {
     fn cell(&self, run: &Run) -> String {
         match (self.value)(run) {
             None => "–".to_owned(),
-            Some(value) if self.column.ends_with("safety") => factor(value),
+            Some(value) if self.column.ends_with("safety") => safety_text(value),
             Some(value) if self.column == "slip_events" => format!("{value:.0}"),
             Some(value) => number(self.factor * value),
         }

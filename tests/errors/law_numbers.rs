@@ -247,7 +247,7 @@ fn more_state_variables_than_memory_holds_are_refused() {
         let problem = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![law]).map(drop);
         for result in [built, problem] {
             let Err(Error::Memory(error)) = result else { panic!("{result:?}") };
-            assert!(error.quantity.contains("remember") && error.asked > 1e8, "{error}");
+            assert!(error.quantity.contains("state variables") && error.asked > 1e8, "{error}");
         }
     }
 }

@@ -107,7 +107,8 @@ fn build_with_energy(energy: f64) -> Result<Simulation> {
 fn an_energy_that_is_not_finite_at_the_start_is_named() {
     build_with_energy(0.0).unwrap();
     for energy in NOT_FINITE {
-        let error = error_with("stored energy of the nonlinear force at t = 0", build_with_energy(energy));
+        let error =
+            error_with("stored energy of the nonlinear force at t = 0", build_with_energy(energy));
         assert!(matches!(error, Error::Input { value, .. } if value.to_bits() == energy.to_bits()));
     }
 }

@@ -20,9 +20,9 @@ impl<'a> BaseView<'a> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
 
-    /// The number of the whole base, or `value` of the single foundation.
-    pub(crate) fn whole_or(&self, whole: f64, value: fn(&Foundation) -> f64) -> f64 {
-        self.single_foundation().map_or(whole, value)
+    /// `whole_value` for the whole base, or `value` of the single foundation.
+    pub(crate) fn whole_or(&self, whole_value: f64, value: fn(&Foundation) -> f64) -> f64 {
+        self.single_foundation().map_or(whole_value, value)
     }
 
     /// Sum over all foundations, or the value of the single foundation.
@@ -63,7 +63,7 @@ impl<'a> BaseView<'a> {
         self.state.foundations.iter().map(value).reduce(f64::max).unwrap_or(0.0)
     }
 
-    /// Mean over the area; zero if a state has no such numbers.
+    /// Mean of `value` over the area of the base; zero without contact states.
     pub(crate) fn mean(&self, value: fn(&ContactState) -> f64) -> f64 {
         let mut integral = 0.0;
         let mut total_area = 0.0;
@@ -74,7 +74,7 @@ impl<'a> BaseView<'a> {
         if integral == 0.0 { 0.0 } else { integral / total_area }
     }
 
-    /// Indices of its elements.
+    /// Indices of the elements of the base.
     pub(crate) fn elements(&self) -> Range<usize> {
         match self.single_foundation() {
             Some(foundation) => foundation.elements.clone(),
@@ -82,14 +82,14 @@ impl<'a> BaseView<'a> {
         }
     }
 
-    /// Contact states of its elements.
+    /// Contact states of the elements of the base.
     ///
-    /// The lists of a state are public and may have been shortened.
+    /// Empty if the caller has shortened the state's public list.
     pub(crate) fn contact(&self) -> &'a [ContactState] {
         self.state.contact.get(self.elements()).unwrap_or_default()
     }
 
-    /// Contact modes of its elements.
+    /// Contact modes of the elements of the base.
     pub(crate) fn modes(&self) -> &'a [Mode] {
         self.state.modes.get(self.elements()).unwrap_or_default()
     }
@@ -101,12 +101,12 @@ impl<'a> BaseView<'a> {
     /// Left and right, front and back end: of the elements in the plane, of the outline in plan.
     pub(crate) fn ends(&self) -> [[f64; 2]; 2] {
         let footings = &self.state.context.footings;
-        let numbers = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
-        let footings = footings.get(numbers).unwrap_or_default();
+        let indices = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
+        let footings = footings.get(indices).unwrap_or_default();
         [0, 1].map(|axis| far_ends(footings.iter().map(|footing| footing.ends[axis])))
     }
 
-    /// The smallest factor of safety of its foundations; NaN if none is known.
+    /// The smallest factor of safety of the foundations; NaN if none has one.
     pub(crate) fn smallest_safety(&self, factor: fn(&FoundationChecks) -> f64) -> f64 {
         self.checks().iter().map(factor).fold(f64::NAN, f64::min)
     }
@@ -119,11 +119,11 @@ impl<'a> BaseView<'a> {
     }
 }
 
-/// Area of the open elements of a base.
+/// Area of the open elements of a base, m²; in the plane their length, m.
 pub(crate) fn open_area(base: &BaseView<'_>) -> f64 {
-    let open = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
-    // An empty sum would be a negative zero.
-    open.fold(0.0, |sum, (area, _)| sum + area)
+    let open_elements = base.areas().iter().zip(base.modes()).filter(|(_, mode)| !mode.is_closed());
+    // `sum` of no elements would return negative zero.
+    open_elements.fold(0.0, |sum, (area, _)| sum + area)
 }
 
 /// Largest |slip| of any element of a base, m.

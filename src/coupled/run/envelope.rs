@@ -7,7 +7,7 @@ use crate::coupled::{State, Warning};
 use crate::geometry::Patch;
 use crate::interface::ContactState;
 
-/// Envelopes of one contact element; tractions are means over the element.
+/// Envelopes of one contact element in a run; tractions are means over the element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -25,7 +25,7 @@ pub struct ElementEnvelope {
     pub gap: Peak,
     /// Slip of largest magnitude, with its sign, m.
     pub slip: Peak,
-    /// Time open, s.
+    /// Time during which the element is open, s.
     pub open: f64,
     /// In plan: shear traction along y of largest magnitude, Pa; zero in the plane.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -59,21 +59,21 @@ impl ElementEnvelope {
 
 /// Warning of the largest tension under elements that cannot open.
 ///
-/// `None` if it is below the limit, or without static pressures.
-pub(crate) fn tension(
+/// `None` if the tension is below the limit, or without static pressures.
+pub(crate) fn tension_warning(
     envelope: &[ElementEnvelope],
     in_plan: bool,
-    opens: impl Fn(usize) -> bool,
+    can_open: impl Fn(usize) -> bool,
 ) -> Option<Warning> {
     let pressures = envelope.iter().map(|element| element.static_pressure);
     let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
-    let closed_elements = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
-    let pulled = closed_elements
+    let closed_elements = envelope.iter().enumerate().filter(|(e, _)| !can_open(*e));
+    let tensioned_element = closed_elements
         .map(|(_, element)| element)
         .min_by(|a, b| a.pressure.lowest.value.total_cmp(&b.pressure.lowest.value))?;
-    let tension = -pulled.pressure.lowest.value;
-    let time = pulled.pressure.lowest.time;
-    let center = pulled.element.center();
+    let tension = -tensioned_element.pressure.lowest.value;
+    let time = tensioned_element.pressure.lowest.time;
+    let center = tensioned_element.element.center();
     let y = in_plan.then_some(center[1]);
     let has_walls = ContactElement::any_wall(envelope.iter().map(|element| &element.element));
     let z = has_walls.then_some(center[2]);
@@ -89,8 +89,8 @@ pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
         .collect()
 }
 
-/// Extends the envelopes by a step of duration `step`.
-pub(crate) fn update(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
+/// Extends the envelopes by a step of `step_duration`, s.
+pub(crate) fn update(envelopes: &mut [ElementEnvelope], state: &State, step_duration: f64) {
     let modes = state.modes.iter();
     for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {
         envelope.pressure.update(contact.pressure, state.time);
@@ -100,7 +100,7 @@ pub(crate) fn update(envelopes: &mut [ElementEnvelope], state: &State, step: f64
         envelope.shear_across.update(contact.shear_across, state.time);
         envelope.slip_across.update(contact.slip_across, state.time);
         if !mode.is_closed() {
-            envelope.open += step;
+            envelope.open += step_duration;
         }
     }
 }

@@ -1,34 +1,35 @@
-//! Elements and largest forces of a foundation along an axis, for the resolution of its rocking.
+//! Number of elements that the rocking of a foundation needs along an axis.
 
 use crate::coupled::state::foundation::Foundation;
 use crate::geometry::{Patch, far_ends, min_interval_count};
 
 /// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
 ///
-/// Below the last limit rocking does not matter.
-const ROCKING_ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
+/// Below the last ratio rocking is negligible.
+const ELEMENTS_FOR_ROCKING: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
 /// Smallest number of elements of any foundation: a single element resists no moment and does not rock.
 pub(crate) const MIN_FOUNDATION_ELEMENTS: usize = 2;
-/// Distance of a ratio of sides from a whole number that counts as rounding.
+/// Deviation of a ratio of sides from a whole number that is due to rounding.
 const WHOLE_RATIO_TOLERANCE: f64 = 1e-6;
 
-/// A foundation along one axis.
+/// Elements and largest forces of a foundation along one axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct FoundationAxis {
-    pub(crate) elements: usize,
+    pub(crate) element_count: usize,
     pub(crate) width: f64,
     static_moment: f64,
-    /// Largest shear and change of moment.
-    shear: f64,
-    moment: f64,
+    /// Largest shear so far, N (in the plane N/m).
+    max_shear: f64,
+    /// Largest change of the moment from the static state so far, N·m (in the plane N·m/m).
+    max_moment_change: f64,
 }
 
 impl FoundationAxis {
-    /// Axis of elements with these `ends` along it.
-    fn new(ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
-        let edges = far_ends(ends.iter().copied());
+    /// Axis before the first step; `element_ends`: coordinates of each element's ends along the axis, m.
+    fn new(element_ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
+        let edges = far_ends(element_ends.iter().copied());
         Self {
-            elements: min_interval_count(ends),
+            element_count: min_interval_count(element_ends),
             width: edges[1] - edges[0],
             static_moment,
             ..Self::default()
@@ -37,15 +38,15 @@ impl FoundationAxis {
 
     /// Extends the extremes by the shear and moment of a step.
     pub(crate) fn update(&mut self, shear: f64, moment: f64) {
-        self.shear = self.shear.max(shear.abs());
-        self.moment = self.moment.max((moment - self.static_moment).abs());
+        self.max_shear = self.max_shear.max(shear.abs());
+        self.max_moment_change = self.max_moment_change.max((moment - self.static_moment).abs());
     }
 
     /// Smallest number of elements that the foundation's rocking needs.
     pub(crate) fn needed_elements(&self) -> usize {
-        let arm = self.moment / (self.shear * self.width);
-        for (arm_limit, needed) in ROCKING_ELEMENTS {
-            if self.elements < MIN_FOUNDATION_ELEMENTS || arm > arm_limit {
+        let moment_ratio = self.max_moment_change / (self.max_shear * self.width);
+        for (ratio_limit, needed) in ELEMENTS_FOR_ROCKING {
+            if self.element_count < MIN_FOUNDATION_ELEMENTS || moment_ratio > ratio_limit {
                 return needed;
             }
         }
@@ -58,9 +59,10 @@ pub(crate) fn longest_side(elements: &Patch, axis: usize) -> f64 {
     elements.iter().map(|element| element.sides()[axis]).fold(0.0, f64::max)
 }
 
-/// Side of the cells along an axis, m.
+/// Side of a cell of the grid along an axis, m.
 ///
-/// The narrowest of unions is a cell, and so is the widest where others are parts of a cell.
+/// Sides of unions of cells are whole multiples of the narrowest side, which is then a cell's. Otherwise some elements
+/// are parts of cells, and the widest element is a whole cell.
 pub(crate) fn cell_side(elements: &Patch, axis: usize) -> f64 {
     let sides = elements.iter().map(|element| element.sides()[axis]);
     let narrowest = sides.clone().fold(f64::INFINITY, f64::min);
@@ -74,17 +76,20 @@ pub(crate) fn cell_side(elements: &Patch, axis: usize) -> f64 {
     narrowest
 }
 
-/// Elements and static moments of a foundation along x and, in plan, y; without elements of walls.
-pub(crate) fn axes_of(foundation: &Foundation, elements: &Patch) -> [FoundationAxis; 2] {
+/// Axes of a foundation before the first step: x and, in plan, y.
+///
+/// Elements of walls do not count. In the plane the axis y never needs more elements.
+pub(crate) fn foundation_axes(foundation: &Foundation, elements: &Patch) -> [FoundationAxis; 2] {
     let floor = elements.floor();
-    let last = foundation.elements.end.min(floor.end);
-    let first = foundation.elements.start.max(floor.start).min(last);
-    let moments = [foundation.base_moment, foundation.moment_across];
-    let unlimited = FoundationAxis { elements: usize::MAX, ..FoundationAxis::default() };
-    let mut axes = [unlimited; 2];
-    for (axis, moment) in elements.layout().axes().zip(moments) {
-        let ends = elements[first..last].iter().map(|element| element.ends()[axis]).collect();
-        axes[axis] = FoundationAxis::new(ends, moment);
+    let end = foundation.elements.end.min(floor.end);
+    let start = foundation.elements.start.max(floor.start).min(end);
+    let static_moments = [foundation.base_moment, foundation.moment_across];
+    let unchecked_axis = FoundationAxis { element_count: usize::MAX, ..FoundationAxis::default() };
+    let mut axes = [unchecked_axis; 2];
+    for (axis, static_moment) in elements.layout().axes().zip(static_moments) {
+        let element_ends =
+            elements[start..end].iter().map(|element| element.ends()[axis]).collect();
+        axes[axis] = FoundationAxis::new(element_ends, static_moment);
     }
     axes
 }

@@ -1,4 +1,4 @@
-//! The ground motion of a run, for its page.
+//! Peak and records of the ground motion in a run, for its page.
 
 use std::fmt;
 
@@ -13,21 +13,21 @@ use crate::text::readable_number::number;
 pub struct GroundMotion {
     /// Largest component of the acceleration, m/s².
     ///
-    /// Of the records at their samples; without records, of the free field under the base at the run's steps.
+    /// It is the peak of the records at their samples; without records, of the free field under the base at the run's steps.
     pub peak: f64,
     /// Time of the last sample of the longest record, s; `None` without records.
     pub duration: Option<f64>,
     /// Longest time step of the records, s; `None` without records.
     pub time_step: Option<f64>,
-    /// Fraction of the strongest record's Arias intensity that had passed at the end of the run.
+    /// Fraction of the strongest record's Arias intensity up to the end of the run.
     ///
     /// `None` without records and for records of zeros.
     pub passed: Option<f64>,
 }
 
 impl GroundMotion {
-    /// The motion of a run that ended at `end` (s); `at_steps`: largest acceleration at its steps (m/s²).
-    pub(crate) fn new(motion: &dyn FreeField, end: f64, at_steps: f64) -> Self {
+    /// The motion of a run that ended at `end` (s), with this largest acceleration at its steps (m/s²).
+    pub(crate) fn new(motion: &dyn FreeField, end: f64, max_acceleration_at_steps: f64) -> Self {
         let records = motion.records();
         let strongest = records.iter().max_by(|a, b| squared_sum(a).total_cmp(&squared_sum(b)));
         Self {
@@ -35,7 +35,7 @@ impl GroundMotion {
                 .iter()
                 .map(|record| peak_acceleration(record))
                 .reduce(f64::max)
-                .unwrap_or(at_steps),
+                .unwrap_or(max_acceleration_at_steps),
             duration: records.iter().map(|record| record.duration()).reduce(f64::max),
             time_step: records.iter().map(|record| record.time_step()).reduce(f64::max),
             passed: strongest.and_then(|record| passed_intensity(record, end)),
@@ -56,9 +56,9 @@ fn squared_sum(record: &Record) -> f64 {
 /// Fraction of a record's Arias intensity until the time `end`, s; `None` for a record of zeros.
 fn passed_intensity(record: &Record, end: f64) -> Option<f64> {
     let samples = record.accelerations().iter().enumerate();
-    let before = samples.filter(|(k, _)| *k as f64 * record.time_step() <= end);
-    let before: f64 = before.map(|(_, a)| a * a).sum();
-    Some(before / squared_sum(record)).filter(|passed| passed.is_finite())
+    let passed_samples = samples.filter(|(k, _)| *k as f64 * record.time_step() <= end);
+    let passed_sum: f64 = passed_samples.map(|(_, a)| a * a).sum();
+    Some(passed_sum / squared_sum(record)).filter(|passed| passed.is_finite())
 }
 
 /// Writes one line: peak in m/s² and in g, duration and time step of its records.
@@ -68,8 +68,8 @@ impl fmt::Display for GroundMotion {
             return write!(f, "Ground motion: none");
         }
         let peak = number(self.peak);
-        let of_gravity = number(self.peak / STANDARD_GRAVITY);
-        write!(f, "Ground motion: peak {peak} m/s² ({of_gravity} g)")?;
+        let peak_in_g = number(self.peak / STANDARD_GRAVITY);
+        write!(f, "Ground motion: peak {peak} m/s² ({peak_in_g} g)")?;
         match (self.duration, self.time_step) {
             (Some(duration), Some(time_step)) => {
                 let duration = seconds(duration);
@@ -81,9 +81,12 @@ impl fmt::Display for GroundMotion {
     }
 }
 
-/// A time in s without trailing zeros.
+/// Time below which six decimals would not be enough, s.
+const MIN_DECIMAL_TIME: f64 = 1e-4;
+
+/// Text of a time in s, without trailing zeros.
 pub(crate) fn seconds(time: f64) -> String {
-    if time < 1e-4 {
+    if time < MIN_DECIMAL_TIME {
         return number(time);
     }
     format!("{time:.6}").trim_end_matches('0').trim_end_matches('.').to_owned()

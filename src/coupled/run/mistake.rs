@@ -1,6 +1,6 @@
-//! Mistakes of which a run warns.
+//! Probable mistakes of which a run warns.
 
-use crate::coupled::run::warning_text::{likely_slip, places, unit_of_motion};
+use crate::coupled::run::warning_text::{likely_motion_unit, likely_soil_units, point_count_text};
 
 /// Number, mesh or ground that is probably a mistake: numbers in another unit, unless the model is not to scale.
 ///
@@ -13,36 +13,36 @@ pub enum Mistake {
     /// Faces of a base in plan meet and move apart: nodes at one point that nothing ties together, or a node on the edge
     /// of another face.
     ///
-    /// There the base is cut, as where two meshes were put side by side.
+    /// The base is cut there, as between two meshes side by side.
     #[error(
         "base torn at {}, first at x = {x:.2} m, y = {y:.2} m: faces meet there and move apart (merge coincident nodes, \
          tie nodes on an edge to its ends)",
-        places(*points)
+        point_count_text(*points)
     )]
     TornBase {
         /// Number of points where faces move apart.
         points: usize,
-        /// The first of these points, m.
+        /// Coordinate x of the first of these points, m.
         x: f64,
-        /// The first of these points along y, m.
+        /// Coordinate y of the first of these points, m.
         y: f64,
     },
-    /// Shells or sides of solids at the height of the base do not touch the ground: the base does not name them.
+    /// Shells or sides of solids at the height of the base do not touch the ground: the base does not include them.
     #[error(
-        "faces at the height of the base that do not touch the ground: {faces}, first at x = {x:.2} m, y = {y:.2} m; name \
-         them, too, if they stand on it"
+        "faces at the height of the base that do not touch the ground: {faces}, first at x = {x:.2} m, y = {y:.2} m; \
+         include them in the base if they stand on the ground"
     )]
     FacesOffGround {
         /// Number of these faces.
         faces: usize,
-        /// Middle of the first of them, m.
+        /// Coordinate x of the middle of the first of these faces, m.
         x: f64,
-        /// Middle of the first of them along y, m.
+        /// Coordinate y of the middle of the first of these faces, m.
         y: f64,
     },
-    /// An elastic part of a ground of your own takes the traction of a step as the traction at its end, s₁ = C τ.
+    /// An elastic part of a user's ground applies the traction of a step at the end of the step, s₁ = C τ.
     ///
-    /// The ground is then of first order in the time step, and damps the motion without any damping. See
+    /// The ground is then of first order in the time step, and adds numerical damping. See
     /// [`Ground`](crate::bem::Ground#elastic-parts-in-the-mid-step-form).
     #[error(
         "ground of first order: an elastic part follows the traction of the step, which damps; \
@@ -51,7 +51,7 @@ pub enum Mistake {
     FirstOrderGround,
     /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
     #[error("soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
-        likely_slip(*shear_wave_speed, *density))]
+        likely_soil_units(*shear_wave_speed, *density))]
     UnusualSoil {
         /// Speed of its shear waves, m/s.
         shear_wave_speed: f64,
@@ -66,21 +66,21 @@ pub enum Mistake {
     },
     /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.
     ///
-    /// Numbers of a weak record are probably in g, above 60 m/s² in cm/s².
-    #[error("ground acceleration of {acceleration:.3} m/s²: motion in {}?", unit_of_motion(*acceleration))]
+    /// Numbers of a weak record are probably in g, and numbers above 60 in cm/s².
+    #[error("ground acceleration of {acceleration:.3} m/s²: motion in {}?", likely_motion_unit(*acceleration))]
     UnusualMotion {
         /// Largest component at any step or sample, m/s².
         acceleration: f64,
     },
-    /// A record with a time step that no recorder has: probably in another unit.
+    /// A record with a time step outside 10⁻⁴ to 0.2 s: probably in another unit.
     #[error("record in steps of {time_step:.2e} s: interval in another unit?")]
     UnusualInterval {
         /// Time step of the record, s.
         time_step: f64,
     },
-    /// The time step is longer than half the mean period of a record: it does not see the record.
+    /// The time step exceeds half the mean period of a record, and does not resolve the record.
     #[error(
-        "steps of {time_step:.2e} s miss a record of period {period:.2e} s; take {needed:.1e} s"
+        "steps of {time_step:.2e} s do not resolve a record of period {period:.2e} s; take {needed:.1e} s"
     )]
     LongTimeStep {
         /// The time step, s.
@@ -101,30 +101,30 @@ pub enum Mistake {
         /// Velocity at the end of the record, m/s.
         velocity: f64,
     },
-    /// A weight that no soil of this stiffness carries, over 2.5 % of its shear modulus.
+    /// A weight beyond the soil's resistance: over 2.5 % of its shear modulus.
     ///
     /// Probably masses, a thickness or the soil's modulus in another unit, or a mass that is not per metre of thickness.
     #[error(
-        "weight of {pressure:.2e} Pa on soil of G = {shear_modulus:.2e} Pa: no soil carries this"
+        "weight of {pressure:.2e} Pa on soil of G = {shear_modulus:.2e} Pa: beyond the soil's resistance"
     )]
     HeavyStructure {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
-        /// Shear modulus of the soil, Pa: at the surface, with walls of the stiffest soil.
+        /// Shear modulus of the soil at the surface, Pa; for a base with walls, of the stiffest soil.
         shear_modulus: f64,
     },
     /// Masses of vertical and of horizontal motion that differ by more than a tenth.
     ///
-    /// The weight follows from the vertical mass. Where the masses of floors are missing in it, the base bears too little
-    /// pressure. Water that moves with a structure to the side has no weight on the base.
-    #[error("mass moving up {vertical:.3e} kg, sideways {horizontal:.3e} kg: floors left out?")]
+    /// The weight follows from the vertical mass. If this mass lacks floors, the pressure on the base is too small. Water that
+    /// moves sideways with a structure has no weight on the base.
+    #[error("mass moving up {vertical:.3e} kg, sideways {horizontal:.3e} kg: floors missing?")]
     UnequalMasses {
         /// Mass of the structure moving up, kg (in the plane kg/m).
         vertical: f64,
         /// Mass of the structure moving along x, in plan along x or y, kg (in the plane kg/m).
         horizontal: f64,
     },
-    /// A material with a density that no material has: probably in another unit.
+    /// A material of implausible density: probably in another unit.
     #[error("material of {density:.4} kg/m³: density in t/m³, kN/m³ or N/m³?")]
     UnusualDensity {
         /// Density, kg/m³.
@@ -144,13 +144,13 @@ pub enum Mistake {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
     },
-    /// A friction coefficient that no material has: probably an angle in degrees, or a percentage.
+    /// An implausible friction coefficient: probably an angle in degrees, or a percentage.
     #[error("friction coefficient of {friction}: in degrees, or in per cent?")]
     UnusualFriction {
         /// The coefficient.
         friction: f64,
     },
-    /// A gravity that no planet has: probably in another unit.
+    /// An implausible acceleration of gravity: probably in another unit.
     #[error("gravity of {gravity} m/s²: in another unit?")]
     UnusualGravity {
         /// Acceleration of gravity, m/s².

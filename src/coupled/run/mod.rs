@@ -1,4 +1,4 @@
-//! A run in numbers.
+//! Summary of a run: peaks, envelopes, energies and warnings.
 
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -51,20 +51,20 @@ use crate::structure::probe_index;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Fallbacks {
-    /// Steps that Gauss–Seidel over the elements solved.
+    /// Steps solved by Gauss–Seidel over the elements.
     pub gauss_seidel: usize,
-    /// Steps that needed a path of solutions.
+    /// Steps solved by path following.
     pub path: usize,
-    /// In plan: steps that needed Newton's method.
+    /// In plan: steps solved by Newton's method.
     #[cfg_attr(feature = "serde", serde(default))]
     pub newton: usize,
-    /// In plan: steps that needed the proximal point method.
+    /// In plan: steps solved by the proximal point method.
     #[cfg_attr(feature = "serde", serde(default))]
     pub proximal: usize,
 }
 
 impl Fallbacks {
-    /// Steps that needed any of these methods.
+    /// Steps solved by any of these methods.
     pub fn total(&self) -> usize {
         self.gauss_seidel + self.path + self.newton + self.proximal
     }
@@ -73,21 +73,21 @@ impl Fallbacks {
 /// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings.
 ///
 /// It prints as a page for a report. Quantities are named and signed as in [`State`]: forces per metre of
-/// thickness (in plan, of the whole body), on the soil. The initial state of the run counts as a step.
+/// thickness (in plan, of the whole body), on the soil. Extremes include the initial state of the run.
 ///
 /// With the feature `serde` all its fields are written, including
-/// [numbers](crate#settings-and-results-in-serdes-formats) that are not finite. A run that was read ignores
+/// [numbers](crate#settings-and-results-in-serdes-formats) that are not finite. A run read from a file ignores
 /// further steps.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Run {
-    /// Steps of this run.
+    /// Number of steps of the run.
     pub steps: usize,
-    /// Time at its beginning, s.
+    /// Time at the beginning of the run, s.
     pub start: f64,
-    /// Time at its end, s.
+    /// Time at the end of the run, s.
     pub end: f64,
     /// The ground motion; zeros until the run is closed.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -137,21 +137,21 @@ pub struct Run {
     elements: Vec<ContactElement>,
     #[cfg_attr(feature = "serde", serde(skip, default = "StateSequence::closed"))]
     sequence: StateSequence,
-    /// Whether the run made all its steps and the expected ones.
+    /// Whether the run completed the requested number of steps.
     ///
-    /// `false` if an observer ended it, or the caller's own loop made it.
+    /// `false` if an observer ended the run, or if the caller's loop made the steps.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) ends_by_steps: bool,
-    /// Responses that should not be largest at the end: after the last step, and one step earlier.
+    /// Values of [`Warning::RESPONSES_CHECKED_AT_END`] after the last step, and after the step before it.
     #[cfg_attr(feature = "serde", serde(skip))]
-    last_responses: [[f64; 4]; 2],
+    final_responses: [[f64; 4]; 2],
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
     /// Smallest algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
     smallest_algorithmic_energy: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
-    begin: Option<Instant>,
+    wall_start: Option<Instant>,
 }
 
 /// The present time; `None` without a clock (WebAssembly).
@@ -160,7 +160,7 @@ pub(crate) fn clock() -> Option<Instant> {
 }
 
 impl Run {
-    /// Run before its first step, at `state`; `limits`: its limits of serviceability.
+    /// Run before its first step, at `state`, with these limits of serviceability.
     pub(crate) fn start(state: &State, limits: &Serviceability, resolution: Resolution) -> Self {
         let time = state.time;
         let ResultContext { elements, probes, .. } = state.context.as_ref();
@@ -199,10 +199,11 @@ impl Run {
             elements: elements.to_vec(),
             sequence: StateSequence::new(state),
             ends_by_steps: false,
-            last_responses: [Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)); 2],
+            final_responses: [Warning::RESPONSES_CHECKED_AT_END
+                .map(|quantity| state.value(quantity)); 2],
             resolution,
             smallest_algorithmic_energy: state.energy_balance.algorithmic,
-            begin: clock(),
+            wall_start: clock(),
         }
     }
 
@@ -213,27 +214,27 @@ impl Run {
         if !self.sequence.accept(state) {
             return;
         }
-        let begin = self.end;
+        let step_start = self.end;
         let time = state.time;
         self.steps += 1;
         self.end = time;
-        self.last_responses = [
-            Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)),
-            self.last_responses[0],
+        self.final_responses = [
+            Warning::RESPONSES_CHECKED_AT_END.map(|quantity| state.value(quantity)),
+            self.final_responses[0],
         ];
         self.resolution.update(state);
-        self.whole.update(state, begin, None);
+        self.whole.update(state, step_start, None);
         for (k, summary) in self.foundations.iter_mut().enumerate() {
-            summary.update(state, begin, Some(k));
+            summary.update(state, step_start, Some(k));
         }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.update(*value, time);
         }
         self.serviceability.iter_mut().for_each(|check| check.update(state));
-        envelope::update(&mut self.envelope, state, time - begin);
+        envelope::update(&mut self.envelope, state, time - step_start);
         self.mode_changes += state.transitions.len();
-        self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
-        self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
+        self.debondings += state.transitions.iter().filter(|change| change.is_debonding()).count();
+        self.rebondings += state.transitions.iter().filter(|change| change.is_rebonding()).count();
         self.energy_balance = state.energy_balance;
         self.smallest_algorithmic_energy =
             self.smallest_algorithmic_energy.min(state.energy_balance.algorithmic);
@@ -251,34 +252,35 @@ impl Run {
         }
     }
 
-    /// Closes the run; the ground is sampled between steps where these may have missed an extreme.
+    /// Closes the run and collects its warnings.
     ///
-    /// `opens`: whether an element can open. `of_scene`: warnings of the scene itself. `pressures_above`: of the soil, Pa,
-    /// on elements of walls without a largest pressure; empty without walls. `drag`: damping of a rigid
-    /// translation over its mass, 1/s. `rotation_limit`: rotation that ends a run, rad.
-    #[allow(clippy::too_many_arguments, reason = "what the scene and the run know of each other")]
+    /// The ground motion is sampled between the steps if the steps may not resolve it. `can_open`: whether an element can
+    /// open. `pressures_above`: pressure of the soil above each element of a wall, Pa, as returned by
+    /// [`wall_pressure::pressures_above`]. `damping_rate`: damping of a rigid translation over its mass, 1/s.
+    /// `rotation_limit`: rotation that ends a run, rad.
+    #[allow(clippy::too_many_arguments, reason = "data of the scene, which a run does not store")]
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,
         motion: &dyn FreeField,
-        opens: impl Fn(usize) -> bool,
-        of_scene: &[Warning],
+        can_open: impl Fn(usize) -> bool,
+        scene_warnings: &[Warning],
         pressures_above: &[f64],
-        drag: f64,
+        damping_rate: f64,
         rotation_limit: f64,
     ) {
-        // A run that was read from a file is closed.
+        // A run read from a file is closed and has no elements.
         if self.elements.is_empty() {
             return;
         }
-        self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
-        self.resolution.resolve_ground(ground, motion, self.start..self.end);
-        let lengths: f64 = self.envelope.iter().map(ElementEnvelope::shortest_side).sum();
+        self.wall = self.wall_start.map_or(Duration::ZERO, |start| start.elapsed());
+        self.resolution.sample_ground(ground, motion, self.start..self.end);
+        let total_length: f64 = self.envelope.iter().map(ElementEnvelope::shortest_side).sum();
         let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;
         let rotations = [base_rotation, rotation_across, twist].map(Extremes::magnitude);
-        self.warnings = Warning::all(
+        self.warnings = Warning::of_results(
             self.whole.largest_slip.highest.value,
-            lengths / self.envelope.len() as f64,
+            total_length / self.envelope.len() as f64,
             rotations.into_iter().fold(0.0, f64::max),
             &self.energy_balance,
             self.smallest_algorithmic_energy,
@@ -289,23 +291,27 @@ impl Run {
             let width = ends.fold(f64::INFINITY, |width, [low, high]| width.min(high - low));
             self.warnings.extend(Warning::of_settlement(k, settlement, width));
         }
-        self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
-        self.warnings.extend(wall_pressure::warning(&self.envelope, pressures_above));
-        self.warnings.extend_from_slice(of_scene);
-        let is_to_scale =
-            !of_scene.iter().any(|w| matches!(w, Warning::Mistake(Mistake::UnusualSoil { .. })));
+        self.warnings
+            .extend(envelope::tension_warning(&self.envelope, self.in_plan, can_open));
+        self.warnings.extend(wall_pressure::wall_warning(&self.envelope, pressures_above));
+        self.warnings.extend_from_slice(scene_warnings);
+        let is_to_scale = !scene_warnings
+            .iter()
+            .any(|warning| matches!(warning, Warning::Mistake(Mistake::UnusualSoil { .. })));
         let acceleration = self.resolution.largest_acceleration();
         self.ground_motion = GroundMotion::new(motion, self.end, acceleration);
-        let of_motion = Warning::of_motion(acceleration, &self.ground_motion, motion);
-        self.warnings.extend(of_motion.into_iter().filter(|_| is_to_scale));
+        if is_to_scale {
+            self.warnings.extend(Warning::of_motion(acceleration, &self.ground_motion, motion));
+        }
         self.warnings.extend(Warning::of_end(self, acceleration, rotation_limit));
         let mut longest_slip_event: f64 = 0.0;
         for summary in self.foundations.iter().chain([&self.whole]) {
-            longest_slip_event = longest_slip_event.max(summary.sliding.longest());
+            longest_slip_event = longest_slip_event.max(summary.sliding.longest_duration());
         }
-        self.warnings.extend(Warning::of_drag(drag, longest_slip_event));
-        self.resolution.warn(&mut self.warnings);
-        Warning::drop_expected(&mut self.warnings);
+        self.warnings
+            .extend(Warning::of_translation_damping(damping_rate, longest_slip_event));
+        self.resolution.add_warnings(&mut self.warnings);
+        Warning::drop_superseded(&mut self.warnings);
     }
 
     /// Smallest and largest value of the probe called `name`.
@@ -321,7 +327,7 @@ impl Run {
         0..1 + usize::from(self.in_plan)
     }
 
-    /// Whether elements of the base are of walls.
+    /// Whether any element of the base belongs to a wall.
     pub(crate) fn has_walls(&self) -> bool {
         ContactElement::any_wall(self.envelope.iter().map(|envelope| &envelope.element))
     }
@@ -332,11 +338,11 @@ impl Run {
         (*static_normal_force > 0.0).then(|| horizontal_force.magnitude() / static_normal_force)
     }
 
-    /// Growth of a response in the last step, relative to its value.
-    pub(crate) fn last_growth(&self, response: usize) -> f64 {
-        let last = self.last_responses[0][response].abs();
-        let before = self.last_responses[1][response].abs();
-        1.0 - before / last
+    /// Relative growth in the last step of a response of [`Warning::RESPONSES_CHECKED_AT_END`].
+    pub(crate) fn growth_in_last_step(&self, response_index: usize) -> f64 {
+        let final_value = self.final_responses[0][response_index].abs();
+        let previous_value = self.final_responses[1][response_index].abs();
+        1.0 - previous_value / final_value
     }
 
     /// Number of slip events of all foundations.

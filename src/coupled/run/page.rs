@@ -9,18 +9,22 @@ use crate::geometry::{axis_name, middle, resultant, span};
 use crate::text::readable_number::{PrintedUnit, number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
-/// Number of elements above which the pressure envelope is shortened.
+/// Approximate number of rows above which the pressure envelope omits elements.
 const MAX_PRESSURE_ROWS: usize = 12;
-/// Lever of the outermost elements, over half the width, above which no advice is printed.
-const ACCURATE_LEVER: f64 = 0.93;
+/// Ratio of the outermost elements' lever to half the width, above which the page omits the hint on its error.
+const ACCURATE_LEVER_RATIO: f64 = 0.93;
 /// Fraction of open base above which small changes of a scene may change its peaks.
-const MOSTLY_OPEN: f64 = 0.5;
+const MOSTLY_OPEN_FRACTION: f64 = 0.5;
+/// Fraction of the input energy below which a term would be printed as 0.00 %.
+const MIN_PRINTED_FRACTION: f64 = 5e-5;
+/// Factor of safety from which it is printed as unlimited: larger factors have no practical meaning.
+const UNLIMITED_SAFETY: f64 = 1e4;
 
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { steps, start, end, .. } = self;
-        let step = seconds(self.time_step);
-        writeln!(f, "Run of {steps} steps of {step} s from t = {start:.3} s to {end:.3} s")?;
+        let time_step = seconds(self.time_step);
+        writeln!(f, "Run of {steps} steps of {time_step} s from t = {start:.3} s to {end:.3} s")?;
         writeln!(f, "{}", self.ground_motion)?;
         let weight = self.whole.static_normal_force;
         if weight > 0.0 {
@@ -31,30 +35,35 @@ impl fmt::Display for Run {
                 of_body("kN/m", self.in_plan)
             )?;
         }
-        writeln!(f, "\n{}", self.peaks().text())?;
+        writeln!(f, "\n{}", self.peak_table().text())?;
         if self.foundations.len() > 1 {
-            writeln!(f, "{}", self.each_foundation().text())?;
+            writeln!(f, "{}", self.foundation_table().text())?;
         }
         if let Some(coefficient) = self.shear_coefficient() {
             writeln!(f, "Largest horizontal force: {coefficient:.3} of the weight")?;
         }
-        self.safety(f)?;
-        if let Some(met) = self.is_serviceable() {
-            writeln!(f, "\nServiceability: {}", if met { "met" } else { "not met" })?;
+        self.write_safety(f)?;
+        if let Some(is_serviceable) = self.is_serviceable() {
+            writeln!(f, "\nServiceability: {}", if is_serviceable { "met" } else { "not met" })?;
             for check in &self.serviceability {
                 writeln!(f, "  {check}")?;
             }
         }
-        self.uplift_and_sliding(f)?;
-        let shown = self.pressures();
-        let all = self.envelope.len();
-        let printed = shown.rows.len();
-        let part =
-            if printed < all { format!(", {printed} of {all} elements") } else { String::new() };
+        self.write_uplift(f)?;
+        self.write_settlement(f)?;
+        self.write_sliding(f)?;
+        let pressures = self.pressure_table();
+        let element_count = self.envelope.len();
+        let row_count = pressures.rows.len();
+        let selection = if row_count < element_count {
+            format!(", {row_count} of {element_count} elements")
+        } else {
+            String::new()
+        };
         let faces = if self.has_walls() { "on base and walls" } else { "under the base" };
-        writeln!(f, "\nPressure {faces}{part}\n{}", shown.text())?;
-        self.energies(f)?;
-        self.effort(f)?;
+        writeln!(f, "\nPressure {faces}{selection}\n{}", pressures.text())?;
+        self.write_energies(f)?;
+        self.write_effort(f)?;
         for warning in &self.warnings {
             write!(f, "\nwarning: {warning}")?;
         }
@@ -63,7 +72,7 @@ impl fmt::Display for Run {
 }
 
 impl Run {
-    fn peaks(&self) -> Table {
+    fn peak_table(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let mut rows = Vec::new();
         for quantity in Quantity::shown(ShownIn::Page, self.in_plan) {
@@ -77,35 +86,35 @@ impl Run {
     }
 
     /// Largest magnitudes, one line for each foundation.
-    fn each_foundation(&self) -> Table {
-        let shown: Vec<_> = Quantity::shown(ShownIn::Foundations, self.in_plan).collect();
+    fn foundation_table(&self) -> Table {
+        let quantities: Vec<_> = Quantity::shown(ShownIn::Foundations, self.in_plan).collect();
         let mut headings = vec!["Foundation, m".to_owned()];
-        for quantity in &shown {
-            let has_limit = quantity.limit().is_some();
-            let unit = if has_limit { "" } else { quantity.printed(self.in_plan).symbol };
+        for quantity in &quantities {
+            let is_factor_of_safety = quantity.limit_label().is_some();
+            let unit = if is_factor_of_safety { "" } else { quantity.printed(self.in_plan).symbol };
             headings.push(format!("{} {unit}", quantity.short_name()).trim_end().to_owned());
         }
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
-        let rows = self.foundations.iter().map(|summary| self.foundation_row(summary, &shown));
+        let rows = self.foundations.iter().map(|summary| self.foundation_row(summary, &quantities));
         Table { heading: headings, repeated: 1, rows: rows.collect() }
     }
 
-    /// Place of a foundation, its largest magnitudes, and its sliding.
-    fn foundation_row(&self, summary: &Summary, shown: &[Quantity]) -> Vec<String> {
-        let mut places = Vec::new();
+    /// Row of a foundation: its extent, largest magnitudes and sliding.
+    fn foundation_row(&self, summary: &Summary, quantities: &[Quantity]) -> Vec<String> {
+        let mut intervals = Vec::new();
         for axis in self.axes() {
             let ends = [summary.ends, summary.depth][axis];
             let interval = format!("{:.2} to {:.2}", ends[0], ends[1]);
-            places.push(match axis_name(self.in_plan, axis) {
+            intervals.push(match axis_name(self.in_plan, axis) {
                 Some(name) => format!("{name} {interval}"),
                 None => interval,
             });
         }
-        let mut cells = vec![places.join(", ")];
-        for quantity in shown {
+        let mut cells = vec![intervals.join(", ")];
+        for quantity in quantities {
             let value = summary.peak(*quantity).value;
-            cells.push(if quantity.limit().is_some() {
-                factor(value)
+            cells.push(if quantity.limit_label().is_some() {
+                safety_text(value)
             } else {
                 number(quantity.printed(self.in_plan).factor * value)
             });
@@ -115,14 +124,14 @@ impl Run {
         cells
     }
 
-    fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn write_safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for quantity in Quantity::recorded(self.in_plan) {
             let peak = self.whole.peak(quantity);
-            if quantity.limit().is_none() || peak.value.is_nan() {
+            if quantity.limit_label().is_none() || peak.value.is_nan() {
                 continue;
             }
             let name = quantity.name();
-            let smallest = factor(peak.value);
+            let smallest = safety_text(peak.value);
             write!(f, "Least {name}: {smallest} at {:.3} s", peak.time)?;
             match quantity {
                 Quantity::OverturningSafety => writeln!(f, ", over the left or the right edge")?,
@@ -132,37 +141,36 @@ impl Run {
                 _ => writeln!(f)?,
             }
         }
-        let lever = self.axes().map(|axis| self.lever(axis)).fold(1.0, f64::min);
-        if lever < ACCURATE_LEVER {
+        let lever_ratio = self.axes().map(|axis| self.lever_ratio(axis)).fold(1.0, f64::min);
+        if lever_ratio < ACCURATE_LEVER_RATIO {
             writeln!(
                 f,
-                "  pressure acts in the middle of elements, {lever:.2} of the half width from the middle of the base at \
+                "  pressure acts in the middle of elements, {lever_ratio:.2} of the half width from the middle of the base at \
                  most:\n  a base on its edge has a factor of {:.2}, not 1 (1.07 or less with 16 elements a side)",
-                1.0 / lever
+                1.0 / lever_ratio
             )?;
         }
         Ok(())
     }
 
-    /// Distance from the middle of a foundation to the middles of its outermost elements, over half its
-    /// width.
+    /// Smallest lever of the outermost elements along an axis, over half the width of their foundation.
     ///
-    /// Along an axis; the smallest of all foundations and both sides.
-    fn lever(&self, axis: usize) -> f64 {
-        let mut smallest = f64::INFINITY;
+    /// The lever is the distance from the middle of the foundation to the middle of an outermost element.
+    fn lever_ratio(&self, axis: usize) -> f64 {
+        let mut smallest_ratio = f64::INFINITY;
         for summary in &self.foundations {
             let ends = [summary.ends, summary.depth][axis];
             let elements = self.envelope.get(summary.elements.clone()).unwrap_or_default();
             let centers = span(elements.iter().map(|element| element.element.center()[axis]));
             let middle = middle(ends);
-            let lever =
+            let ratio =
                 (middle - centers[0]).min(centers[1] - middle) / (0.5 * (ends[1] - ends[0]));
-            smallest = smallest.min(lever);
+            smallest_ratio = smallest_ratio.min(ratio);
         }
-        smallest
+        smallest_ratio
     }
 
-    fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn write_uplift(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let uplift = &self.whole.uplift;
         let uplifted = self.whole.uplifted_fraction.highest;
         writeln!(f, "\nUplift")?;
@@ -178,22 +186,29 @@ impl Run {
             "  {:.3} s in {} intervals, the longest {:.3} s; {:.3} s without contact",
             uplift.duration, uplift.count, uplift.longest, uplift.flight
         )?;
-        if uplifted.value > MOSTLY_OPEN {
+        if uplifted.value > MOSTLY_OPEN_FRACTION {
             writeln!(
                 f,
-                "  most of the base opens: not every digit of a peak may hold (`sensitivity` counts them)"
+                "  most of the base opens: rounding errors may change digits of a peak (`sensitivity` finds how many)"
             )?;
         }
-        self.settlement(f)?;
+        Ok(())
+    }
+
+    fn write_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sliding = &self.whole.sliding;
         writeln!(f, "Sliding")?;
         for axis in self.axes() {
-            let mean = [&self.whole.mean_slip, &self.whole.mean_slip_across][axis].largest();
-            let end = [self.whole.residual_slip, self.whole.residual_slip_across][axis];
+            let peak = [&self.whole.mean_slip, &self.whole.mean_slip_across][axis].largest();
+            let residual_slip = [self.whole.residual_slip, self.whole.residual_slip_across][axis];
             let name = ["mean slip", "mean slip across"][axis];
-            let value = number(1e3 * mean.value);
-            let end = number(1e3 * end);
-            write!(f, "  {name} up to {value} mm at {:.3} s, {end} mm at the end", mean.time)?;
+            let peak_mm = number(1e3 * peak.value);
+            let residual_mm = number(1e3 * residual_slip);
+            write!(
+                f,
+                "  {name} up to {peak_mm} mm at {:.3} s, {residual_mm} mm at the end",
+                peak.time
+            )?;
             if axis == 0 {
                 let largest = self.whole.largest_slip.highest.value;
                 write!(f, "; any element {} mm", number(1e3 * largest))?;
@@ -220,7 +235,7 @@ impl Run {
         )
     }
 
-    fn settlement(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn write_settlement(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let settlement = self.whole.settlement.highest;
         writeln!(
             f,
@@ -231,63 +246,63 @@ impl Run {
         )
     }
 
-    fn pressures(&self) -> Table {
+    fn pressure_table(&self) -> Table {
         let axes: Vec<usize> = self.axes().chain(self.has_walls().then_some(2)).collect();
-        let places = axes.iter().map(|&axis| ["x, m", "y, m", "z, m"][axis]);
-        let numbers = ["static kPa", "least kPa", "largest kPa", "at s", "open s"];
-        let heading: Vec<_> = places.chain(numbers).map(str::to_owned).collect();
-        let every = self.envelope.len().div_ceil(MAX_PRESSURE_ROWS).max(1);
-        let last = self.envelope.len().saturating_sub(1);
-        // The line with the largest pressure is always printed.
+        let coordinates = axes.iter().map(|&axis| ["x, m", "y, m", "z, m"][axis]);
+        let values = ["static kPa", "least kPa", "largest kPa", "at s", "open s"];
+        let heading: Vec<_> = coordinates.chain(values).map(str::to_owned).collect();
+        let row_interval = self.envelope.len().div_ceil(MAX_PRESSURE_ROWS).max(1);
+        let last_index = self.envelope.len().saturating_sub(1);
+        // The element with the largest pressure always has a row.
         let pressures = self.envelope.iter().map(|envelope| envelope.pressure.highest.value);
-        let largest = pressures.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-        let largest = largest.map(|(k, _)| k);
+        let largest_pressure = pressures.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let largest_index = largest_pressure.map(|(k, _)| k);
         let mut rows = Vec::new();
         for (k, envelope) in self.envelope.iter().enumerate() {
-            if k.is_multiple_of(every) || k == last || Some(k) == largest {
+            if k.is_multiple_of(row_interval) || k == last_index || Some(k) == largest_index {
                 rows.push(pressure_row(envelope, &axes));
             }
         }
-        let repeated = heading.len() - 5;
+        let repeated = axes.len();
         Table { heading, repeated, rows }
     }
 
-    fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let steps = self.steps.max(1) as f64;
+    fn write_effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let step_count = self.steps.max(1) as f64;
         let wall = self.wall.as_secs_f64();
         let Fallbacks { gauss_seidel, path, newton, proximal } = self.fallbacks;
         write!(
             f,
             "\n\nTime taken: {wall:.2} s, {:.1} µs and {:.2} linear solves per step",
-            wall / steps * 1e6,
-            self.trials as f64 / steps,
+            wall / step_count * 1e6,
+            self.trials as f64 / step_count,
         )?;
-        // In plan nearly every step uses sweeps.
-        let shown = if self.in_plan {
+        // Gauss–Seidel is the usual method in plan, not a fallback.
+        let fallbacks = if self.in_plan {
             [(newton, "Newton's method"), (proximal, "proximal steps")]
         } else {
             [(gauss_seidel, "Gauss–Seidel"), (path, "path following")]
         };
-        let shown = shown.into_iter().filter(|(steps, _)| *steps > 0);
-        for (k, (steps, method)) in shown.enumerate() {
-            let begin = if k == 0 { "\nFallbacks of the search for contact modes:" } else { "," };
-            write!(f, "{begin} {steps} steps by {method}")?;
+        let used_fallbacks = fallbacks.into_iter().filter(|(steps, _)| *steps > 0);
+        for (k, (steps, method)) in used_fallbacks.enumerate() {
+            let separator =
+                if k == 0 { "\nFallbacks of the search for contact modes:" } else { "," };
+            write!(f, "{separator} {steps} steps by {method}")?;
         }
         Ok(())
     }
 
-    fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn write_energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.energy_balance.is_omitted() {
             return write!(f, "\n{}", self.energy_balance);
         }
-        let input = 1e-3 * self.energy_balance.input;
+        let input_kj = 1e-3 * self.energy_balance.input;
         let unit = of_body("kJ/m", self.in_plan);
         let fractions = self.energy_balance.fractions();
         let ending = if fractions.is_some() { ", of which" } else { "" };
-        writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;
+        writeln!(f, "\nEnergy: input {input_kj:.4} {unit}{ending}")?;
         for (name, fraction) in fractions.into_iter().flatten() {
-            // Omits terms that would print as zero.
-            if fraction.abs() >= 5e-5 {
+            if fraction.abs() >= MIN_PRINTED_FRACTION {
                 writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * fraction)?;
             }
         }
@@ -298,14 +313,14 @@ impl Run {
         )?;
         let bound = self.energy_balance.soil_error_bound;
         if bound > 0.0 {
-            let bound = number(1e-3 * bound);
-            write!(f, "\n  soil within {bound} {unit} (approximate history)")?;
+            let bound_kj = number(1e-3 * bound);
+            write!(f, "\n  soil within {bound_kj} {unit} (approximate history)")?;
         }
         Ok(())
     }
 }
 
-/// Name, unit, and extremes with their times.
+/// Row of a quantity: name, unit, and extremes with their times.
 fn peak_row(name: &str, unit: PrintedUnit<'_>, extremes: &Extremes) -> Vec<String> {
     let mut cells = vec![name.to_owned(), unit.symbol.to_owned()];
     for peak in [extremes.lowest, extremes.highest] {
@@ -315,7 +330,7 @@ fn peak_row(name: &str, unit: PrintedUnit<'_>, extremes: &Extremes) -> Vec<Strin
     cells
 }
 
-/// Place of an element along these axes, its pressures, and the time open.
+/// Row of an element: coordinates along these axes, pressures, and the time open.
 fn pressure_row(envelope: &ElementEnvelope, axes: &[usize]) -> Vec<String> {
     let center = envelope.element.center();
     let mut cells: Vec<_> = axes.iter().map(|&axis| thousandths(center[axis])).collect();
@@ -329,11 +344,11 @@ fn pressure_row(envelope: &ElementEnvelope, axes: &[usize]) -> Vec<String> {
     cells
 }
 
-/// A factor of safety.
-pub(crate) fn factor(value: f64) -> String {
+/// Text of a factor of safety.
+pub(crate) fn safety_text(value: f64) -> String {
     if value.is_nan() {
         "–".to_owned()
-    } else if value < 1e4 {
+    } else if value < UNLIMITED_SAFETY {
         format!("{value:.3}")
     } else {
         "unlimited".to_owned()

@@ -1,6 +1,6 @@
 //! The scalar quantities of a result, in one table.
 //!
-//! States, summaries, time series, files, pages, comparisons and pictures read it.
+//! States, summaries, time series, files, pages, comparisons and pictures use this table.
 
 use std::fmt;
 use std::ops::Range;
@@ -43,7 +43,7 @@ macro_rules! quantities {
         impl Quantity {
             /// All quantities, in the order of columns.
             ///
-            /// Quantities in plan only are the last: [`Quantity::recorded`] leaves them out in the plane.
+            /// Quantities in plan only are the last: [`Quantity::recorded`] omits them in the plane.
             pub const ALL_QUANTITIES: [Self; QUANTITY_WORDS.len()] = [$(Self::$variant),+];
         }
 
@@ -89,14 +89,14 @@ macro_rules! quantities {
         }
 
         impl State {
-            /// Appends the values of the whole base or of one foundation, one to each list.
+            /// Appends the values of the whole base or of one foundation, one to each of the `series`.
             ///
-            /// As many quantities as there are lists.
-            pub(crate) fn append_values(&self, foundation: Option<usize>, lists: &mut [Vec<f64>]) {
+            /// The values are the first quantities in the order of columns.
+            pub(crate) fn append_values(&self, foundation: Option<usize>, series: &mut [Vec<f64>]) {
                 let base = self.base(foundation);
-                $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
+                $(if let Some(values) = series.get_mut(Quantity::$variant as usize) {
                     const VALUE_OF_BASE: fn(&BaseView) -> f64 = $value;
-                    list.push(VALUE_OF_BASE(&base));
+                    values.push(VALUE_OF_BASE(&base));
                 })+
             }
         }
@@ -122,12 +122,11 @@ macro_rules! quantities {
                 }
             }
 
-            /// Records the first `count` values of a step.
+            /// Updates the extremes of the first `quantity_count` quantities by the values of a step.
             ///
-            /// Each value is called directly: at every step, calls through the table would cost more than the
-            /// values.
-            fn update_values(&mut self, base: &BaseView, count: usize, time: f64) {
-                $(if (Quantity::$variant as usize) < count {
+            /// The functions are called directly, because calls through the table take longer than the functions.
+            fn update_values(&mut self, base: &BaseView, quantity_count: usize, time: f64) {
+                $(if (Quantity::$variant as usize) < quantity_count {
                     const VALUE_OF_BASE: fn(&BaseView) -> f64 = $value;
                     self.$field.update(VALUE_OF_BASE(base), time);
                 })+
@@ -151,7 +150,7 @@ quantities! {
     /// right-hand rule.
     BaseMoment base_moment, "base moment", "N·m/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
         |base| base.whole_or(base.state.base_moment, |foundation| foundation.base_moment);
-    /// Pressure on the soil, summed, N/m.
+    /// Total pressure on the soil, N/m.
     NormalForce normal_force, "normal force", "N/m", Scale::Unit, [Page],
         |base| base.whole_or(base.state.normal_force, |foundation| foundation.normal_force);
     /// Length of open elements over the length of the base.
@@ -172,14 +171,14 @@ quantities! {
     /// largest.
     ///
     /// Relative to the free field's translation: the mean over a foundation's length, in plan over its area. It
-    /// contains what is elastic, what the soil keeps, and gaps; a base that rocks on hard soil rises. The settlement
-    /// under weight is not part of it. The last value is the residual settlement.
+    /// includes elastic settlement, permanent settlement and gaps; a base that rocks on hard soil rises. It does not
+    /// include the settlement under weight. The last value is the residual settlement.
     Settlement settlement, "settlement", "m", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.highest(|foundation| foundation.settlement);
     /// Work of the base moment on the soil since t = 0, ∫M dθ, J/m; summed over foundations.
     ///
     /// Moment and rotation belong to each foundation, about its middle, in plan about the axis along y. A closed loop
-    /// adds what it dissipates.
+    /// adds the energy that it dissipates.
     RockingWork rocking_work, "rocking work", "J/m", Scale::Unit, [Page, Foundations, Comparison],
         |base| base.sum(|foundation, _| foundation.rocking_work);
     /// Mean horizontal displacement of the free field under the base, m.
@@ -251,13 +250,13 @@ quantities! {
         |base| base.smallest_safety(|checks| checks.overturning[1]);
 }
 
-/// In the plane this quantity and the following ones keep their first value.
-const FIRST_QUANTITY_OF_PLAN: usize = Quantity::ShearAcross as usize;
+/// First of the quantities that are not updated in the plane.
+const FIRST_QUANTITY_IN_PLAN: usize = Quantity::ShearAcross as usize;
 
-/// Largest number of slip events of a base that memory is reserved for.
+/// Number of slip events of a base for which memory is reserved at the start of a run.
 const RESERVED_SLIP_EVENTS: usize = 1000;
 
-/// Extremes at the start of a run: the present value.
+/// Extremes at the start of a run: both are the initial value.
 fn first_extremes(base: &BaseView<'_>, value: fn(&BaseView) -> f64) -> Extremes {
     Extremes::single(value(base), base.state.time)
 }
@@ -272,7 +271,7 @@ impl Quantity {
         self.row().name
     }
 
-    /// A shorter name.
+    /// Abbreviated name, for narrow columns.
     pub(crate) fn short_name(self) -> String {
         self.name().replace("factor of safety against", "safety,")
     }
@@ -307,8 +306,8 @@ impl Quantity {
         PrintedUnit { symbol: of_body(unit.symbol, in_plan), ..unit }
     }
 
-    /// The label of the limit one, for a factor of safety.
-    pub(crate) fn limit(self) -> Option<&'static str> {
+    /// Label of the limit of one for a factor of safety; `None` for other quantities.
+    pub(crate) fn limit_label(self) -> Option<&'static str> {
         match self.row().scale {
             Scale::Safety(label) => Some(label),
             Scale::Unit | Scale::Percent => None,
@@ -337,8 +336,9 @@ impl FromStr for Quantity {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL_QUANTITIES.into_iter().find(|quantity| quantity.row().word == text);
-        found.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
+        let quantity =
+            Self::ALL_QUANTITIES.into_iter().find(|quantity| quantity.row().word == text);
+        quantity.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
     }
 }
 
@@ -354,24 +354,24 @@ impl State {
 }
 
 impl Summary {
-    /// Records a step that began at `begin`; `foundation` as at the start.
-    pub(crate) fn update(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
+    /// Records the step from `step_start` (s) to `state`; `foundation` as for [`Summary::start`].
+    pub(crate) fn update(&mut self, state: &State, step_start: f64, foundation: Option<usize>) {
         let base = state.base(foundation);
         let time = state.time;
-        let count = if state.context.elements.is_plan() {
+        let quantity_count = if state.context.elements.is_plan() {
             QUANTITY_WORDS.len()
         } else {
-            FIRST_QUANTITY_OF_PLAN
+            FIRST_QUANTITY_IN_PLAN
         };
-        self.update_values(&base, count, time);
+        self.update_values(&base, quantity_count, time);
         let slip = (Quantity::MeanSlip.row().value)(&base);
-        let across = (Quantity::MeanSlipAcross.row().value)(&base);
-        let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
-        self.uplift.update(uplifted, base.modes(), time - begin);
-        let change = [slip - self.residual_slip, across - self.residual_slip_across];
-        self.sliding.update(base.modes(), change, [begin, time]);
+        let slip_across = (Quantity::MeanSlipAcross.row().value)(&base);
+        let uplifted_fraction = (Quantity::UpliftedFraction.row().value)(&base);
+        self.uplift.update(uplifted_fraction, base.modes(), time - step_start);
+        let slip_increment = [slip - self.residual_slip, slip_across - self.residual_slip_across];
+        self.sliding.update(base.modes(), slip_increment, [step_start, time]);
         self.residual_slip = slip;
-        self.residual_slip_across = across;
+        self.residual_slip_across = slip_across;
         self.residual_settlement = (Quantity::Settlement.row().value)(&base);
         self.residual_rotation = (Quantity::BaseRotation.row().value)(&base);
         self.residual_rotation_across = (Quantity::RotationAcross.row().value)(&base);
@@ -380,7 +380,7 @@ impl Summary {
     /// The governing extreme of `quantity`: the smallest factor of safety, or the value furthest from zero.
     pub fn peak(&self, quantity: Quantity) -> Peak {
         let extremes = self.extremes(quantity);
-        if quantity.limit().is_some() { extremes.lowest } else { extremes.largest() }
+        if quantity.limit_label().is_some() { extremes.lowest } else { extremes.largest() }
     }
 }
 

@@ -2,9 +2,11 @@
 
 use super::base_view::BaseView;
 
-/// Row of the table of quantities: name of a quantity, and where it is shown in addition to its time series.
+/// Row of the table of quantities: names, unit, value, and the summaries that show the quantity.
 pub(super) struct QuantityRow {
+    /// Word in files and programs, `base_shear`.
     pub(super) word: &'static str,
+    /// Name in tables and pictures, `base shear`.
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
     pub(super) scale: Scale,
@@ -17,7 +19,7 @@ pub(super) struct QuantityRow {
 pub(super) enum Scale {
     /// Scale of the engineer's unit.
     Unit,
-    /// A ratio, in percent.
+    /// A ratio, printed in per cent.
     Percent,
     /// A factor of safety, drawn as its inverse with a limit of one; the text is the label of the limit.
     Safety(&'static str),
@@ -26,7 +28,7 @@ pub(super) enum Scale {
 /// Place where a summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ShownIn {
-    /// Only in plan.
+    /// In every summary, but only on grounds in plan.
     Plan,
     /// Extremes on the page of a run.
     Page,

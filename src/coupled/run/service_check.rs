@@ -1,4 +1,4 @@
-//! Serviceability of a run: each limit and the largest response.
+//! Serviceability of a run: each limit beside the largest response.
 
 use crate::coupled::State;
 use crate::coupled::run::peak::Peak;
@@ -16,7 +16,7 @@ pub struct ServiceCheck {
     pub criterion: Criterion,
     /// Limit, in the criterion's unit.
     pub limit: f64,
-    /// The value of the run furthest from zero, with its sign.
+    /// The response of largest magnitude in the run, with its sign.
     pub largest: Peak,
     /// End of the first step beyond the limit, s; `None` if there was none.
     pub first_excess: Option<f64>,
@@ -25,7 +25,7 @@ pub struct ServiceCheck {
 impl ServiceCheck {
     /// Checks, one per limit, at the initial state of a run.
     pub(crate) fn all(limits: &Serviceability, state: &State) -> Vec<Self> {
-        let limits = [
+        let limits_by_criterion = [
             (Criterion::Slip, limits.slip),
             (Criterion::Gap, limits.gap),
             (Criterion::UpliftedFraction, limits.uplifted_fraction),
@@ -33,7 +33,7 @@ impl ServiceCheck {
             (Criterion::Settlement, limits.settlement),
         ];
         let mut checks = Vec::new();
-        for (criterion, limit) in limits {
+        for (criterion, limit) in limits_by_criterion {
             if let Some(limit) = limit {
                 checks.push(Self::start(criterion, limit, state));
             }
@@ -50,10 +50,10 @@ impl ServiceCheck {
 
     /// Records the response of a state.
     pub(crate) fn update(&mut self, state: &State) {
-        self.add_value(self.criterion.largest_value(state), state.time);
+        self.update_value(self.criterion.largest_value(state), state.time);
     }
 
-    fn add_value(&mut self, value: f64, time: f64) {
+    fn update_value(&mut self, value: f64, time: f64) {
         self.largest.update(value, time);
         if self.first_excess.is_none() && value.abs() > self.limit {
             self.first_excess = Some(time);
@@ -76,7 +76,7 @@ impl fmt::Display for ServiceCheck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PrintedUnit { factor, symbol } = match self.criterion {
             Criterion::UpliftedFraction => PrintedUnit { factor: 100.0, symbol: "%" },
-            other => printed(other.unit()),
+            criterion => printed(criterion.unit()),
         };
         write!(
             f,
@@ -107,7 +107,7 @@ mod tests {
             ServiceCheck { criterion: Criterion::Slip, limit: 2.0, largest, first_excess: None };
         for (k, value) in [0.5, -2.0, -3.0, 2.5, -5.0, 1.0].into_iter().enumerate() {
             assert_eq!(check.is_met(), k <= 2, "{k}");
-            check.add_value(value, k as f64);
+            check.update_value(value, k as f64);
         }
         assert_eq!(check.first_excess, Some(2.0));
         assert_eq!(check.largest, Peak { value: -5.0, time: 4.0 });

@@ -11,9 +11,9 @@ use crate::interface::Mode;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SlipEvent {
-    /// Beginning of its first step, s.
+    /// Beginning of the event's first step, s.
     pub start: f64,
-    /// End of its last step, s.
+    /// End of the event's last step, s.
     pub end: f64,
     /// Change of the mean slip, m; positive to the right.
     pub slip: f64,
@@ -23,8 +23,8 @@ pub struct SlipEvent {
 }
 
 impl SlipEvent {
-    /// Distance that the base slipped, m.
-    pub(crate) fn size(&self) -> f64 {
+    /// Magnitude of the slip, m.
+    pub(crate) fn distance(&self) -> f64 {
         resultant(self.slip, self.slip_across).abs()
     }
 }
@@ -44,23 +44,25 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Sliding before the first step, with memory for `events` events.
-    pub(crate) fn with_capacity(events: usize) -> Self {
-        Self { events: Vec::with_capacity(events), ..Self::default() }
+    /// Sliding before the first step, with memory for `event_count` events.
+    pub(crate) fn with_capacity(event_count: usize) -> Self {
+        Self { events: Vec::with_capacity(event_count), ..Self::default() }
     }
 
-    /// Records a step between two `times`.
+    /// Records a step from the first to the second of `times`, s.
     ///
-    /// `modes`: of the base's elements at its end. `slip`: change of the mean slip, along x and y.
+    /// `modes`: of the base's elements at the end of the step. `slip`: change of the mean slip along x and y, m.
     pub(crate) fn update(&mut self, modes: &[Mode], slip: [f64; 2], times: [f64; 2]) {
-        let slides = modes.iter().any(|mode| mode.is_slip())
+        let is_sliding = modes.iter().any(|mode| mode.is_slip())
             && modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
-        self.advance(slides, slip, times);
+        self.advance(is_sliding, slip, times);
     }
 
-    /// Records a change of the mean slip by `slip` from the first to the second of `times`.
-    fn advance(&mut self, slides: bool, [slip, slip_across]: [f64; 2], times: [f64; 2]) {
-        if slides {
+    /// Records a step, in which the whole base slides or not.
+    ///
+    /// `slip` and `times` as for [`Sliding::update`].
+    fn advance(&mut self, is_sliding: bool, [slip, slip_across]: [f64; 2], times: [f64; 2]) {
+        if is_sliding {
             self.path += resultant(slip, slip_across).abs();
             self.duration += times[1] - times[0];
             match self.events.last_mut() {
@@ -82,17 +84,17 @@ impl Sliding {
                 }
             }
         }
-        self.in_event = slides;
+        self.in_event = is_sliding;
     }
 
     /// Duration of the longest event, s.
-    pub(crate) fn longest(&self) -> f64 {
+    pub(crate) fn longest_duration(&self) -> f64 {
         self.events.iter().map(|event| event.end - event.start).fold(0.0, f64::max)
     }
 
     /// The event with the largest |slip|.
     pub(crate) fn largest_event(&self) -> Option<SlipEvent> {
-        self.events.iter().copied().max_by(|a, b| a.size().total_cmp(&b.size()))
+        self.events.iter().copied().max_by(|a, b| a.distance().total_cmp(&b.distance()))
     }
 }
 
@@ -113,14 +115,14 @@ mod tests {
             (true, -3.0),
             (false, 0.1),
         ];
-        for (k, (slides, slip)) in steps.into_iter().enumerate() {
-            sliding.advance(slides, [slip, 0.0], [k as f64, (k + 1) as f64]);
+        for (k, (is_sliding, slip)) in steps.into_iter().enumerate() {
+            sliding.advance(is_sliding, [slip, 0.0], [k as f64, (k + 1) as f64]);
         }
-        let by_hand = [(1.0, 3.0, 3.0), (3.0, 5.0, -5.0), (6.0, 7.0, -3.0)]
+        let expected_events = [(1.0, 3.0, 3.0), (3.0, 5.0, -5.0), (6.0, 7.0, -3.0)]
             .map(|(start, end, slip)| SlipEvent { start, end, slip, slip_across: 0.0 });
-        assert_eq!(sliding.events, by_hand);
+        assert_eq!(sliding.events, expected_events);
         assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
-        assert_eq!(sliding.largest_event(), Some(by_hand[1]));
+        assert_eq!(sliding.largest_event(), Some(expected_events[1]));
         assert_eq!(Sliding::default().largest_event(), None);
         // In plan: 3 to the right and 4 away, then back at an angle of more than 90°.
         let mut sliding = Sliding::default();

@@ -1,4 +1,4 @@
-//! Warnings of numbers that are probably mistakes: other units, weights and steps that do not fit.
+//! Warnings of numbers that are probably mistakes, such as values in other units.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use crate::coupled::run::GroundMotion;
 use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::variation::Variation;
 use crate::coupled::run::warning::Warning;
-use crate::coupled::run::warning_text::within;
+use crate::coupled::run::warning_text::is_within;
 use crate::coupled::scene::Scene;
 use crate::coupled::statics::strength::{bond_at_rest, friction_at_rest};
 use crate::interface::LawForm;
@@ -17,7 +17,7 @@ use crate::soil::Soil;
 use crate::structure::{Structure, StructureDescription};
 
 /// Speeds of shear waves in soils, m/s, from mud to rock.
-const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
+const SOIL_WAVE_SPEEDS: [f64; 2] = [10.0, 5000.0];
 /// Densities of soils, kg/m³.
 const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
 /// Densities of materials of solids and shells, kg/m³: above insulation, and up to the heaviest metal.
@@ -41,22 +41,24 @@ const MAX_END_VELOCITY_RATIO: f64 = 0.3;
 /// Weight over the area of a base below which masses are probably in another unit, Pa: the weight of a timber
 /// floor.
 const MIN_BASE_PRESSURE: f64 = 2e3;
-/// Weight over the area of a base above which no soil carries it, relative to the soil's shear modulus.
+/// Largest weight over the area of a base that a soil can resist, relative to the soil's shear modulus.
 ///
 /// Clay fails at 5.14 times its undrained strength (Prandtl 1921), and its shear modulus at small strains is at least
-/// a hundred times that strength: failure at 0.05 or less. This is half of it.
+/// a hundred times that strength: failure at 0.05 or less. The limit is half of that.
 const MAX_PRESSURE_RATIO: f64 = 0.025;
-/// Smallest ratio of the masses that move up and to the side: floors are missing in the smaller one.
+/// Smallest plausible ratio of vertical and horizontal mass; below it the smaller mass lacks floors.
 const MIN_MASS_RATIO: f64 = 0.9;
-/// Strengths of a bond (Pa) that are probably in kPa, and the largest one relative to the pressure under the weight.
+/// Strengths of a bond (Pa) that are probably in kPa.
 const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
+/// Largest strength of a bond that is probably in kPa, relative to the pressure under the weight.
 const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
 const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
 /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
 const GRAVITY_RANGE: [f64; 2] = [1.5, 30.0];
-/// Time steps per mean period of a record that a warning recommends, and per period of a structure.
+/// Recommended number of time steps per mean period of a record.
 const STEPS_PER_RECORD_PERIOD: f64 = 15.0;
+/// Recommended number of time steps per period of a structure.
 const STEPS_PER_STRUCTURE_PERIOD: f64 = 30.0;
 
 /// Weight of a structure on its base.
@@ -65,7 +67,7 @@ pub(crate) struct Weight {
     gravity: f64,
     /// Weight over the area of the contact elements, Pa.
     pressure: f64,
-    /// Masses that move to the right, up and, in plan, away, kg.
+    /// Masses of motions along x, up and, in plan, along y, kg; in the plane kg/m.
     masses: Vec<f64>,
 }
 
@@ -73,7 +75,7 @@ impl Weight {
     pub(crate) fn new(gravity: f64, assembled: &Assembled) -> Self {
         let translations = assembled.influence.whole_vectors(assembled.dofs());
         let masses: Vec<f64> =
-            translations.iter().map(|moved| assembled.mass.form(moved, moved)).collect();
+            translations.iter().map(|motion| assembled.mass.form(motion, motion)).collect();
         let pressure =
             gravity * masses[UPWARD_DIRECTION] / assembled.base.areas().iter().sum::<f64>();
         Self { gravity, pressure, masses }
@@ -89,16 +91,16 @@ fn mean_period(record: &Record) -> f64 {
     TAU * record.time_step() / (2.0 * variation.ratio().atan())
 }
 
-/// Velocity at the end of a record (m/s) if the record drifts.
-fn drift(record: &Record) -> Option<f64> {
+/// Velocity at the end of a record, m/s; `None` unless the record drifts.
+fn drift_velocity(record: &Record) -> Option<f64> {
     let velocities = record.velocities();
-    let largest = velocities.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
-    let last = velocities.last().copied()?;
-    (last.abs() > MAX_END_VELOCITY_RATIO * largest).then_some(last)
+    let max_velocity = velocities.iter().fold(0.0, |max: f64, velocity| max.max(velocity.abs()));
+    let end_velocity = velocities.last().copied()?;
+    (end_velocity.abs() > MAX_END_VELOCITY_RATIO * max_velocity).then_some(end_velocity)
 }
 
 impl Warning {
-    /// Adds warnings of numbers and of a structure that are probably mistakes, to the `warnings` of its scene.
+    /// Adds warnings of probable mistakes to the `warnings` of a scene.
     ///
     /// `soils`: of the ground, from the surface down.
     pub(crate) fn add_mistakes(
@@ -131,9 +133,10 @@ impl Warning {
         let mut warnings = Vec::new();
         let form = LawForm::of(scene.layout());
         let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
-        let unlikely = frictions.filter(|friction| within(UNLIKELY_FRICTION, *friction));
+        let unlikely_frictions =
+            frictions.filter(|friction| is_within(UNLIKELY_FRICTION, *friction));
         warnings.extend(
-            unlikely
+            unlikely_frictions
                 .reduce(f64::max)
                 .map(|friction| Self::Mistake(Mistake::UnusualFriction { friction })),
         );
@@ -141,29 +144,33 @@ impl Warning {
             return warnings;
         }
         let &Weight { gravity, pressure, .. } = weight;
-        if gravity > 0.0 && !within(GRAVITY_RANGE, gravity) {
+        if gravity > 0.0 && !is_within(GRAVITY_RANGE, gravity) {
             warnings.push(Self::Mistake(Mistake::UnusualGravity { gravity }));
         }
         if gravity > 0.0 && pressure < MIN_BASE_PRESSURE {
             warnings.push(Self::Mistake(Mistake::LightStructure { pressure }));
         }
         let bonds = scene.laws.iter().filter_map(|law| bond_at_rest(law.as_ref(), pressure));
-        let weak = bonds.filter(|strength| {
-            within(WEAK_BONDS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
+        let weak_bonds = bonds.filter(|strength| {
+            is_within(WEAK_BONDS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
         });
         warnings.extend(
-            weak.reduce(f64::min)
+            weak_bonds
+                .reduce(f64::min)
                 .map(|strength| Self::Mistake(Mistake::WeakBond { strength, pressure })),
         );
         let densities = description.densities.into_iter().flatten();
-        let unusual = densities.filter(|density| !within(MATERIAL_DENSITIES, *density));
+        let unusual_densities =
+            densities.filter(|density| !is_within(MATERIAL_DENSITIES, *density));
         warnings.extend(
-            unusual.map(|density| Self::Mistake(Mistake::UnusualDensity { density })).take(1),
+            unusual_densities
+                .map(|density| Self::Mistake(Mistake::UnusualDensity { density }))
+                .take(1),
         );
         warnings
     }
 
-    /// Warnings of a weight that its soil cannot carry, and of masses that differ with their direction.
+    /// Warnings of a weight beyond the soil's resistance, and of masses that differ between directions.
     fn of_weight(weight: &Weight, soils: &[Soil], has_walls: bool) -> Vec<Self> {
         let &Weight { gravity, pressure, ref masses } = weight;
         let mut warnings = Vec::new();
@@ -173,25 +180,26 @@ impl Warning {
         let moduli = soils.iter().map(Soil::shear_modulus);
         // A base below the surface may stand on any of the soils.
         let modulus = if has_walls { moduli.reduce(f64::max) } else { moduli.take(1).next() };
-        let soft = modulus.filter(|modulus| pressure > MAX_PRESSURE_RATIO * modulus);
-        warnings.extend(soft.map(|shear_modulus| {
+        let soft_modulus = modulus.filter(|modulus| pressure > MAX_PRESSURE_RATIO * modulus);
+        warnings.extend(soft_modulus.map(|shear_modulus| {
             Self::Mistake(Mistake::HeavyStructure { pressure, shear_modulus })
         }));
         let vertical = masses[UPWARD_DIRECTION];
-        let sideways =
+        let horizontal_masses =
             masses.iter().enumerate().filter(|(direction, _)| *direction != UPWARD_DIRECTION);
-        let other = sideways.map(|(_, mass)| *mass).find(|horizontal| {
+        let unequal_mass = horizontal_masses.map(|(_, mass)| *mass).find(|horizontal| {
             *horizontal > 0.0
                 && vertical > 0.0
                 && (vertical / horizontal).min(horizontal / vertical) < MIN_MASS_RATIO
         });
         warnings.extend(
-            other.map(|horizontal| Self::Mistake(Mistake::UnequalMasses { vertical, horizontal })),
+            unequal_mass
+                .map(|horizontal| Self::Mistake(Mistake::UnequalMasses { vertical, horizontal })),
         );
         warnings
     }
 
-    /// Warning of a time step that does not see the strongest record of a motion.
+    /// Warning of a time step that does not resolve the record with the shortest mean period.
     ///
     /// `time_step`: of the simulation, s; `structure_period`: of the structure on a fixed base, s.
     pub(crate) fn of_time_step(
@@ -201,24 +209,25 @@ impl Warning {
     ) -> Option<Self> {
         let records = motion.records();
         let periods = records.iter().map(|record| (mean_period(record), record.time_step()));
-        let known = periods.filter(|(period, _)| period.is_finite());
-        let (period, interval) = known.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        let finite_periods = periods.filter(|(period, _)| period.is_finite());
+        let (period, interval) = finite_periods.min_by(|a, b| a.0.total_cmp(&b.0))?;
         if time_step <= 0.5 * period {
             return None;
         }
-        // A structure that is faster than the record follows the record.
-        let slow = Some(structure_period / STEPS_PER_STRUCTURE_PERIOD)
-            .filter(|_| structure_period > period);
-        let needed = slow.unwrap_or(f64::INFINITY).min(period / STEPS_PER_RECORD_PERIOD);
+        let mut needed = period / STEPS_PER_RECORD_PERIOD;
+        // A structure with a shorter period than the record follows the record.
+        if structure_period > period {
+            needed = (structure_period / STEPS_PER_STRUCTURE_PERIOD).min(needed);
+        }
         Some(Self::Mistake(Mistake::LongTimeStep { time_step, interval, period, needed }))
     }
 
-    /// Drops the warning of a long time step where the run itself shows that its steps miss the motion.
-    pub(super) fn drop_expected(warnings: &mut Vec<Self>) {
-        let is_shown = |warning: &Self| {
+    /// Removes the warning of a long time step if the run has a warning of unresolved motion.
+    pub(super) fn drop_superseded(warnings: &mut Vec<Self>) {
+        let has_unresolved_motion = warnings.iter().any(|warning| {
             matches!(warning, Self::UnresolvedMotion { .. } | Self::UnresolvedPeriod { .. })
-        };
-        if warnings.iter().any(is_shown) {
+        });
+        if has_unresolved_motion {
             warnings
                 .retain(|warning| !matches!(warning, Self::Mistake(Mistake::LongTimeStep { .. })));
         }
@@ -236,27 +245,29 @@ impl Warning {
             warnings.push(Self::Mistake(Mistake::UnusualMotion { acceleration }));
         }
         let Some(time_step) = ground_motion.time_step else { return warnings };
-        if within(WEAK_ACCELERATIONS, ground_motion.peak) {
+        if is_within(WEAK_ACCELERATIONS, ground_motion.peak) {
             warnings
                 .push(Self::Mistake(Mistake::UnusualMotion { acceleration: ground_motion.peak }));
         }
-        if !within(RECORD_INTERVALS, time_step) {
+        if !is_within(RECORD_INTERVALS, time_step) {
             warnings.push(Self::Mistake(Mistake::UnusualInterval { time_step }));
         }
-        let drifts = motion.records().into_iter().filter_map(drift);
-        let largest = drifts.max_by(|one, other| one.abs().total_cmp(&other.abs()));
-        warnings
-            .extend(largest.map(|velocity| Self::Mistake(Mistake::DriftingRecord { velocity })));
+        let drifts = motion.records().into_iter().filter_map(drift_velocity);
+        let largest_drift = drifts.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        warnings.extend(
+            largest_drift.map(|velocity| Self::Mistake(Mistake::DriftingRecord { velocity })),
+        );
         warnings
     }
 
     /// Warnings of `soils` with unusual numbers.
     pub(super) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
-        let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
-        let unusual = numbers.filter(|[speed, density]| {
-            !(within(SOIL_SPEEDS, *speed) && within(SOIL_DENSITIES, *density))
+        let speeds_and_densities =
+            soils.iter().map(|soil| (soil.shear_wave_speed(), soil.density()));
+        let unusual = speeds_and_densities.filter(|(speed, density)| {
+            !(is_within(SOIL_WAVE_SPEEDS, *speed) && is_within(SOIL_DENSITIES, *density))
         });
-        unusual.map(|[shear_wave_speed, density]| {
+        unusual.map(|(shear_wave_speed, density)| {
             Self::Mistake(Mistake::UnusualSoil { shear_wave_speed, density })
         })
     }

@@ -1,4 +1,6 @@
-//! Rate at which a series varies, and the ground's motion between steps.
+//! Ratio r of a series, which measures its frequency, and samples of the ground between steps.
+//!
+//! The module [`resolution`](super::resolution) defines r.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -7,22 +9,26 @@ use crate::bem::Ground;
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, ContactLayout};
 use crate::motion::FreeField;
 
-/// Largest r if the structure vibrates freely, with another period than the ground.
+/// Largest r if the structure vibrates freely, with a longer period than the ground.
 pub(crate) const MAX_FREE_VIBRATION_RATIO: f64 = 0.25;
-/// Squared difference of the free field between the ends of the base, relative to its square, that shows running
-/// waves.
+/// Squared difference of the free field between the ends of the base, relative to its square, above which waves run along
+/// the base.
 const RUNNING_WAVE_THRESHOLD: f64 = 0.1;
-/// Largest ratio of r at half a distance to r at the distance, where samples follow the motion: it is near a half.
-const CONSISTENT_RATIO: f64 = 0.75;
+/// Largest ratio of r after to r before the sample interval is halved, if the samples resolve the motion.
+///
+/// For resolved motions the ratio is near a half.
+const MAX_HALVING_RATIO: f64 = 0.75;
 /// Number of instants at which the ground is sampled.
 const SAMPLED_INSTANTS: usize = 256;
-/// Largest number of distances between samples, each half of the one before.
-const MAX_SAMPLE_DISTANCES: usize = 12;
+/// Largest number of sample intervals, each half of the previous one.
+const MAX_SAMPLE_INTERVALS: usize = 12;
 
-/// Sums of squares of the changes and of the sums of neighbouring samples.
+/// Sums of a series from which its ratio r follows.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Variation {
+    /// Sum of the squared differences of neighbouring samples.
     pub(crate) changes: f64,
+    /// Sum of the squared sums of neighbouring samples.
     pub(crate) sums: f64,
 }
 
@@ -33,7 +39,7 @@ impl Variation {
         self.sums += (after + before).powi(2);
     }
 
-    /// r; NaN for a series of zeros.
+    /// The ratio r; NaN for a series of zeros.
     pub(crate) fn ratio(self) -> f64 {
         (self.changes / self.sums).sqrt()
     }
@@ -48,7 +54,7 @@ pub(crate) struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    /// Instants spread over the run, whatever its steps.
+    /// Instants spread evenly over the run, independent of the time step.
     fn instants(&self) -> impl Iterator<Item = f64> {
         let start = self.times.start;
         let interval = (self.times.end - start) / SAMPLED_INSTANTS as f64;
@@ -56,54 +62,54 @@ impl Sampler<'_> {
     }
 
     /// Whether the free field differs between the first element and the last.
-    pub(crate) fn is_running(&self) -> bool {
+    pub(crate) fn has_running_waves(&self) -> bool {
         let elements = self.ground.elements();
-        let count = elements.len();
-        // Walls of a base do not count.
+        let element_count = elements.len();
+        // Motion differs between walls and floor without any waves along the base.
         let floor = ContactElement::faces(elements).floor;
         let layout = ContactLayout::for_elements(elements);
         let mut field = vec![0.0; layout.len()];
-        let mut difference = 0.0;
-        let mut sum = 0.0;
+        let mut squared_difference = 0.0;
+        let mut mean_square = 0.0;
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
-            for component in field.chunks_exact(count) {
-                let first = component[floor.start];
-                let last = component[floor.end - 1];
-                difference += (last - first).powi(2);
-                sum += 0.5 * (first * first + last * last);
+            for component in field.chunks_exact(element_count) {
+                let left_value = component[floor.start];
+                let right_value = component[floor.end - 1];
+                squared_difference += (right_value - left_value).powi(2);
+                mean_square += 0.5 * (left_value * left_value + right_value * right_value);
             }
         }
-        difference > RUNNING_WAVE_THRESHOLD * sum
+        squared_difference > RUNNING_WAVE_THRESHOLD * mean_square
     }
 
     /// Frequency of the ground's acceleration under the middle element, Hz.
     pub(crate) fn frequency(&self) -> Option<f64> {
-        let mut distance = 0.5 * self.time_step;
-        let mut ratio = self.ratio(distance);
-        for _ in 1..MAX_SAMPLE_DISTANCES {
-            let halved = self.ratio(0.5 * distance);
-            // Samples one period apart vary slowly, and those half as far apart do not.
-            if ratio <= MAX_FREE_VIBRATION_RATIO && halved <= CONSISTENT_RATIO * ratio {
-                return Some(ratio / (PI * distance));
+        let mut interval = 0.5 * self.time_step;
+        let mut ratio = self.acceleration_ratio(interval);
+        for _ in 1..MAX_SAMPLE_INTERVALS {
+            let halved_ratio = self.acceleration_ratio(0.5 * interval);
+            // Samples at intervals of one period vary slowly, but samples at half this interval do not.
+            if ratio <= MAX_FREE_VIBRATION_RATIO && halved_ratio <= MAX_HALVING_RATIO * ratio {
+                return Some(ratio / (PI * interval));
             }
-            distance *= 0.5;
-            ratio = halved;
+            interval *= 0.5;
+            ratio = halved_ratio;
         }
         None
     }
 
-    /// r of the ground's acceleration under the middle element, in samples with this distance (s).
-    fn ratio(&self, distance: f64) -> f64 {
-        let count = self.ground.elements().len();
-        let layout = ContactLayout::for_elements(self.ground.elements());
+    /// Ratio r of the ground's acceleration under the middle element, from samples at this `interval`, s.
+    fn acceleration_ratio(&self, interval: f64) -> f64 {
+        let elements = self.ground.elements();
+        let layout = ContactLayout::for_elements(elements);
         let mut field = vec![0.0; layout.len()];
         let mut variation = Variation::default();
         for time in self.instants() {
             let samples = [-1.5, -0.5, 0.5, 1.5].map(|shift| {
-                self.ground.free_field(self.motion, time + shift * distance, &mut field);
+                self.ground.free_field(self.motion, time + shift * interval, &mut field);
                 let sample: [f64; COMPONENTS_IN_SPACE] = std::array::from_fn(|k| {
-                    field.get(layout.place(k, count / 2)).copied().unwrap_or(0.0)
+                    field.get(layout.place(k, elements.len() / 2)).copied().unwrap_or(0.0)
                 });
                 sample
             });

@@ -10,10 +10,10 @@ impl State {
     ///
     /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
-        let right = self.value(Quantity::BaseShear);
-        let away = self.value(Quantity::ShearAcross);
-        let down = self.value(Quantity::NormalForce);
-        in_axes(self.is_plan(), [right, away, -down])
+        let shear_x = self.value(Quantity::BaseShear);
+        let shear_y = self.value(Quantity::ShearAcross);
+        let normal_force = self.value(Quantity::NormalForce);
+        in_axes(self.is_plan(), [shear_x, shear_y, -normal_force])
     }
 
     /// In plan: horizontal force on the soil along y, N; zero in the plane.

@@ -2,7 +2,7 @@
 
 use crate::coupled::run::Quantity;
 use crate::coupled::run::mistake::Mistake;
-use crate::coupled::run::warning_text::{across, height, with_twice_as_many};
+use crate::coupled::run::warning_text::{refinement_text, y_text, z_text};
 use crate::error::{axis_text, units_hint};
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
@@ -16,7 +16,7 @@ pub enum Warning {
     /// Base and ground elements are then no longer opposite each other.
     #[error(
         "slip of {slip:.3e} m is beyond an element, {element_length:.3e} m on average: \
-         contact is paired for small displacements"
+         contact pairs are accurate for small displacements only"
     )]
     LargeSlip {
         /// Largest slip, m.
@@ -25,14 +25,16 @@ pub enum Warning {
         element_length: f64,
     },
     /// Rotation of the base beyond 0.1 rad, in plan about any axis: small-rotation geometry is inaccurate.
-    #[error("base rotation of {rotation:.3e} rad: geometry is that of small rotations")]
+    #[error(
+        "base rotation of {rotation:.3e} rad: the geometry is accurate for small rotations only"
+    )]
     LargeRotation {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// A foundation has settled by more than a tenth of its width, which counts as bearing failure.
+    /// A foundation has settled by more than a tenth of its width: bearing failure.
     #[error(
-        "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of it \
+        "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of the width \
          the soil has failed in bearing"
     )]
     LargeSettlement {
@@ -45,14 +47,14 @@ pub enum Warning {
     },
     /// Tension under a base that cannot open, above 1 % of the largest static pressure.
     ///
-    /// In reality the base would open; this model cannot.
-    #[error("base pulled up by {tension:.2e} Pa, x = {x:.2} m{}{} at {time:.2} s: its law cannot open", across(*y), height(*z))]
+    /// A real base would open; this model cannot.
+    #[error("base pulled up by {tension:.2e} Pa, x = {x:.2} m{}{} at {time:.2} s: its law cannot open", y_text(*y), z_text(*z))]
     Tension {
         /// Largest tension of any element, Pa.
         tension: f64,
-        /// Middle of that element, m.
+        /// Coordinate x of the middle of that element, m.
         x: f64,
-        /// In plan: middle of that element along y, m.
+        /// In plan: coordinate y of the middle of that element, m.
         y: Option<f64>,
         /// With walls: height of the middle of that element, m.
         z: Option<f64>,
@@ -104,7 +106,7 @@ pub enum Warning {
     },
     /// In plan, shear waves cross the base of a vibrating body in less than four steps.
     ///
-    /// The body vibrates at its own period. Such steps damp its rocking more than radiation does.
+    /// The body vibrates at its natural period. Such steps damp its rocking more than radiation does.
     #[error(
         "steps of {time_step:.2e} s damp rocking: shear waves cross the base in {crossing:.2e} s; \
          take {needed:.1e} s"
@@ -131,10 +133,10 @@ pub enum Warning {
     },
     /// A flexible base on too few contact elements.
     ///
-    /// Between elements only the structure resists deformation of the base. It is softer there than the neglected
-    /// soil, or not stiff enough relative to it.
+    /// Between the middles of elements only the structure resists deformation of the base. The structure is too soft there,
+    /// relative to the soil that is neglected.
     #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}{}", axis_text(*axis),
-        with_twice_as_many(*difference), units_hint(*elements, *needed))]
+        refinement_text(*difference), units_hint(*elements, *needed))]
     CoarseBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,
@@ -142,7 +144,7 @@ pub enum Warning {
         elements: usize,
         /// Approximate number needed.
         needed: usize,
-        /// Relative change of its static shape with twice the elements, if known.
+        /// Relative change of the static shape with twice the elements; `None` if it was not computed.
         difference: Option<f64>,
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         axis: Option<char>,
@@ -150,7 +152,7 @@ pub enum Warning {
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.
-    #[error("foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: nothing carries it there",
+    #[error("foundation {foundation} reaches {reach:.2} m{} beyond the ground's elements: no ground supports it there",
         axis_text(*axis))]
     UncoveredBase {
         /// Number of the foundation, from the left, from 0.
@@ -166,9 +168,9 @@ pub enum Warning {
     /// same as with a full check.
     #[error("passivity of the ground checked on {checked} of {cells} cells")]
     SampledPassivity {
-        /// Cells that were checked together.
+        /// Number of cells that were checked together.
         checked: usize,
-        /// All cells.
+        /// Number of all cells.
         cells: usize,
     },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
@@ -176,7 +178,7 @@ pub enum Warning {
     /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
     /// simulation was built, the static state as one.
     #[error(
-        "steps with friction {friction:.0} in place of more: {steps}; shear is too small there"
+        "steps with friction {friction:.0} instead of the law's larger one: {steps}; shear is too small there"
     )]
     LessFriction {
         /// Number of such steps.
@@ -186,7 +188,7 @@ pub enum Warning {
     },
     /// A base in plan may slide with friction of 3 or more.
     ///
-    /// Some steps then have several solutions, and the mirror image of a scene may use others. In one scene of a
+    /// Some steps then have several solutions, and the mirror image of a scene may follow another one. In one scene of a
     /// hundred this changes peaks by tens of per cent.
     #[error(
         "friction of {friction} in plan: steps may have several solutions; run a mirror image too"
@@ -197,10 +199,10 @@ pub enum Warning {
         friction: f64,
     },
     /// The motion has a component along y, which a ground in the plane ignores.
-    #[error("motion along y: a ground in the plane leaves it out")]
+    #[error("motion along y: a ground in the plane ignores it")]
     MotionAcross,
-    /// The run ended before the larger part of its record: more than a third of the Arias intensity was left.
-    #[error("run ends at {end:.2} s, its record at {duration:.2} s: {:.0} % of the record's intensity until then",
+    /// The run ended before two thirds of its record's Arias intensity had passed.
+    #[error("run ends at {end:.2} s, its record at {duration:.2} s: {:.0} % of the record's intensity has passed",
         100.0 * passed)]
     EndsEarly {
         /// Time at the end of the run, s.
@@ -254,10 +256,11 @@ pub enum Warning {
         /// Length that resolves the wave, m.
         needed: f64,
     },
-    /// A wall presses on the soil with more than even strong soil bears, in more than a tenth of its thrust.
+    /// More than a tenth of a wall's thrust exceeds the passive pressure of strong soil.
     ///
-    /// The soil would yield there. It is held against a friction angle of 45° without cohesion, with the largest pressure
-    /// of each element under a law without a largest pressure. Element pressures near the surface grow with the mesh.
+    /// Real soil would yield there. The passive pressure is that of a friction angle of 45° without cohesion. It is compared
+    /// with the largest pressure of each element whose law has no largest pressure. Element pressures near the surface grow
+    /// as the mesh is refined.
     #[error(
         "wall presses with {pressure:.2e} Pa on soil under {above:.2e} Pa, x = {x:.2} m, z = {z:.2} m, at {time:.2} s: \
          soil of 45° yields; give the walls passive pressures (`TrenchGround::interfaces`)"
@@ -267,7 +270,7 @@ pub enum Warning {
         pressure: f64,
         /// Pressure of the soil above the middle of that element, Pa.
         above: f64,
-        /// Middle of that element, m.
+        /// Coordinate x of the middle of that element, m.
         x: f64,
         /// Height of the middle of that element, m.
         z: f64,

@@ -11,7 +11,7 @@ use crate::interface::{InterfaceLaw, LawForm, Mode};
 use crate::motion::FreeField;
 
 impl Warning {
-    /// Rotation above which a run warns, rad: the cosine differs from one by half a percent.
+    /// Rotation above which a run warns, rad: its cosine is 0.995.
     const ROTATION_LIMIT: f64 = 0.1;
     /// Settlement over the width of a foundation above which a run warns: usual criterion of bearing failure in
     /// load tests.
@@ -30,20 +30,22 @@ impl Warning {
     const MIN_PASSED_INTENSITY: f64 = 2.0 / 3.0;
     /// Reduction of a slip event by damping above which a run warns.
     const SLIP_LOSS_LIMIT: f64 = 0.1;
-    /// Ground acceleration of a run, over its records' peak, above which the run counts as shaken.
-    const SHAKEN_FRACTION: f64 = 0.01;
-    /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that count as
-    /// rounding.
+    /// Ratio of damping force to friction below which the loss of slip follows from the first term of its series.
+    const SERIES_LIMIT: f64 = 1e-3;
+    /// Ground acceleration of a run, over its records' peak, above which the ground has moved in the run.
+    const MIN_SHAKING_FRACTION: f64 = 0.01;
+    /// Response that is due to rounding: slip in m, rotation in rad, and shear or moment (with a lever of 1 m) relative to
+    /// the normal force.
     const RESPONSE_ROUNDING: f64 = 1e-9;
-    /// Relative growth of a response in the last step up to which the response counts as constant.
+    /// Relative growth of a response in the last step, up to which the response is regarded as constant.
     const CONSTANT_RESPONSE_GROWTH: f64 = 1e-4;
-    /// Smallest number of steps after which a peak in the last step counts.
-    const MIN_JUDGED_STEPS: usize = 8;
-    /// Responses that should not be largest at the end of a run.
-    pub(crate) const JUDGED_RESPONSES: [Quantity; 4] =
+    /// Smallest number of steps of a run whose peaks are checked.
+    const MIN_CHECKED_STEPS: usize = 8;
+    /// Responses for which a run warns of a largest value in its last step.
+    pub(crate) const RESPONSES_CHECKED_AT_END: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
-    /// Smallest friction at which mirror images of scenes in plan were found to differ.
+    /// Smallest friction for which mirror images of scenes in plan have differed.
     const HIGH_FRICTION: f64 = 3.0;
 
     /// Warnings of a scene before its first step.
@@ -57,7 +59,7 @@ impl Warning {
     ) -> Vec<Self> {
         let &GroundDescription { ref soils, sampled_cells, .. } = description;
         let mut warnings: Vec<_> = Self::of_soils(soils).collect();
-        // A model not to scale has its own warning.
+        // A model not to scale already has the warning of its soil.
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
             warnings.push(Self::Mistake(Mistake::LongPeriod { period }));
         }
@@ -66,12 +68,12 @@ impl Warning {
         }
         warnings.extend(Self::of_time_step(scene.time_step, motion, period));
         if scene.layout().is_plan() {
-            warnings.extend(Self::of_friction(scene));
+            warnings.extend(Self::of_high_friction(scene));
         } else if motion.moves_across() {
             warnings.push(Self::MotionAcross);
         }
         if let Some(substituted) = scene.static_state.substituted_friction {
-            Self::count_friction(&mut warnings, substituted);
+            Self::count_substituted_friction(&mut warnings, substituted);
         }
         if let Some([checked, cells]) = sampled_cells {
             warnings.push(Self::SampledPassivity { checked, cells });
@@ -98,16 +100,17 @@ impl Warning {
         {
             warnings.push(Self::EndsEarly { end, duration, passed });
         }
-        let is_shaken = acceleration > Self::SHAKEN_FRACTION * motion.peak;
-        if !is_shaken || run.steps < Self::MIN_JUDGED_STEPS {
+        let is_shaken = acceleration > Self::MIN_SHAKING_FRACTION * motion.peak;
+        if !is_shaken || run.steps < Self::MIN_CHECKED_STEPS {
             return warnings;
         }
-        for (number, quantity) in Self::JUDGED_RESPONSES.into_iter().enumerate() {
+        for (response_index, quantity) in Self::RESPONSES_CHECKED_AT_END.into_iter().enumerate() {
             let peak = run.whole.peak(quantity);
             let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
             let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
             let is_response = peak.magnitude() > Self::RESPONSE_ROUNDING * scale;
-            let is_growing = run.last_growth(number) > Self::CONSTANT_RESPONSE_GROWTH;
+            let is_growing =
+                run.growth_in_last_step(response_index) > Self::CONSTANT_RESPONSE_GROWTH;
             if peak.time == end && is_response && is_growing {
                 warnings.push(Self::PeakAtEnd { quantity, end });
                 break;
@@ -116,14 +119,19 @@ impl Warning {
         warnings
     }
 
-    /// Warning of damping that slows a sliding base; `rate`: 1/s, `longest`: duration of the longest slip event,
-    /// s.
-    pub(crate) fn of_drag(rate: f64, longest: f64) -> Option<Self> {
-        // Sliding to rest against friction takes ln(1 + x)/rate, with x the damping force over friction at the
+    /// Warning of damping that slows a sliding base.
+    ///
+    /// `rate`: damping of a rigid translation over its mass, 1/s. `slip_duration`: of the longest slip event, s.
+    pub(crate) fn of_translation_damping(rate: f64, slip_duration: f64) -> Option<Self> {
+        // Sliding to rest against friction lasts ln(1 + x)/rate, with x the damping force over friction at the
         // start. It covers 2 (1 − ln(1 + x)/x)/x of the distance without damping.
-        let x = (rate * longest).exp_m1();
-        // The formula cancels where x is small; its series starts with 2x/3.
-        let loss = if x < 1e-3 { 2.0 / 3.0 * x } else { 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x };
+        let x = (rate * slip_duration).exp_m1();
+        // Digits of the formula cancel if x is small; the first term of its series is 2x/3.
+        let loss = if x < Self::SERIES_LIMIT {
+            2.0 / 3.0 * x
+        } else {
+            1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x
+        };
         (loss > Self::SLIP_LOSS_LIMIT).then_some(Self::DampedSliding { rate, loss })
     }
 
@@ -133,12 +141,12 @@ impl Warning {
     }
 
     /// Warning of faces at the height of the base that do not touch the ground: their number, and the first one (m).
-    pub(crate) fn of_faces_off_ground(found: Option<(usize, [f64; 2])>) -> Option<Self> {
-        found.map(|(faces, [x, y])| Self::Mistake(Mistake::FacesOffGround { faces, x, y }))
+    pub(crate) fn of_faces_off_ground(faces: Option<(usize, [f64; 2])>) -> Option<Self> {
+        faces.map(|(faces, [x, y])| Self::Mistake(Mistake::FacesOffGround { faces, x, y }))
     }
 
     /// Warning of friction for which steps in plan may have several solutions.
-    fn of_friction(scene: &Scene) -> Option<Self> {
+    fn of_high_friction(scene: &Scene) -> Option<Self> {
         let mut friction: f64 = 0.0;
         for law in &scene.laws {
             if law.modes().iter().any(|mode| *mode != Mode::Stick) {
@@ -149,7 +157,7 @@ impl Warning {
     }
 
     /// Counts a step that was solved with `substituted` friction instead of a larger one.
-    pub(crate) fn count_friction(warnings: &mut Vec<Self>, substituted: f64) {
+    pub(crate) fn count_substituted_friction(warnings: &mut Vec<Self>, substituted: f64) {
         for warning in &mut *warnings {
             if let Self::LessFriction { steps, friction } = warning {
                 *steps += 1;
@@ -160,7 +168,7 @@ impl Warning {
         warnings.push(Self::LessFriction { steps: 1, friction: substituted });
     }
 
-    /// Warning of foundation number `foundation`, of this `width`, if its `settlement` exceeds the limit.
+    /// Warning of a `foundation` (by its index) of this `width` (m) if its `settlement` (m) exceeds the limit.
     pub(crate) fn of_settlement(foundation: usize, settlement: f64, width: f64) -> Option<Self> {
         let is_large = settlement > Self::SETTLEMENT_LIMIT * width;
         is_large.then_some(Self::LargeSettlement { foundation, settlement, width })
@@ -168,8 +176,8 @@ impl Warning {
 
     /// Warnings of a run's largest slip, largest rotation, last energy balance and smallest algorithmic energy.
     ///
-    /// `element_length`: mean length of the elements.
-    pub(crate) fn all(
+    /// `element_length`: mean length of the elements, m.
+    pub(crate) fn of_results(
         slip: f64,
         element_length: f64,
         rotation: f64,
@@ -191,9 +199,9 @@ impl Warning {
         {
             warnings.push(Self::EnergyBalance { residual });
         }
-        let made = -smallest_algorithmic_energy / energy_balance.scale();
-        if made > Self::ALGORITHMIC_LIMIT {
-            warnings.push(Self::AlgorithmicEnergy { made });
+        let created_fraction = -smallest_algorithmic_energy / energy_balance.scale();
+        if created_fraction > Self::ALGORITHMIC_LIMIT {
+            warnings.push(Self::AlgorithmicEnergy { made: created_fraction });
         }
         warnings
     }

@@ -1,46 +1,55 @@
-//! Parts of the texts of warnings: units, places, changes.
+//! Parts of the texts of warnings: coordinates, numbers of points, likely units.
 
 use crate::motion::STANDARD_GRAVITY;
 
-/// Place along y of an element in plan, after its x.
-pub(crate) fn across(y: Option<f64>) -> String {
+/// Ground acceleration above which the number is probably in cm/s²: six times gravity in m/s².
+const MIN_ACCELERATION_IN_CM: f64 = 60.0;
+/// Ground acceleration below which an unusual number is probably in g.
+const MAX_ACCELERATION_IN_G: f64 = 1.0;
+/// Densities of usual soils, kg/m³.
+const USUAL_SOIL_DENSITIES: [f64; 2] = [1200.0, 3500.0];
+/// Speeds of shear waves in usual soils, m/s.
+const USUAL_SOIL_SPEEDS: [f64; 2] = [50.0, 3000.0];
+
+/// Text of the coordinate y after x; empty in the plane.
+pub(crate) fn y_text(y: Option<f64>) -> String {
     y.map_or(String::new(), |y| format!(", y = {y:.2} m"))
 }
 
-/// Height of a place, where there are walls.
-pub(crate) fn height(z: Option<f64>) -> String {
+/// Text of the height z after x; empty without walls.
+pub(crate) fn z_text(z: Option<f64>) -> String {
     z.map_or(String::new(), |z| format!(", z = {z:.2} m"))
 }
 
-/// A number of points.
-pub(crate) fn places(count: usize) -> String {
+/// Text of a number of points.
+pub(crate) fn point_count_text(count: usize) -> String {
     if count == 1 { "1 point".into() } else { format!("{count} points") }
 }
 
-/// Change of the static shape with twice the elements, where it is known.
-pub(crate) fn with_twice_as_many(difference: Option<f64>) -> String {
+/// Text of the change of the static shape if the elements are halved; empty without one.
+pub(crate) fn refinement_text(difference: Option<f64>) -> String {
     match difference {
         Some(change) => format!(" (twice as many: {:.1} % of its static shape)", 100.0 * change),
         None => String::new(),
     }
 }
 
-/// Unit in which a ground acceleration would be usual.
-pub(crate) fn unit_of_motion(acceleration: f64) -> &'static str {
+/// Unit in which the value of a ground acceleration would be usual.
+pub(crate) fn likely_motion_unit(acceleration: f64) -> &'static str {
     match acceleration {
-        strong if strong > 60.0 => "cm/s²",
-        weak if weak < 1.0 => "g",
+        strong if strong > MIN_ACCELERATION_IN_CM => "cm/s²",
+        weak if weak < MAX_ACCELERATION_IN_G => "g",
         _ => "another unit, or scaled twice",
     }
 }
 
 /// Whether `value` lies between two bounds.
-pub(crate) fn within([low, high]: [f64; 2], value: f64) -> bool {
+pub(crate) fn is_within([low, high]: [f64; 2], value: f64) -> bool {
     (low..=high).contains(&value)
 }
 
 /// Units in which the numbers of a soil would be usual.
-pub(crate) fn likely_slip(speed: f64, density: f64) -> String {
+pub(crate) fn likely_soil_units(speed: f64, density: f64) -> String {
     let densities = [
         (1.0, ""),
         (1000.0 / STANDARD_GRAVITY, "density in kN/m³"),
@@ -49,12 +58,15 @@ pub(crate) fn likely_slip(speed: f64, density: f64) -> String {
     ];
     let moduli =
         [(1.0, ""), (1e3, "modulus in kPa"), (1e6, "modulus in MPa"), (1e9, "modulus in GPa")];
-    for (by_density, first) in densities {
-        for (by_modulus, second) in moduli {
-            let speed = speed * (by_modulus / by_density).sqrt();
-            if within([1200.0, 3500.0], density * by_density) && within([50.0, 3000.0], speed) {
-                let words = [first, second].into_iter().filter(|word| !word.is_empty());
-                return format!("{}?", words.collect::<Vec<_>>().join(", "));
+    for (density_factor, density_unit) in densities {
+        for (modulus_factor, modulus_unit) in moduli {
+            let converted_speed = speed * (modulus_factor / density_factor).sqrt();
+            if is_within(USUAL_SOIL_DENSITIES, density * density_factor)
+                && is_within(USUAL_SOIL_SPEEDS, converted_speed)
+            {
+                let units =
+                    [density_unit, modulus_unit].into_iter().filter(|unit| !unit.is_empty());
+                return format!("{}?", units.collect::<Vec<_>>().join(", "));
             }
         }
     }

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use crate::geometry::resultant;
-use crate::geometry::{COMPONENTS_IN_SPACE, Edge, Footing, Patch};
+use crate::geometry::{COMPONENTS_IN_SPACE, Footing, Patch};
 use crate::interface::{ContactState, Mode};
 
 /// Forces of one foundation on the soil, and motion of its base.
@@ -39,9 +39,9 @@ pub struct Foundation {
     pub base_rotation: f64,
     /// Settlement of its centre since the static state, positive downwards, m.
     ///
-    /// Relative to the free field's translation: the mean over its length, in plan over its area. It contains what is
-    /// elastic, what the soil keeps, and gaps, so a base that rocks on hard soil rises: the value is then negative. The
-    /// settlement under weight is not part of it.
+    /// Relative to the free field's translation: the mean over its length, in plan over its area. It includes
+    /// elastic settlement, permanent settlement and gaps, so a base that rocks on hard soil rises: the value is then
+    /// negative. It does not include the settlement under weight.
     #[cfg_attr(feature = "serde", serde(default))]
     pub settlement: f64,
     /// Work of its moment on the soil since t = 0, ∫M dθ, J/m.
@@ -89,12 +89,15 @@ pub(crate) struct FoundationChecks {
     pub(crate) overturning: [f64; 2],
 }
 
-/// Sums over the elements of a foundation, for sums over the whole base.
+/// Integrals over the elements of a foundation, which are added over the whole base.
 #[derive(Default)]
-pub(crate) struct Sums {
+pub(crate) struct ContactSums {
     pub(crate) area: f64,
-    pub(crate) open: f64,
+    /// Area of open elements.
+    pub(crate) open_area: f64,
+    /// Integral of the slip along x.
     pub(crate) slip: f64,
+    /// Integral of the slip along y.
     slip_across: f64,
 }
 
@@ -146,35 +149,35 @@ impl Foundation {
         friction: &[f64],
         contact: &[ContactState],
         modes: &[Mode],
-    ) -> (Sums, FoundationChecks) {
+    ) -> (ContactSums, FoundationChecks) {
         let elements = self.elements.clone();
         let friction = if friction.len() > 1 { &friction[elements.clone()] } else { friction };
-        let mut sums = Sums::default();
+        let mut sums = ContactSums::default();
         let mut resistance = 0.0;
         let mut largest_slip = 0.0_f64;
-        let mut normal = 0.0;
+        let mut normal_force = 0.0;
         let mut shear = 0.0;
-        let mut across = 0.0;
+        let mut shear_across = 0.0;
         let mut torque = 0.0;
         let mut moment = [0.0; 2];
         for (k, (e, &[x, y, z])) in elements.zip(&footing.arms).enumerate() {
             let element = &patch[e];
             let area = patch.areas()[e];
             let state = &contact[e];
-            let pressing = area * state.pressure;
+            let element_force = area * state.pressure;
             let coefficient = friction.get(k).or(friction.first()).copied().unwrap_or(f64::NAN);
-            // Infinity times zero counts as no resistance.
-            if pressing != 0.0 && !(coefficient == f64::INFINITY && pressing < 0.0) {
-                resistance += coefficient * pressing;
+            // An element without pressure has no resistance, also under infinite friction.
+            if element_force != 0.0 && !(coefficient == f64::INFINITY && element_force < 0.0) {
+                resistance += coefficient * element_force;
             }
-            let [right, away, up] = element.vector(state.traction());
-            let force = area * -up;
-            normal += force;
-            shear += area * right;
-            across += area * away;
-            torque += area * (x * away - y * right);
-            moment[0] += force * x + area * right * z;
-            moment[1] += force * y + area * away * z;
+            let [traction_x, traction_y, traction_z] = element.vector(state.traction());
+            let vertical_force = area * -traction_z;
+            normal_force += vertical_force;
+            shear += area * traction_x;
+            shear_across += area * traction_y;
+            torque += area * (x * traction_y - y * traction_x);
+            moment[0] += vertical_force * x + area * traction_x * z;
+            moment[1] += vertical_force * y + area * traction_y * z;
             largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
             if !element.faces_down() {
                 continue;
@@ -184,30 +187,33 @@ impl Foundation {
             sums.slip += area * slip[0];
             sums.slip_across += area * slip[1];
             if !modes[e].is_closed() {
-                sums.open += area;
+                sums.open_area += area;
             }
         }
         self.in_plan = patch.is_plan();
         self.base_shear = shear;
-        self.shear_across = across;
-        self.normal_force = normal;
-        // Zero in the plane, without the sign of minus zero.
+        self.shear_across = shear_across;
+        self.normal_force = normal_force;
+        // Subtraction from zero avoids negative zero in the plane.
         self.moment_across = 0.0 - moment[1];
         self.torque = torque;
         self.base_moment = footing.rotation_sign * moment[0];
         let area = sums.area.max(f64::MIN_POSITIVE);
-        self.uplifted_fraction = sums.open / area;
+        self.uplifted_fraction = sums.open_area / area;
         self.mean_slip = sums.slip / area;
         self.mean_slip_across = sums.slip_across / area;
         let demand = resultant(shear, self.shear_across).abs();
-        // Walls resist both by their pressure.
-        let walls = patch.has_walls();
-        let unknown = walls || friction.is_empty();
-        let sliding = if unknown { f64::NAN } else { ratio(normal, resistance, demand) };
-        let overturning = if walls {
+        // Pressure on walls resists sliding and overturning, which these factors do not include.
+        let has_walls = patch.has_walls();
+        let sliding = if has_walls || friction.is_empty() {
+            f64::NAN
+        } else {
+            factor_of_safety(normal_force, resistance, demand)
+        };
+        let overturning = if has_walls {
             [f64::NAN; 2]
         } else {
-            [0, 1].map(|axis| overturning_safety(footing, normal, moment, axis))
+            [0, 1].map(|axis| overturning_safety(footing, normal_force, moment, axis))
         };
         (sums, FoundationChecks { largest_slip, sliding, overturning })
     }
@@ -227,19 +233,21 @@ pub(crate) fn in_axes(
 ///
 /// In plan the smallest over the edges that face along `axis` (x 0, y 1), at their distances b from the middle of
 /// the outline; infinite along y in the plane.
-fn overturning_safety(footing: &Footing, normal: f64, moment: [f64; 2], axis: usize) -> f64 {
-    let factor =
-        |(edge, reach): &(Edge, f64)| ratio(normal, normal * reach, edge.outward(moment).max(0.0));
-    footing.edges[axis].iter().map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
+fn overturning_safety(footing: &Footing, normal_force: f64, moment: [f64; 2], axis: usize) -> f64 {
+    let factors = footing.edges[axis].iter().map(|(edge, edge_distance)| {
+        let overturning_moment = edge.outward(moment).max(0.0);
+        factor_of_safety(normal_force, normal_force * edge_distance, overturning_moment)
+    });
+    factors.reduce(f64::min).unwrap_or(f64::INFINITY)
 }
 
-/// Resistance over demand.
+/// Factor of safety: resistance over demand.
 ///
 /// NaN without any pressure, infinite without demand, zero if the base as a whole is in tension.
-fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
-    if normal == 0.0 {
+fn factor_of_safety(normal_force: f64, resistance: f64, demand: f64) -> f64 {
+    if normal_force == 0.0 {
         f64::NAN
-    } else if normal < 0.0 || resistance <= 0.0 {
+    } else if normal_force < 0.0 || resistance <= 0.0 {
         0.0
     } else if demand == 0.0 || resistance == f64::INFINITY {
         f64::INFINITY
@@ -279,7 +287,7 @@ mod tests {
 
     /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.
     #[test]
-    fn by_hand() {
+    fn factors_of_safety_by_hand() {
         let state = contact([30.0, 10.0], [-10.0, 6.0]);
         let of = |friction: &[f64]| safety(&patch(), &[], friction, &state);
         assert!((of(&[0.4]).sliding - 0.4 * 70.0 / 14.0).abs() < 1e-14);
@@ -292,23 +300,23 @@ mod tests {
     /// In plan, elements 3 m and 1 m deep: N = 180 + 10 = 190, H = −54 and 40, moments about the middle (0.5, 1.5)
     /// along x 180·(−0.5) + 10·1, along y 180·0 + 10·(−1).
     #[test]
-    fn by_hand_in_plan() {
+    fn factors_of_safety_by_hand_in_plan() {
         let mut state = contact([30.0, 10.0], [-10.0, 6.0]);
         [state[0].shear_across, state[1].shear_across] = [5.0, 10.0];
         let cells = [([-1.0, 1.0], [0.0, 3.0]), ([1.0, 2.0], [0.0, 1.0])];
-        let cells = cells.map(|(along, across)| ContactElement::in_plan(along, across));
+        let cells = cells.map(|(x_ends, y_ends)| ContactElement::in_plan(x_ends, y_ends));
         let patch = Patch::new(cells.to_vec()).unwrap();
         let square = [[-1.0, 0.0], [2.0, 0.0], [2.0, 3.0], [-1.0, 3.0]];
-        let found = safety(&patch, &square, &[0.4], &state);
-        assert!((found.sliding - 0.4 * 190.0 / 54.0_f64.hypot(40.0)).abs() < 1e-14);
-        assert!((found.overturning[0] - 190.0 * 1.5 / 80.0).abs() < 1e-13);
-        assert!((found.overturning[1] - 190.0 * 1.5 / 10.0).abs() < 1e-13);
+        let checks = safety(&patch, &square, &[0.4], &state);
+        assert!((checks.sliding - 0.4 * 190.0 / 54.0_f64.hypot(40.0)).abs() < 1e-14);
+        assert!((checks.overturning[0] - 190.0 * 1.5 / 80.0).abs() < 1e-13);
+        assert!((checks.overturning[1] - 190.0 * 1.5 / 10.0).abs() < 1e-13);
         // Pressure under the second element, at (1, −1) from the middle; a diamond about the same middle has edges
         // that face both ways: (e · n)/h = 2/1.5.
         let diamond = [[-1.0, 1.5], [0.5, 0.0], [2.0, 1.5], [0.5, 3.0]];
         for (outline, factor) in [(square, 1.5), (diamond, 0.75)] {
-            let found = safety(&patch, &outline, &[], &contact([0.0, 10.0], [0.0; 2]));
-            assert!(found.overturning.iter().all(|safety| (safety - factor).abs() < 1e-14));
+            let checks = safety(&patch, &outline, &[], &contact([0.0, 10.0], [0.0; 2]));
+            assert!(checks.overturning.iter().all(|safety| (safety - factor).abs() < 1e-14));
         }
     }
 
@@ -319,12 +327,12 @@ mod tests {
         let flight = contact([0.0; 2], [0.0; 2]);
         let pressed = contact([1.0; 2], [0.0; 2]);
         for friction in [0.0, 0.4, f64::INFINITY] {
-            let found = of(friction, &flight);
-            assert!(found.sliding.is_nan() && found.overturning[0].is_nan());
+            let checks = of(friction, &flight);
+            assert!(checks.sliding.is_nan() && checks.overturning[0].is_nan());
         }
         // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
-        let found = of(0.4, &pressed);
-        assert_eq!([found.sliding, found.overturning[0]], [f64::INFINITY; 2]);
+        let checks = of(0.4, &pressed);
+        assert_eq!([checks.sliding, checks.overturning[0]], [f64::INFINITY; 2]);
         assert_eq!(of(0.0, &pressed).sliding, 0.0);
         let sheared = contact([1.0, 0.0], [0.3, 0.0]);
         assert_eq!(of(f64::INFINITY, &sheared).sliding, f64::INFINITY);

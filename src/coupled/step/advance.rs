@@ -4,7 +4,7 @@ use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
-use crate::coupled::state::foundation::{Foundation, FoundationChecks, Sums};
+use crate::coupled::state::foundation::{ContactSums, Foundation, FoundationChecks};
 use crate::coupled::state::{ResultContext, SimulationId, State, Transition};
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
@@ -108,7 +108,7 @@ impl State {
         let Kinematics { displacement, velocity, acceleration, .. } = &state.kinematics;
         // Base shear, normal force and base moment.
         let mut resultants = [0.0; 3];
-        let mut sums = Sums::default();
+        let mut sums = ContactSums::default();
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
             let ResultContext { elements, friction, footings, .. } = &*state.context;
@@ -116,7 +116,7 @@ impl State {
             let (foundation_sums, checks) =
                 foundation.update(footing, elements, friction, &state.contact, &state.modes);
             sums.area += foundation_sums.area;
-            sums.open += foundation_sums.open;
+            sums.open_area += foundation_sums.open_area;
             sums.slip += foundation_sums.slip;
             let eccentric_moment = foundation.normal_force * footing.center[0];
             let moment = foundation.base_moment + footing.rotation_sign * eccentric_moment;
@@ -139,7 +139,7 @@ impl State {
             }
         }
         [state.base_shear, state.normal_force, state.base_moment] = resultants;
-        state.uplifted_fraction = sums.open / sums.area;
+        state.uplifted_fraction = sums.open_area / sums.area;
         state.mean_slip = sums.slip / sums.area;
         let translations = &state.kinematics.translations;
         for (value, probe) in state.probes.iter_mut().zip(&scene.stepped_probes) {

@@ -1,19 +1,19 @@
-//! States of elements in pictures.
+//! States of contact elements in pictures, with their names and colours.
 
 use crate::interface::{ContactState, Mode};
 use crate::results::ContactFrame;
 use plotters::style::RGBColor;
 
-/// Largest pressure that counts as zero, relative to the largest pressure of the base.
-const PRESSURE_TOLERANCE: f64 = 1e-9;
+/// Largest pressure that is due to rounding, relative to the largest pressure of the base.
+const PRESSURE_ROUNDING: f64 = 1e-9;
 
-/// State of an element in a picture; where several share a column, the larger is shown.
+/// State of an element in a picture; of several states in a column of a map, the largest is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum ElementState {
     Stick,
     Open,
     /// Touching without pressure: with infinite friction, slip is the state between stick and open.
-    Weightless,
+    WithoutPressure,
     SlipLeft,
     SlipRight,
     /// Slip in any direction, in plan.
@@ -22,8 +22,14 @@ pub(super) enum ElementState {
 
 impl ElementState {
     /// All states, in the order of the key.
-    const KEY_ORDER: [Self; 6] =
-        [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
+    const KEY_ORDER: [Self; 6] = [
+        Self::Stick,
+        Self::SlipLeft,
+        Self::SlipRight,
+        Self::Slip,
+        Self::Open,
+        Self::WithoutPressure,
+    ];
 
     /// State from mode and tractions of an element.
     ///
@@ -31,7 +37,7 @@ impl ElementState {
     pub(super) fn new(mode: Mode, state: &ContactState, max_pressure: f64) -> Self {
         match mode.elastic() {
             Mode::Open => Self::Open,
-            _ if state.pressure.abs() <= PRESSURE_TOLERANCE * max_pressure => Self::Weightless,
+            _ if state.pressure.abs() <= PRESSURE_ROUNDING * max_pressure => Self::WithoutPressure,
             Mode::SlipLeft => Self::SlipLeft,
             Mode::SlipRight => Self::SlipRight,
             Mode::Slip => Self::Slip,
@@ -46,7 +52,7 @@ impl ElementState {
             Self::SlipRight => "slip to the right",
             Self::Slip => "slip",
             Self::Open => "open",
-            Self::Weightless => "touching without pressure",
+            Self::WithoutPressure => "touching without pressure",
         }
     }
 
@@ -56,39 +62,41 @@ impl ElementState {
             Self::SlipLeft => RGBColor(255, 166, 43),
             Self::SlipRight | Self::Slip => RGBColor(214, 39, 40),
             Self::Open => RGBColor(22, 72, 120),
-            Self::Weightless => RGBColor(118, 172, 214),
+            Self::WithoutPressure => RGBColor(118, 172, 214),
         }
     }
 }
 
 /// States of the elements in all frames, and the states in the key.
-pub(super) struct ShownStates {
+pub(super) struct ElementStates {
     /// State of every element in every frame.
-    pub(super) by_frame: Vec<Vec<ElementState>>,
-    /// The modes of the plane or of plan, and touching without pressure only where it occurs.
-    pub(super) in_key: Vec<ElementState>,
+    pub(super) frame_states: Vec<Vec<ElementState>>,
+    /// States in the key: all of the plane or of plan, but touching without pressure only if it occurs.
+    pub(super) key_states: Vec<ElementState>,
 }
 
-impl ShownStates {
+impl ElementStates {
     pub(super) fn new(frames: &[ContactFrame<'_>], in_plan: bool) -> Self {
         let states = frames.iter().flat_map(|frame| frame.states);
         let max_pressure = states.map(|state| state.pressure.abs()).fold(0.0, f64::max);
-        let mut by_frame: Vec<Vec<ElementState>> = Vec::with_capacity(frames.len());
+        let mut frame_states: Vec<Vec<ElementState>> = Vec::with_capacity(frames.len());
         for frame in frames {
             let modes_and_states = frame.modes.iter().zip(frame.states);
-            by_frame.push(
+            frame_states.push(
                 modes_and_states
                     .map(|(mode, state)| ElementState::new(*mode, state, max_pressure))
                     .collect(),
             );
         }
-        let mut in_key = ElementState::KEY_ORDER.to_vec();
-        in_key.retain(|state| match state {
-            ElementState::Weightless => by_frame.iter().flatten().any(|other| other == state),
+        let mut key_states = ElementState::KEY_ORDER.to_vec();
+        key_states.retain(|state| match state {
+            ElementState::WithoutPressure => {
+                frame_states.iter().flatten().any(|other| other == state)
+            }
             ElementState::Slip => in_plan,
             ElementState::SlipLeft | ElementState::SlipRight => !in_plan,
             ElementState::Stick | ElementState::Open => true,
         });
-        Self { by_frame, in_key }
+        Self { frame_states, key_states }
     }
 }
