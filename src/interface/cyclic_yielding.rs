@@ -161,7 +161,7 @@ struct Backbone {
 }
 
 /// Line p = `intercept` + `slope` · v of a tangent.
-struct Tangent {
+struct BackboneTangent {
     intercept: f64,
     slope: f64,
 }
@@ -175,16 +175,16 @@ impl Backbone {
     }
 
     /// Tangent of F(h₀ + v) at a settlement v, with F(h₀) = `threshold`.
-    fn tangent(&self, threshold: f64, settlement: f64) -> Tangent {
+    fn tangent(&self, threshold: f64, settlement: f64) -> BackboneTangent {
         let Self { bearing_pressure, reference_settlement } = *self;
         let virgin_settlement = self.settlement(threshold) + settlement;
         let distance = virgin_settlement + reference_settlement;
         if reference_settlement == 0.0 || distance == 0.0 {
-            return Tangent { intercept: bearing_pressure, slope: 0.0 };
+            return BackboneTangent { intercept: bearing_pressure, slope: 0.0 };
         }
         let slope = bearing_pressure * (reference_settlement / distance) / distance;
         let pressure = bearing_pressure * (virgin_settlement / distance);
-        Tangent { intercept: (pressure - slope * settlement).max(0.0), slope }
+        BackboneTangent { intercept: (pressure - slope * settlement).max(0.0), slope }
     }
 }
 
@@ -237,7 +237,8 @@ impl InterfaceLaw for CyclicYielding {
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let [settlement, threshold] = settlement_and_threshold(start);
         let backbone = self.backbone(settlement);
-        let Tangent { intercept, slope } = backbone.tangent(threshold, start.trial_settlement);
+        let BackboneTangent { intercept, slope } =
+            backbone.tangent(threshold, start.trial_settlement);
         Ok(Limits {
             pressure_cap: intercept,
             hardening: slope,

@@ -329,13 +329,7 @@ impl TimeSeries {
     #[cfg(feature = "embedded")]
     pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
         self.contact_frames().map(move |frame| {
-            FaceForces::on(
-                face,
-                &self.elements,
-                &self.pressure_depths,
-                frame.states,
-                frame.modes,
-            )
+            FaceForces::on(face, &self.elements, &self.pressure_depths, frame.states, frame.modes)
         })
     }
 

@@ -3,7 +3,9 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
-use super::slowness::{IncidentWave, LayerWaves, WaveMedium, sh_surface_motion, surface_motion};
+use super::slowness::{
+    IncidentWave, InclinedLayerWaves, WaveMedium, sh_surface_motion, surface_motion,
+};
 use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
@@ -86,7 +88,7 @@ impl<'a> SurfaceFunctions<'a> {
 }
 
 impl SiteFunctions for SurfaceFunctions<'_> {
-    type LayerValues<C: ComplexArithmetic> = LayerWaves<C>;
+    type LayerValues<C: ComplexArithmetic> = InclinedLayerWaves<C>;
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -101,7 +103,7 @@ impl SiteFunctions for SurfaceFunctions<'_> {
         &self,
         contour: &ContourLanes<C>,
         moduli: &[C],
-        layer_values: &mut Vec<LayerWaves<C>>,
+        layer_values: &mut Vec<InclinedLayerWaves<C>>,
         results: &mut [C],
     ) {
         let Self { profile, base, wave_kind, control, slowness, incident_wave, nyquist } = self;
@@ -126,7 +128,7 @@ impl SiteFunctions for SurfaceFunctions<'_> {
                 medium =
                     WaveMedium::layer(layer.soil, nyquist.modulus(index, contour, *modulus), s, p);
             }
-            layer_values.push(LayerWaves { medium, phases });
+            layer_values.push(InclinedLayerWaves { medium, phases });
         }
         // Motions of surface and outcrop due to unit amplitudes.
         let response = match wave_kind {
@@ -157,7 +159,7 @@ struct UnitResponse<C> {
 /// Response to SH.
 #[inline(always)]
 fn sh_response<C: ComplexArithmetic>(
-    layers: &[LayerWaves<C>],
+    layers: &[InclinedLayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> UnitResponse<C> {
     let zero = base.squared_s_slowness.like_real(0.0);
@@ -174,7 +176,7 @@ fn sh_response<C: ComplexArithmetic>(
 /// A unit amplitude displaces by the vector (p, a) or (b, p), whose length is 1/c.
 #[inline(always)]
 fn p_sv_response<C: ComplexArithmetic>(
-    layers: &[LayerWaves<C>],
+    layers: &[InclinedLayerWaves<C>],
     base: &WaveMedium<C>,
     wave_index: usize,
 ) -> UnitResponse<C> {

@@ -211,7 +211,7 @@ fn inverse<C: ComplexArithmetic>([a, b, c, d]: Square<C>) -> Square<C> {
 
 /// A layer, and the complex phases s h a and s h b of the waves through it.
 #[derive(Clone, Copy)]
-pub(super) struct LayerWaves<C> {
+pub(super) struct InclinedLayerWaves<C> {
     pub(super) medium: WaveMedium<C>,
     pub(super) phases: [C; 2],
 }
@@ -278,7 +278,7 @@ impl<C: ComplexArithmetic> SurfaceTransfer<C> {
 /// `layers`: from the surface down.
 #[inline(always)]
 pub(super) fn surface_motion<C: ComplexArithmetic>(
-    layers: &[LayerWaves<C>],
+    layers: &[InclinedLayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> Square<C> {
     let mut upper_transfer = None;
@@ -295,7 +295,7 @@ pub(super) fn surface_motion<C: ComplexArithmetic>(
 /// are continuous between layers.
 #[inline(always)]
 pub(super) fn sh_surface_motion<C: ComplexArithmetic>(
-    layers: &[LayerWaves<C>],
+    layers: &[InclinedLayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> C {
     let zero = base.a.like_real(0.0);
@@ -303,8 +303,8 @@ pub(super) fn sh_surface_motion<C: ComplexArithmetic>(
     let mut surface = one + one;
     let mut reflection = one;
     let mut upper_medium: Option<WaveMedium<C>> = None;
-    let at_base = LayerWaves { medium: *base, phases: [zero; 2] };
-    for &LayerWaves { medium, phases: [_, phase] } in layers.iter().chain(&[at_base]) {
+    let at_base = InclinedLayerWaves { medium: *base, phases: [zero; 2] };
+    for &InclinedLayerWaves { medium, phases: [_, phase] } in layers.iter().chain(&[at_base]) {
         if let Some(upper) = upper_medium.replace(medium) {
             let displacement = one + reflection;
             let stress = (one - reflection) * upper.impedance() * medium.impedance().inverse();

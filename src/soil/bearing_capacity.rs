@@ -350,14 +350,14 @@ impl ShallowFooting {
     }
 
     fn shorter_side(&self) -> f64 {
-        let [x, y] = self.effective_sides();
-        x.min(y)
+        let sides = self.effective_sides();
+        sides[0].min(sides[1])
     }
 
     /// B′/L′: zero for a strip, one for a square and a circle.
     fn side_ratio(&self) -> f64 {
-        let [x, y] = self.effective_sides();
-        x.min(y) / x.max(y)
+        let sides = self.effective_sides();
+        sides[0].min(sides[1]) / sides[0].max(sides[1])
     }
 }
 

@@ -130,10 +130,10 @@ impl DenseLattice {
         for (motions, [a, b, c]) in self.motions.iter_mut().zip(&self.tables) {
             for row in 0..rows {
                 let begin = (rows - 1 + row - j) * width + columns - 1 - i;
-                let (sums, _) = S::as_mut_simd_f64s(&mut motions[row * length..][..length]);
-                let (a, _) = S::as_simd_f64s(&a[begin..begin + length]);
-                let (b, _) = S::as_simd_f64s(&b[begin..begin + length]);
-                let (c, _) = S::as_simd_f64s(&c[begin..begin + length]);
+                let sums = S::as_mut_simd_f64s(&mut motions[row * length..][..length]).0;
+                let a = S::as_simd_f64s(&a[begin..begin + length]).0;
+                let b = S::as_simd_f64s(&b[begin..begin + length]).0;
+                let c = S::as_simd_f64s(&c[begin..begin + length]).0;
                 for (sum, ((a, b), c)) in sums.iter_mut().zip(a.iter().zip(b).zip(c)) {
                     let first = simd.mul_add_e_f64s(*a, splatted[0], *sum);
                     let second = simd.mul_add_e_f64s(*b, splatted[1], first);

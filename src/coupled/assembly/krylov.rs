@@ -9,9 +9,7 @@
 //! The space contains rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on. Each round adds one power of every shift (Ruhe 1984;
 //! Grimme 1997). Each power of K_eff makes the response exact for two more steps after a change of traction. Lower shifts
 //! represent the few modes at lower frequencies, which are complete after a few rounds. One higher shift represents motion
-//! that the time step does not resolve.
-//!
-//! With many forces: `many_forces.rs`.
+//! that the time step does not resolve. With many forces: `many_forces.rs`.
 
 use std::cell::Cell;
 use std::rc::Rc;

@@ -132,14 +132,14 @@ impl StepResponses {
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
         let Self { output_count, first_acceleration, .. } = *self;
         let rounding = RESPONSE_ROUNDING_TOLERANCE / tolerance;
-        let displacements = Comparison {
+        let displacements = ResponseComparison {
             values: &self.displacements,
             other_values: &other.displacements,
             output_count,
             compared_outputs: 0..first_acceleration,
             min_scale: rounding * largest(&self.displacements),
         };
-        let accelerations = Comparison {
+        let accelerations = ResponseComparison {
             values: &self.velocities,
             other_values: &other.velocities,
             output_count,
@@ -147,7 +147,7 @@ impl StepResponses {
             min_scale: rounding * largest(&self.velocities),
         };
         // Probes have different units and therefore no common smallest scale.
-        let probes = Comparison {
+        let probes = ResponseComparison {
             values: &self.probe_values,
             other_values: &other.probe_values,
             output_count: self.probe_count,
@@ -162,8 +162,8 @@ impl StepResponses {
     }
 }
 
-/// Comparison of two sets of responses.
-struct Comparison<'a> {
+/// ResponseComparison of two sets of responses.
+struct ResponseComparison<'a> {
     /// Responses, one output after the other for each force and step.
     values: &'a [f64],
     other_values: &'a [f64],
@@ -173,7 +173,7 @@ struct Comparison<'a> {
     min_scale: f64,
 }
 
-impl Comparison<'_> {
+impl ResponseComparison<'_> {
     /// Largest difference of any compared output, relative to the largest value of this output.
     fn difference(self, rounding: f64) -> f64 {
         let compared_outputs = self.compared_outputs;

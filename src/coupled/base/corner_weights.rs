@@ -85,10 +85,12 @@ impl Quadrilateral {
         let mut s = 0.5_f64;
         let mut t = 0.5_f64;
         for _ in 0..MAX_NEWTON_ITERATIONS {
-            let [ds, dt] = self.newton_step([s, t], p)?;
-            s += ds;
-            t += dt;
-            if ds.abs().max(dt.abs()) <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0) {
+            let step = self.newton_step([s, t], p)?;
+            s += step[0];
+            t += step[1];
+            if step[0].abs().max(step[1].abs())
+                <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0)
+            {
                 return Some([s, t]);
             }
         }
@@ -98,10 +100,13 @@ impl Quadrilateral {
     /// Weights at a point `p` outside, continued linearly from the `nearest` point of the quadrilateral.
     fn continued_weights(&self, nearest: Point, p: Point) -> Option<[f64; 4]> {
         let coordinates = self.coordinates_within(nearest)?;
-        let [ds, dt] = self.newton_step(coordinates, p)?;
+        let step = self.newton_step(coordinates, p)?;
         let [s_derivatives, t_derivatives] = weight_derivatives(coordinates);
         let weights = bilinear_weights(coordinates);
-        Some([0, 1, 2, 3].map(|k| weights[k] + ds * s_derivatives[k] + dt * t_derivatives[k]))
+        Some(
+            [0, 1, 2, 3]
+                .map(|k| weights[k] + step[0] * s_derivatives[k] + step[1] * t_derivatives[k]),
+        )
     }
 
     /// Coordinates of a point inside the quadrilateral, by the quadratic equation for t.

@@ -36,16 +36,16 @@ const DISTANCE_ROUNDING_RATIO: f64 = 1e-9;
 type Entries = Vec<(usize, usize, f64)>;
 
 /// A rotation of a mesh, and the index of its axis.
-struct RotationAxis {
+struct ReactionAxis {
     axis: usize,
     direction: Direction,
 }
-const PLANE_ROTATIONS: &[RotationAxis] =
-    &[RotationAxis { axis: 2, direction: Direction::Rotation }];
-const SPACE_ROTATIONS: &[RotationAxis] = &[
-    RotationAxis { axis: 0, direction: Direction::RotationX },
-    RotationAxis { axis: 1, direction: Direction::RotationY },
-    RotationAxis { axis: 2, direction: Direction::RotationZ },
+const PLANE_ROTATIONS: &[ReactionAxis] =
+    &[ReactionAxis { axis: 2, direction: Direction::Rotation }];
+const SPACE_ROTATIONS: &[ReactionAxis] = &[
+    ReactionAxis { axis: 0, direction: Direction::RotationX },
+    ReactionAxis { axis: 1, direction: Direction::RotationY },
+    ReactionAxis { axis: 2, direction: Direction::RotationZ },
 ];
 
 impl FemModel {
@@ -63,7 +63,7 @@ impl FemModel {
     }
 
     /// Rotations of the mesh.
-    fn rotations(&self) -> &'static [RotationAxis] {
+    fn rotations(&self) -> &'static [ReactionAxis] {
         if self.mesh.has_depth() { SPACE_ROTATIONS } else { PLANE_ROTATIONS }
     }
 
