@@ -9,9 +9,9 @@ use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use crate::array::Matrix;
 use crate::base_node::BaseLike;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::recipe::Shared;
+use crate::names::DofNames;
+use crate::recipe::SharedStructure;
 
 /// A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
 ///
@@ -39,8 +39,8 @@ impl PyMatrixModel {
         rayleigh: Option<&PyRayleighDamping>,
         dof_names: Option<Vec<String>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let dofs = mass.0.order();
-        let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
+        let dof_count = mass.0.order();
+        let dof_names = dof_names.map(|names| DofNames::new(names, dof_count)).transpose()?;
         if damping.is_some() && rayleigh.is_some() {
             return Err(input_error("give a damping matrix or Rayleigh damping, not both"));
         }
@@ -49,13 +49,16 @@ impl PyMatrixModel {
         } else {
             MatrixModel::with_damping
         };
-        let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dofs)?)
+        let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dof_count)?)
             .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .with(damping, |model, matrix| with_damping(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
             .or_raise()?;
-        let base = PyStructure::from_structure(Shared(Arc::new(model), names.clone()))
-            .with_dof_names(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        let superclass = PyStructure::from_structure(SharedStructure {
+            structure: Arc::new(model),
+            dof_names: dof_names.clone(),
+        })
+        .with_dof_names(dof_names);
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self))
     }
 }
