@@ -9,7 +9,7 @@ use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
 use crate::error::input_error;
 
-/// The array of real numbers that numpy makes of an object, with the number of axes of `shape`.
+/// Array of real numbers by numpy from an object, with the number of axes of `shape`.
 ///
 /// An error for complex numbers, texts and None, which numpy would convert.
 fn real_array<'py, D: numpy::ndarray::Dimension>(
@@ -30,8 +30,8 @@ fn real_array<'py, D: numpy::ndarray::Dimension>(
             let values = array.call_method0("ravel")?.call_method0("tolist")?;
             let numbers = values.try_iter()?.map(|value| real_number("an entry", &value?));
             let values = numbers.collect::<PyResult<Vec<f64>>>()?;
-            let list = numpy.call_method1("array", (values,))?;
-            list.call_method1("reshape", (array.getattr("shape")?,))?
+            let flat_array = numpy.call_method1("array", (values,))?;
+            flat_array.call_method1("reshape", (array.getattr("shape")?,))?
         }
         _ => {
             let dtype = array.getattr("dtype")?;
@@ -179,12 +179,12 @@ pub(crate) struct Count(pub(crate) usize);
 
 extracts!(Count, object => Ok(Self(whole_numbers(&object)?)));
 
-/// Numbers: anything that numpy takes for an array of shape (n,).
+/// Numbers: anything that numpy converts to an array of shape (n,).
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
 extracts!(Numbers, object => Ok(Self(real_array::<Ix1>(&object, "(n,)")?.as_array().to_vec())));
 
-/// Pairs of numbers: anything that numpy takes for an array of shape (n, 2).
+/// Pairs of numbers: anything that numpy converts to an array of shape (n, 2).
 pub(crate) struct Pairs(pub(crate) Vec<[f64; 2]>);
 
 extracts!(Pairs, object => {
@@ -195,7 +195,7 @@ extracts!(Pairs, object => {
     })?))
 });
 
-/// Points in the plane or in space: anything that numpy takes for an array of shape (n, 2) or (n, 3).
+/// Points in the plane or in space: anything that numpy converts to an array of shape (n, 2) or (n, 3).
 pub(crate) struct Points {
     /// Number of coordinates of a point, two or three.
     axis_count: usize,
@@ -232,7 +232,7 @@ impl Points {
     }
 }
 
-/// Points in rows and columns: anything that numpy takes for an array of shape (rows, columns, 3).
+/// Points in rows and columns: anything that numpy converts to an array of shape (rows, columns, 3).
 pub(crate) struct PointGrid {
     /// Numbers of rows and columns.
     pub(crate) shape: [usize; 2],
@@ -253,7 +253,7 @@ extracts!(PointGrid, object => {
     Ok(Self { shape: [row_count, column_count], points })
 });
 
-/// Rows of numbers: anything that numpy takes for an array of two axes.
+/// Rows of numbers: anything that numpy converts to an array of two axes.
 pub(crate) struct Table {
     pub(crate) column_count: usize,
     pub(crate) rows: Vec<Vec<f64>>,

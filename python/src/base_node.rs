@@ -9,10 +9,10 @@ use crate::array::whole_array;
 use crate::list_arguments::type_error;
 use crate::row::{PyDofCombination, RowLike, WeightCount};
 
-/// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
-/// one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-/// (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
-/// below the surface also its height ``z`` above the surface (m, negative; zero unless given).
+/// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination` or its ``terms``) of its displacement
+/// to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y`` (away from the reader, m; zero
+/// unless given) and the row of its displacement along y, ``across``. On walls and bases below the surface also its
+/// height ``z`` above the surface (m, negative; zero unless given).
 #[pyclass(name = "BaseNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyBaseNode(BaseNode, WeightCount);

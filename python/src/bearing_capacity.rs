@@ -6,7 +6,9 @@ use pyo3::prelude::*;
 use crate::error::OrRaise;
 use crate::soil::PySoilStrength;
 
-/// Bearing capacity factors of drained soil of a ``friction_angle`` (rad) under a rough strip, by EN 1997-1:2004, D.4.
+/// Bearing capacity factors of drained soil under a rough strip.
+///
+/// ``friction_angle`` of the soil: rad. Source: EN 1997-1:2004, D.4.
 #[pyclass(name = "BearingFactors", module = "basemat", frozen, dict, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PyBearingFactors(BearingFactors);
@@ -37,8 +39,9 @@ impl PyBearingFactors {
     }
 }
 
-/// Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D, without partial factors: of a rectangle, or
-/// `circle`.
+/// Rectangular shallow footing, or a `circle`, for its bearing capacity.
+///
+/// The capacity follows EN 1997-1:2004, Annex D, without partial factors.
 ///
 /// ``sides`` along x and y (m); with ``math.inf`` along y it is a strip, whose forces are per metre. ``surcharge``: vertical
 /// pressure of the soil beside the base at its level (Pa; 0 by default), unit weight times depth. ``eccentricity`` of the

@@ -192,7 +192,7 @@ pub(crate) fn to_exception(error: basemat::Error) -> PyErr {
 
 /// Results of the core as results of Python.
 pub(crate) trait OrRaise<T> {
-    /// The value, or the exception that `to_exception` makes of the error.
+    /// The value, or the exception for the error.
     fn or_raise(self) -> PyResult<T>;
 }
 

@@ -1,7 +1,7 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Converts a `$class` to Python: `$base` makes the superclass object from the value, called `$value`.
+/// Converts a `$class` to Python: `$base` is the superclass object for the value `$value`.
 macro_rules! extends {
     ($class:ty, $value:ident => $base:expr) => {
         impl $class {

@@ -1,4 +1,4 @@
-//! Arguments that are lists of objects of a class or lists of pairs, with errors that name the type found.
+//! Arguments that are lists of objects of a class or lists of pairs, with errors that name the type of the argument.
 
 use std::ops::Deref;
 

@@ -7,7 +7,7 @@ use crate::row::{PyDofCombination, PySectionRows, RowLike, WeightCount};
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 ///
-/// ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``: its label in tables;
+/// ``name``: name of its time series. ``row``: a `DofCombination` or its ``terms``. ``unit``: its label in tables;
 /// unless given, the unit of the quantity.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free field;

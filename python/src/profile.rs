@@ -70,8 +70,8 @@ impl PyDampingLaw {
     }
 }
 
-/// A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
-/// (`DampingLaw`; none unless given).
+/// A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
+/// unless given).
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
@@ -101,9 +101,11 @@ pub(crate) fn law_or_elastic(damping: Option<&PyDampingLaw>) -> Arc<dyn Relaxati
     damping.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 
-/// Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil ``bedrock``, or on
-/// rigid bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given.
-/// Printed, it is a table.
+/// Horizontal soil layers on a half-plane or on rigid bedrock.
+///
+/// ``layers``: list of `SoilLayer` from the surface down. They lie on a half-plane of the soil ``bedrock``, or on rigid
+/// bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given. Printed,
+/// it is a table.
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 

@@ -15,12 +15,12 @@ use crate::error::{
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRefinement(Refinement);
 
-/// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+/// Runs a scene at six settings and estimates the error of each.
 ///
-/// ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-/// peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-/// ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-/// elements, and twice the elements with half the step.
+/// The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+/// an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+/// are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+/// the elements with half the step.
 ///
 /// If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
 /// extrapolated separately, so that units may differ.

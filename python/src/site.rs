@@ -14,7 +14,9 @@ use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::ticker::with_progress;
 
-/// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
+/// Modulus reduction and damping ratio of a soil over shear strain.
+///
+/// The modulus reduction is G/G_max. A strain of 0.01 is 1 %.
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
 pub(crate) struct PyStrainCurves(StrainCurves);
 

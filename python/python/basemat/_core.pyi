@@ -113,10 +113,10 @@ _MatrixLike: TypeAlias = Any
 
 @final
 class BaseNode:
-    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
-    one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
-    below the surface also its height ``z`` above the surface (m, negative; zero unless given).
+    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination` or its ``terms``) of its displacement
+    to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y`` (away from the reader, m; zero
+    unless given) and the row of its displacement along y, ``across``. On walls and bases below the surface also its
+    height ``z`` above the surface (m, negative; zero unless given).
     """
 
     def __new__(
@@ -182,7 +182,10 @@ class BaseFaces:
 
 @final
 class BearingFactors:
-    """Bearing capacity factors of drained soil of a ``friction_angle`` (rad) under a rough strip, by EN 1997-1:2004, D.4."""
+    """Bearing capacity factors of drained soil under a rough strip.
+
+    ``friction_angle`` of the soil: rad. Source: EN 1997-1:2004, D.4.
+    """
 
     def __new__(cls, friction_angle: float) -> Self: ...
     @property
@@ -198,8 +201,9 @@ class BearingFactors:
 
 @final
 class ShallowFooting:
-    """Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D, without partial factors: of a rectangle, or
-    `circle`.
+    """Rectangular shallow footing, or a `circle`, for its bearing capacity.
+
+    The capacity follows EN 1997-1:2004, Annex D, without partial factors.
 
     ``sides`` along x and y (m); with ``math.inf`` along y it is a strip, whose forces are per metre. ``surcharge``: vertical
     pressure of the soil beside the base at its level (Pa; 0 by default), unit weight times depth. ``eccentricity`` of the
@@ -281,8 +285,10 @@ class _CaseFile:
 
 @final
 class SharedKernels:
-    """Convolution weights that grounds of equal soil and elements share: they are computed once for all simulations that
-    are built with the same object. A copy in another process is empty; ``len()`` is the number of stored sets.
+    """Convolution weights that grounds of equal soil and elements share.
+
+    They are computed once for all simulations that are built with the same object. A copy in another process is empty;
+    ``len()`` is the number of stored sets.
     """
 
     def __new__(cls) -> Self: ...
@@ -309,8 +315,10 @@ class Ground:
 
 @final
 class ElasticGround(Ground):
-    """Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
-    elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
+    """Elastic ground, homogeneous or layered, with contact elements on its surface.
+
+    ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
+    in three dimensions.
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
     under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
@@ -349,11 +357,12 @@ class ElasticGround(Ground):
         kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
-        """Ground with a strip of ``count`` elements under each foundation of a ``structure``, as wide as the foundation;
-        under a structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline
-        that is oblique to them. A flexible base gets at least one element for each of its segments, or as many cells as
-        it has faces: then ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)``
-        is that number.
+        """Ground with contact elements under the foundations of a ``structure``.
+
+        It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
+        a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
+        flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+        ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
 
         ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -367,10 +376,11 @@ class ElasticGround(Ground):
 
 @final
 class Plan:
-    """Square cells of contact under a mat, for an `ElasticGround` of three directions: the cells that the ``faces`` of the
-    mat cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it),
-    with ``cells`` along the shorter side of all faces together. Oblique edges cut the cells; at straight edges along x
-    and y the cells extend beyond the edge by 0.105 of their side.
+    """Square contact cells under a mat, for an `ElasticGround` in plan.
+
+    They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
+    m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
+    cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
     """
 
     def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
@@ -408,10 +418,12 @@ class Plan:
         *,
         contact: _StripContact = "bonded",
     ) -> NDArray[np.complex128]:
-        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
-        e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
-        moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
-        "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
+        """Dynamic stiffness of the mat as one rigid body on a ``soil``.
+
+        It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
+        Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
+        (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
+        without shear, horizontal ones without pressure).
         """
 
 @final
@@ -445,11 +457,13 @@ class SpringGround(Ground):
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
     ) -> SpringGround:
-        """Ground with a strip of ``count`` equal elements under each foundation of a ``structure``; under a structure in
-        plan ``count`` cells along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m),
-        ``across_stiffness``, ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base
-        gets at least one element for each of its segments, or as many cells as it has faces: then ``count`` is raised.
-        The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+        """Spring bed with contact elements under the foundations of a ``structure``.
+
+        It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
+        along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
+        ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
+        element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
+        its number of elements, and ``len(ground.elements)`` is that number.
         """
 
 @final
@@ -468,8 +482,10 @@ class Strip:
 
 @final
 class Impedances:
-    """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-    arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
+    """Dynamic stiffness of a rigid base without mass, per metre of thickness.
+
+    It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
+    radiation and damping.
     """
 
     @property
@@ -506,7 +522,10 @@ class Impedances:
 
 @final
 class Trench:
-    """Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep."""
+    """Rectangular trench in the surface of the ground, in the plane.
+
+    It reaches from ``left`` to ``right`` (x, m) and is ``depth`` (m) deep.
+    """
 
     def __new__(cls, left: float, right: float, depth: float) -> Self: ...
     @property
@@ -526,7 +545,7 @@ class Trench:
 class TrenchElements:
     """Contact elements of the faces of a `Trench`: down the left wall, along the base, up the right wall.
 
-    `Trench.elements` makes them; ``len()`` counts them.
+    `Trench.elements` creates them; ``len()`` is their number.
     """
 
     def interfaces(self, base: _Interface, walls: _Interface) -> list[_Interface]:
@@ -537,8 +556,10 @@ class TrenchElements:
 
 @final
 class TrenchGround(Ground):
-    """Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
-    ``elements`` (`TrenchElements`).
+    """Soil around a trench, in the plane.
+
+    It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
+    (`TrenchElements`).
 
     The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 
@@ -590,7 +611,9 @@ class TrenchGround(Ground):
 
 @final
 class KinematicMotions:
-    """Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+    """Harmonic motion of a rigid body without mass in a trench.
+
+    It is relative to a unit motion e^(iωt) of the surface of the free field.
 
     It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
     Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
@@ -674,14 +697,18 @@ class Cohesive(InterfaceLaw):
 
 @final
 class Yielding(InterfaceLaw):
-    """Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa)."""
+    """Coulomb friction on soil that yields under its bearing pressure.
+
+    ``bearing_pressure``: Pa. ``friction``: coefficient.
+    """
 
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
 
 @final
 class CyclicYielding(InterfaceLaw):
-    """Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and whose pressure is at
-    most its ``bearing_pressure`` (Pa).
+    """Coulomb friction on soil that settles in every cycle of load.
+
+    ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
 
     Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
     ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
@@ -704,11 +731,13 @@ class CyclicYielding(InterfaceLaw):
 
 @final
 class EarthPressure(InterfaceLaw):
-    """Coulomb friction of a wall, of a coefficient ``friction``, on soil that yields: at its ``active`` pressure (Pa)
-    towards a wall that moves away, at its ``passive`` pressure (Pa) under a wall that moves into it.
+    """Coulomb friction between a wall and soil that yields.
+
+    ``friction``: coefficient. The soil yields at its ``active`` pressure (Pa) towards a wall that moves away, at its
+    ``passive`` pressure (Pa) under a wall that moves into it.
 
     With an ``active`` pressure of 0 the soil is stable by its cohesion, and a gap opens at the wall.
-    `TrenchGround.interfaces` makes these laws from the strength of the soil.
+    `TrenchGround.interfaces` creates these laws from the strength of the soil.
     """
 
     def __new__(cls, active: float, passive: float, friction: float) -> Self: ...
@@ -718,7 +747,7 @@ class EarthPressure(InterfaceLaw):
 
 @final
 class ThinLayer(InterfaceLaw):
-    """The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
+    """Thin elastic layer between base and ground (Patel and Spyrakos).
 
     ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
     coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
@@ -762,9 +791,10 @@ class ThinLayer(InterfaceLaw):
 
 @final
 class VariableFriction(InterfaceLaw):
-    """Coulomb friction whose coefficient is a function of the start of the step: ``coefficient(start)`` returns a number
-    for a `PreviousContact`. An exception of the function ends the run and is raised there. ``tensile_strength`` (Pa; 0
-    by default) acts on an element until it first opens.
+    """Coulomb friction with a coefficient by a function of Python.
+
+    ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
+    raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
     """
 
     def __new__(
@@ -776,8 +806,8 @@ class VariableFriction(InterfaceLaw):
 
 @disjoint_base
 class FreeField:
-    """Motion of the ground's surface without the structure: a `Record`, a wave, or what `free_field` makes of a function.
-    Until t = 0 the ground is at rest.
+    """Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+    the ground is at rest.
     """
 
     def displacement(self, x: float, time: float) -> list[float]:
@@ -985,8 +1015,9 @@ class TrenchMotion(FreeField):
 
 @final
 class PlaneWave:
-    """A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
-    `field_from_horizontal` and `field_from_vertical` make it a motion.
+    """Plane wave below the surface of a half-plane, or Rayleigh wave.
+
+    `field_from_horizontal` and `field_from_vertical` convert it to a motion.
     """
 
     @staticmethod
@@ -1036,14 +1067,14 @@ class SoilColumn:
         *,
         control: _ControlPoint = "outcrop",
     ) -> NDArray[np.complex128]:
-        """Ratio of the motion of the surface to the motion of the ``control`` point for e^(iωt): complex array of
-        shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
-        base without layers) or "within" (the base under them).
+        """Ratio of the surface motion to the motion of the ``control`` point for e^(iωt): complex array of shape (m,) at
+        ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the base without layers) or
+        "within" (the base under them).
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
-        """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or "within", as
-        long. If motion before or after the record is cut off, a `BasematWarning` states its magnitude relative to the
-        peak, from 0.01 % on; `Record.padded` avoids it.
+        """The record of the surface, as long as the ``record`` of the ``control`` point, "outcrop" (the default) or
+        "within". If motion is cut off at its ends, a `BasematWarning` states how much of the peak, from 0.01 % on;
+        `Record.padded` avoids it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the surface
@@ -1086,13 +1117,11 @@ class SoilColumn:
 
 @final
 class InclinedWave:
-    """A plane wave from the half-plane under a layered profile; `field` makes it a motion."""
+    """A plane wave from the half-plane under a layered profile; `field` converts it to a motion."""
 
     @staticmethod
     def sv(profile: SoilProfile, angle: float) -> InclinedWave:
-        """SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-        positive.
-        """
+        """SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive."""
     @staticmethod
     def sh(profile: SoilProfile, angle: float) -> InclinedWave:
         """SH wave with a ``profile`` and an ``angle`` (rad) as for `sv`, for a ground in plan: its motion is horizontal
@@ -1100,9 +1129,7 @@ class InclinedWave:
         """
     @staticmethod
     def p(profile: SoilProfile, angle: float) -> InclinedWave:
-        """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-        positive.
-        """
+        """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive."""
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
@@ -1114,17 +1141,16 @@ class InclinedWave:
         control: _InclinedControl = "outcrop_horizontal",
         azimuth: float = 0.0,
     ) -> FreeField:
-        """The `FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
-        (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
-        "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-        default) is as in `travelling_wave`.
+        """The `FreeField` of the surface for the ``record`` at the ``control`` point at ``origin`` (x, m), which the wave
+        reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base without layers) or
+        "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
         """
 
 @final
 class Probe:
     """A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 
-    ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``: its label in tables;
+    ``name``: name of its time series. ``row``: a `DofCombination` or its ``terms``. ``unit``: its label in tables;
     unless given, the unit of the quantity.
 
     Displacements are changes against the static state, relative to the translation of the free field;
@@ -1202,8 +1228,8 @@ class DampingLaw:
 
 @final
 class SoilLayer:
-    """A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
-    (`DampingLaw`; none unless given).
+    """A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
+    unless given).
     """
 
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
@@ -1216,9 +1242,11 @@ class SoilLayer:
 
 @final
 class SoilProfile:
-    """Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil ``bedrock``, or on
-    rigid bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given.
-    Printed, it is a table.
+    """Horizontal soil layers on a half-plane or on rigid bedrock.
+
+    ``layers``: list of `SoilLayer` from the surface down. They lie on a half-plane of the soil ``bedrock``, or on rigid
+    bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given. Printed,
+    it is a table.
     """
 
     def __new__(
@@ -1400,7 +1428,7 @@ class EnergyBalance:
 
 @final
 class SystemMode:
-    """Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19)."""
+    """Vibration mode on a fixed base and on the ground (ASCE 7, chapter 19)."""
 
     @property
     def axis(self) -> str | None:
@@ -1571,7 +1599,9 @@ class Summary:
 
 @final
 class Run(Summary):
-    """A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
+    """Results of a run: `Summary` of the whole base, energies and time series.
+
+    It also has envelopes and warnings.
 
     ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
     printed, a run is a page for a report.
@@ -1643,7 +1673,7 @@ class Run(Summary):
         """Ratio of the largest base shear to the weight; None without weight."""
     @property
     def foundations(self) -> list[Summary]:
-        """Each foundation by itself: list of `Summary`, from left to right."""
+        """Each foundation separately: list of `Summary`, from left to right."""
     @property
     def serviceability(self) -> list[ServiceCheck]:
         """A check of each limit of service of the simulation: list of `ServiceCheck`."""
@@ -1933,12 +1963,14 @@ class Run(Summary):
 
 @final
 class DeformedShape:
-    """Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
+    """Points and outlines of a ``structure`` for pictures and for ParaView.
+
+    The degrees of freedom of the structure move the points.
 
     A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
     grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
     is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
-    of this ``height`` (m) on its base; it is an error if ``height`` is not given.
+    of this ``height`` (m) on its base; it is an error unless ``height`` is given.
     """
 
     def __new__(cls, structure: _Structure | DeformedShape, *, height: float | None = None) -> Self: ...
@@ -2094,7 +2126,7 @@ class SectionRows:
 
 @final
 class Simulation:
-    """Simulation of a structure on a ground in time, from the static state under its weight.
+    """Simulation of a structure on a ground, from its static state on.
 
     Args:
         time_step: time step, s.
@@ -2103,8 +2135,8 @@ class Simulation:
             `UserGround`.
         interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for all contact elements, or a list
             of one each, from left to right.
-        motion: ground motion, a `FreeField`: a `Record`, a wave, or what `free_field` makes of a function. Without a
-            motion the ground is at rest.
+        motion: ground motion, a `FreeField`: a `Record`, a wave, or a function by `free_field`. Without a motion the
+            ground is at rest.
         loads: forces from outside, a list of `Load`; none unless given.
         probes: quantities to record at every step, a list of `Probe` with names of their own; none unless given.
         initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
@@ -2211,23 +2243,22 @@ class Simulation:
         The series of all steps must fit into `memory_limit` before the first step; with ``observe``, which may end the
         run, only the series of the steps made.
 
-        ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
-        by default.
+        ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True by default.
         """
     def step(self) -> State:
-        """Makes one step and returns the new state. Raises `StepError` if the step could not be
-        solved; the simulation is then as it was before.
+        """Makes one step and returns the new state. A `StepError` is raised if the step has no solution; the simulation is
+        then unchanged.
         """
     def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
         """Iterator that makes a step and yields its state, ``steps`` times or for a ``duration`` (s); without either, up
         to the end of the motion.
         """
     def set_load(self, index: int, value: float | None) -> None:
-        """Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
+        """Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
 
-        ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
-        None returns to that function. A controller computes it from the last state and sets it before each
-        `step`. A checkpoint holds it; `reset` returns to the functions.
+        ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
+        of the load; None restores that function. A controller computes the force from the last state and sets it before
+        each `step`. A checkpoint contains it; `reset` restores the functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
         """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that of
@@ -2323,7 +2354,10 @@ class FoundationState:
 
 @final
 class FaceForces:
-    """Forces on the soil behind one face of a structure in the ground, per metre of thickness: from `State.face`."""
+    """Forces on the soil at one face of a structure in the ground.
+
+    They are per metre of thickness. `State.face` returns them.
+    """
 
     @property
     def thrust(self) -> float:
@@ -2344,7 +2378,7 @@ class FaceForces:
 class Load:
     """A force that acts on a structure from outside.
 
-    ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time (s) that returns the
+    ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
     force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
     applied slowly after the weight, while the interface law acts.
     """
@@ -2433,7 +2467,7 @@ class ResultOptions:
 
     Args:
         moment_center: x of the reference point of the base moment, m; the middle of the base unless given.
-        energy_balance: whether energies are computed; True by default. Without them a step takes less time, and
+        energy_balance: whether energies are computed; True by default. Without them steps are faster, and
             `Run.energy_error` is NaN.
         safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the interface
             law unless given.
@@ -2595,10 +2629,12 @@ class State:
         """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
     @property
     def foundations(self) -> list[FoundationState]:
-        """Each foundation by itself: list of `FoundationState`, from left to right."""
+        """Each foundation separately: list of `FoundationState`, from left to right."""
     @property
     def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
-        """Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal"."""
+        """Search method of the modes in this step: "active_set", "gauss_seidel", "path", and in plan "newton" or
+    "proximal".
+    """
     def value(self, quantity: _Quantity) -> float:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
@@ -2614,7 +2650,7 @@ class State:
 
 @final
 class Steps:
-    """Iterator over steps of a simulation, which yields the `State` at the end of each step.
+    """Iterator over steps, which yields the `State` at the end of each.
 
     ``len()`` is the number of remaining steps. `Simulation.steps` creates it.
     """
@@ -2640,7 +2676,10 @@ class Checkpoint:
 
 @final
 class StrainCurves:
-    """Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %)."""
+    """Modulus reduction and damping ratio of a soil over shear strain.
+
+    The modulus reduction is G/G_max. A strain of 0.01 is 1 %.
+    """
 
     @staticmethod
     def linear(damping: float) -> StrainCurves:
@@ -2725,9 +2764,11 @@ class EquivalentLinear:
 
 @final
 class Soil:
-    """Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5), ``density``
-    (kg/m³). A run warns if the speed of shear waves is outside 10 to 5 000 m/s or the density outside 500 to 10 000
-    kg/m³: a usual cause is a wrong unit.
+    """Elastic soil, isotropic and homogeneous.
+
+    ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5), ``density`` (kg/m³). A run warns
+    if the speed of shear waves is outside 10 to 5 000 m/s or the density outside 500 to 10 000 kg/m³: a usual cause is
+    a wrong unit.
     """
 
     def __new__(cls, shear_modulus: float, poisson: float, density: float) -> Self: ...
@@ -2759,9 +2800,10 @@ class Soil:
 
 @final
 class SoilStrength:
-    """Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`: its ``friction_angle`` (rad), its
-    ``cohesion`` (Pa; 0 by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most
-    the friction angle.
+    """Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`.
+
+    It has the ``friction_angle`` (rad), its ``cohesion`` (Pa; 0 by default), and the ``wall_friction_angle`` between
+    soil and wall (rad; 0 by default), at most the friction angle.
 
     Stresses are effective stresses. Plane wedges overestimate the passive pressure if the wall friction angle is a
     third of the soil's friction angle or more.
@@ -2776,8 +2818,8 @@ class SoilStrength:
     ) -> Self: ...
     @property
     def pressure_ratios(self) -> list[float]:
-        """Ratios of the active and of the passive horizontal pressure to the vertical pressure, without cohesion (Coulomb;
-        without wall friction Rankine).
+        """Active and passive ratio of the horizontal to the vertical pressure, without cohesion (Coulomb; without wall
+        friction Rankine).
         """
     def pressures(self, vertical: float) -> list[float]:
         """Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa."""
@@ -2785,8 +2827,9 @@ class SoilStrength:
 
 @final
 class BeamRows:
-    """Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
-    `FemModel.beam_rows`.
+    """Rows of the forces and moments at the ends of a beam.
+
+    They are rows of displacements for `Probe.section`. `FemModel.beam_rows` returns them.
 
     At both ends they act on a section whose outward normal is x, the axis of the beam. A probe records changes from the
     static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the geometric
@@ -2824,8 +2867,9 @@ class BeamEndRows:
 
 @disjoint_base
 class Structure:
-    """A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a description from
-    which each simulation builds a separate structure.
+    """A structure with n degrees of freedom, which only the ground supports.
+
+    Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
     """
 
     @property
@@ -2849,8 +2893,10 @@ class Structure:
 
 @final
 class RigidBlock(Structure):
-    """A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-    the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
+    """A rigid block on a flat base, in the plane.
+
+    Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
+    "x", "y", "rotation" for `dof`.
 
     ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
     (m/s²) of the P–Δ effect of its weight; none unless given.
@@ -2895,9 +2941,11 @@ class RigidBlock(Structure):
 
 @final
 class RigidBody(Structure):
-    """A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along x (to
-    the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a
-    ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
+    """A rigid body on a flat base, in space.
+
+    Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
+    rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
+    `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
     """
 
     @staticmethod
@@ -3062,8 +3110,10 @@ class PlanStorey:
 
 @final
 class StoreyBuilding(Structure):
-    """Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
-    and twist, and tilt with the mat.
+    """Building with rigid floors on a rigid mat, in space.
+
+    Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
+    and tilt with the mat.
 
     Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
     every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
@@ -3112,12 +3162,15 @@ class StoreyBuilding(Structure):
 
 @final
 class RayleighDamping:
-    """Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness."""
+    """Rayleigh damping by a damping matrix a M + b K.
+
+    ``mass``: factor a of the mass matrix, 1/s. ``stiffness``: factor b of the stiffness matrix, s.
+    """
 
     def __new__(cls, mass: float, stiffness: float) -> Self: ...
     @staticmethod
     def from_ratios(frequencies: Sequence[float], ratios: Sequence[float]) -> RayleighDamping:
-        """Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz)."""
+        """Rayleigh damping with the damping ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz)."""
     @property
     def mass(self) -> float:
         """Factor of the mass, 1/s."""
@@ -3129,9 +3182,11 @@ class RayleighDamping:
 
 @final
 class ReducedModel(Structure):
-    """A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in the list
-    ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio`` of these modes replaces
-    the damping of the structure, if given.
+    """A ``structure`` reduced by the method of Craig and Bampton.
+
+    The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
+    the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
+    structure, if given.
     """
 
     def __new__(
@@ -3156,9 +3211,10 @@ class ReducedModel(Structure):
 
 @final
 class StructureGroup(Structure):
-    """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs ``(structure, shift)``
-    from left to right, each moved to the right by its shift (m); in plan in any order, without overlap; their positions
-    along y are unchanged (``center`` of `RigidBody.cuboid`).
+    """Several structures on one ground, coupled through the soil.
+
+    ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
+    plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
     """
 
     def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
@@ -3167,8 +3223,10 @@ class StructureGroup(Structure):
 
 @final
 class WithModalDamping(Structure):
-    """A ``structure`` with damping ``ratios`` (array of shape (m,)) of its modes in addition to its damping: the lowest
-    mode first; the last ratio is that of all further modes.
+    """A ``structure`` with additional damping of its modes.
+
+    ``ratios``: damping ratios of the modes (array of shape (m,)), the lowest mode first; the last ratio is that of all
+    further modes.
 
     With ``fixed_base`` the modes are those on a fixed base, as in codes and tests. Without it (the default) they are
     those of the free structure, whose frequencies are far higher: with a ratio of 5 %, the first mode of five storeys
@@ -3283,8 +3341,10 @@ class FemModel(Structure):
 
 @final
 class GmshMesh:
-    """A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes closer than
-    ``merge_within`` (m) become one, no nodes unless given.
+    """A mesh of quadrilaterals from a file of Gmsh.
+
+    ``path`` of the file: formats 4.1 and 2.2, text or binary. Nodes closer than ``merge_within`` (m) become one, no
+    nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
@@ -3313,8 +3373,10 @@ class GmshMesh:
 
 @final
 class GmshSpaceMesh:
-    """A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats 4.1 and 2.2,
-    text or binary) at ``path``; nodes closer than ``merge_within`` (m) become one, no nodes unless given.
+    """A mesh in space from a file of Gmsh.
+
+    It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
+    or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
@@ -3524,15 +3586,17 @@ class BeamSection:
 
 @final
 class MatrixModel(Structure):
-    """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
+    """A structure by its mass, stiffness and damping matrices.
 
-    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-    (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-    `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
-    in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
-    metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-    list of n different names, for `dof`, frames and errors; none unless given.
+    Matrices are dense or of ``scipy.sparse``.
+
+    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements (m, rad). The
+    structure has no supports; only the ground supports it. ``base``: its nodes, a list of `BaseNode` from left to
+    right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to the
+    whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
+    unless ``active_damping`` (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by
+    default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``: list of n different names, for
+    `dof`, frames and errors; none unless given.
     """
 
     def __new__(
@@ -3550,8 +3614,10 @@ class MatrixModel(Structure):
 
 @final
 class Mesh:
-    """Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given. `in_space` makes
-    a mesh in space. Its methods add elements and return their numbers; after an error they have added none.
+    """Nodes and finite elements in the plane, or by `in_space` in space.
+
+    ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
+    an error they have added none.
 
     In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
     of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
@@ -3747,8 +3813,9 @@ class Mesh:
 
 @final
 class ShellResultants:
-    """Forces and moments of a shell at a point, per metre of width, in its `axes`: from
-    `FemModel.shell_resultants` and `ShellRows.value`.
+    """Forces and moments of a shell at a point, per metre of width.
+
+    They refer to the `axes`. `FemModel.shell_resultants` and `ShellRows.value` return them.
     """
 
     @property
@@ -3773,8 +3840,9 @@ class ShellResultants:
 
 @final
 class ShellRows:
-    """Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
-    `FemModel.shell_rows`.
+    """Rows of the forces and moments of shells at a node, for `Probe.section`.
+
+    They are rows of displacements, per metre of width. `FemModel.shell_rows` returns them.
 
     A probe records changes from the static state; the static part is the `value` for the ``static_displacement`` of the
     simulation. The rows contain the elastic forces, without damping.
@@ -4028,7 +4096,10 @@ def free_field(
     """
 
 def el_centro_1940() -> Record:
-    """The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
+    """The `Record` of El Centro 1940, north–south.
+
+    Peknold's version with a peak of 0.319 g: 31.18 s with a time step of 0.02 s.
+    """
 
 def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     """``count`` numbers from ``first`` to ``last`` with equal ratios, such as periods: array of shape (count,)."""
@@ -4057,8 +4128,8 @@ def travelling_wave(
     """
 
 def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = False) -> FreeField:
-    """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
-    right or, if ``vertical`` (False by default), up.
+    """Ricker pulse of displacement to the right, or up if ``vertical`` (False by default): ``amplitude`` of the peak (m),
+    width ``sigma`` (s), time ``center`` (s).
     """
 
 @overload
@@ -4067,12 +4138,12 @@ def refine(
     time_step: float,
     scene: Callable[[int, float], Mapping[str, float]],
 ) -> Refinements:
-    """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+    """Runs a scene at six settings and estimates the error of each.
 
-    ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-    ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-    elements, and twice the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+    the elements with half the step.
 
     If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
     extrapolated separately, so that units may differ.
@@ -4083,12 +4154,12 @@ def refine(
     """
 @overload
 def refine(elements: int, time_step: float, scene: Callable[[int, float], float | ArrayLike]) -> Refinement:
-    """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+    """Runs a scene at six settings and estimates the error of each.
 
-    ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-    ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-    elements, and twice the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+    the elements with half the step.
 
     If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
     extrapolated separately, so that units may differ.

@@ -16,8 +16,10 @@ use crate::error::{OrRaise, WithOption};
 use crate::profile::Profile;
 use crate::ticker::with_progress;
 
-/// Convolution weights that grounds of equal soil and elements share: they are computed once for all simulations that
-/// are built with the same object. A copy in another process is empty; ``len()`` is the number of stored sets.
+/// Convolution weights that grounds of equal soil and elements share.
+///
+/// They are computed once for all simulations that are built with the same object. A copy in another process is empty;
+/// ``len()`` is the number of stored sets.
 #[pyclass(name = "SharedKernels", module = "basemat", frozen)]
 #[derive(Default)]
 pub(crate) struct PySharedKernels(pub(super) SharedKernels);
@@ -40,8 +42,10 @@ impl PySharedKernels {
     }
 }
 
-/// Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
-/// elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
+/// Elastic ground, homogeneous or layered, with contact elements on its surface.
+///
+/// ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
+/// in three dimensions.
 ///
 /// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
 /// under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
@@ -94,11 +98,12 @@ impl PyElasticGround {
         Ok(PyClassInitializer::from(superclass).add_subclass(Self { make: Box::new(make), plan }))
     }
 
-    /// Ground with a strip of ``count`` elements under each foundation of a ``structure``, as wide as the foundation;
-    /// under a structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline
-    /// that is oblique to them. A flexible base gets at least one element for each of its segments, or as many cells as
-    /// it has faces: then ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)``
-    /// is that number.
+    /// Ground with contact elements under the foundations of a ``structure``.
+    ///
+    /// It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
+    /// a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
+    /// flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+    /// ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
     ///
     /// ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and

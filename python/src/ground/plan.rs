@@ -10,10 +10,11 @@ use crate::error::{OrRaise, input_error};
 use crate::profile::Profile;
 use crate::ticker::with_progress;
 
-/// Square cells of contact under a mat, for an `ElasticGround` of three directions: the cells that the ``faces`` of the
-/// mat cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it),
-/// with ``cells`` along the shorter side of all faces together. Oblique edges cut the cells; at straight edges along x
-/// and y the cells extend beyond the edge by 0.105 of their side.
+/// Square contact cells under a mat, for an `ElasticGround` in plan.
+///
+/// They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
+/// m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
+/// cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
@@ -109,10 +110,12 @@ impl PyPlan {
         self.0.count()
     }
 
-    /// Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
-    /// e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
-    /// moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
-    /// "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
+    /// Dynamic stiffness of the mat as one rigid body on a ``soil``.
+    ///
+    /// It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
+    /// Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
+    /// (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
+    /// without shear, horizontal ones without pressure).
     #[pyo3(signature = (soil, frequencies, *, contact="bonded"))]
     pub(super) fn impedances<'py>(
         &self,

@@ -50,11 +50,13 @@ impl PySpringGround {
         Ok(PyClassInitializer::from(superclass).add_subclass(Self))
     }
 
-    /// Ground with a strip of ``count`` equal elements under each foundation of a ``structure``; under a structure in
-    /// plan ``count`` cells along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m),
-    /// ``across_stiffness``, ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base
-    /// gets at least one element for each of its segments, or as many cells as it has faces: then ``count`` is raised.
-    /// The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+    /// Spring bed with contact elements under the foundations of a ``structure``.
+    ///
+    /// It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
+    /// along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
+    /// ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
+    /// element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
+    /// its number of elements, and ``len(ground.elements)`` is that number.
     #[staticmethod]
     #[pyo3(
         signature = (structure, count, *stiffness, **options),

@@ -54,8 +54,10 @@ impl PyGround {
     }
 }
 
-/// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-/// arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
+/// Dynamic stiffness of a rigid base without mass, per metre of thickness.
+///
+/// It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
+/// radiation and damping.
 #[pyclass(name = "Impedances", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);

@@ -7,7 +7,9 @@ use pyo3::prelude::*;
 use crate::array::Count;
 use crate::error::OrRaise;
 
-/// Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep.
+/// Rectangular trench in the surface of the ground, in the plane.
+///
+/// It reaches from ``left`` to ``right`` (x, m) and is ``depth`` (m) deep.
 #[pyclass(name = "Trench", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyTrench(Trench);
@@ -51,7 +53,7 @@ pub(crate) fn is_base_element(element: &ContactElement) -> bool {
 
 /// Contact elements of the faces of a `Trench`: down the left wall, along the base, up the right wall.
 ///
-/// `Trench.elements` makes them; ``len()`` counts them.
+/// `Trench.elements` creates them; ``len()`` is their number.
 #[pyclass(name = "TrenchElements", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyTrenchElements(pub(super) TrenchElements);

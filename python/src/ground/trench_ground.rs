@@ -69,8 +69,10 @@ extracts!(BackfillArguments, object => {
     }
 });
 
-/// Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
-/// ``elements`` (`TrenchElements`).
+/// Soil around a trench, in the plane.
+///
+/// It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
+/// (`TrenchElements`).
 ///
 /// The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 ///
@@ -181,7 +183,9 @@ impl PyTrenchGround {
     }
 }
 
-/// Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+/// Harmonic motion of a rigid body without mass in a trench.
+///
+/// It is relative to a unit motion e^(iωt) of the surface of the free field.
 ///
 /// It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
 /// Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.

@@ -74,7 +74,9 @@ impl PyCohesive {
     }
 }
 
-/// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
+/// Coulomb friction on soil that yields under its bearing pressure.
+///
+/// ``bearing_pressure``: Pa. ``friction``: coefficient.
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
@@ -87,8 +89,9 @@ impl PyYielding {
     }
 }
 
-/// Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and whose pressure is at
-/// most its ``bearing_pressure`` (Pa).
+/// Coulomb friction on soil that settles in every cycle of load.
+///
+/// ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
 ///
 /// Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
 /// ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
@@ -122,11 +125,13 @@ impl PyCyclicYielding {
     }
 }
 
-/// Coulomb friction of a wall, of a coefficient ``friction``, on soil that yields: at its ``active`` pressure (Pa)
-/// towards a wall that moves away, at its ``passive`` pressure (Pa) under a wall that moves into it.
+/// Coulomb friction between a wall and soil that yields.
+///
+/// ``friction``: coefficient. The soil yields at its ``active`` pressure (Pa) towards a wall that moves away, at its
+/// ``passive`` pressure (Pa) under a wall that moves into it.
 ///
 /// With an ``active`` pressure of 0 the soil is stable by its cohesion, and a gap opens at the wall.
-/// `TrenchGround.interfaces` makes these laws from the strength of the soil.
+/// `TrenchGround.interfaces` creates these laws from the strength of the soil.
 #[pyclass(name = "EarthPressure", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyEarthPressure(EarthPressure);
 
@@ -145,7 +150,7 @@ impl PyEarthPressure {
     }
 }
 
-/// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
+/// Thin elastic layer between base and ground (Patel and Spyrakos).
 ///
 /// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
 /// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
@@ -222,9 +227,10 @@ impl PyThinLayer {
     }
 }
 
-/// Coulomb friction whose coefficient is a function of the start of the step: ``coefficient(start)`` returns a number
-/// for a `PreviousContact`. An exception of the function ends the run and is raised there. ``tensile_strength`` (Pa; 0
-/// by default) acts on an element until it first opens.
+/// Coulomb friction with a coefficient by a function of Python.
+///
+/// ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
+/// raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 

@@ -11,8 +11,8 @@ use crate::error::{self, OrRaise, has_stored_exception, input_error, raise_user_
 use crate::list_arguments::reject_class;
 use crate::recipe::Recipe;
 
-/// Motion of the ground's surface without the structure: a `Record`, a wave, or what `free_field` makes of a function.
-/// Until t = 0 the ground is at rest.
+/// Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+/// the ground is at rest.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,

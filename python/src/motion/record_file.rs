@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, input_error};
 
-/// Options of `Record.read` other than path and format; `None` for those that the caller left out.
+/// Options of `Record.read` other than path and format; `None` for options that are not given.
 #[derive(Default)]
 pub(super) struct FileOptions<'a> {
     pub(super) unit: Option<&'a str>,

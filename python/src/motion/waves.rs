@@ -108,8 +108,8 @@ fn wave_field(
     Ok(PyFreeField { wave: Some(wave), ..new_free_field(move || make_field())? })
 }
 
-/// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
-/// right or, if ``vertical`` (False by default), up.
+/// Ricker pulse of displacement to the right, or up if ``vertical`` (False by default): ``amplitude`` of the peak (m),
+/// width ``sigma`` (s), time ``center`` (s).
 #[pyfunction]
 #[pyo3(signature = (amplitude, sigma, center, *, vertical=false))]
 pub(crate) fn ricker(
@@ -124,8 +124,9 @@ pub(crate) fn ricker(
     })
 }
 
-/// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
-/// `field_from_horizontal` and `field_from_vertical` make it a motion.
+/// Plane wave below the surface of a half-plane, or Rayleigh wave.
+///
+/// `field_from_horizontal` and `field_from_vertical` convert it to a motion.
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
@@ -274,9 +275,9 @@ impl PyColumn {
         Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
-    /// Ratio of the motion of the surface to the motion of the ``control`` point for e^(iωt): complex array of
-    /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
-    /// base without layers) or "within" (the base under them).
+    /// Ratio of the surface motion to the motion of the ``control`` point for e^(iωt): complex array of shape (m,) at
+    /// ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the base without layers) or
+    /// "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
     fn transfer(
         &self,
@@ -291,9 +292,9 @@ impl PyColumn {
         Ok(values.into_iter().map(numpy_complex).collect())
     }
 
-    /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or "within", as
-    /// long. If motion before or after the record is cut off, a `BasematWarning` states its magnitude relative to the
-    /// peak, from 0.01 % on; `Record.padded` avoids it.
+    /// The record of the surface, as long as the ``record`` of the ``control`` point, "outcrop" (the default) or
+    /// "within". If motion is cut off at its ends, a `BasematWarning` states how much of the peak, from 0.01 % on;
+    /// `Record.padded` avoids it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through_column(py, record, control, |control, time_step, samples, observer| {
@@ -337,18 +338,17 @@ impl PyColumn {
             })
         })?;
         let records = [surface.x, surface.y, surface.up];
-        Ok(records.map(|record| record.map(|record| PyRecord(Arc::new(record)))))
+        Ok(records.map(|component| component.map(|record| PyRecord(Arc::new(record)))))
     }
 }
 
-/// A plane wave from the half-plane under a layered profile; `field` makes it a motion.
+/// A plane wave from the half-plane under a layered profile; `field` converts it to a motion.
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
 #[pymethods]
 impl PyInclinedWave {
-    /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-    /// positive.
+    /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive.
     #[staticmethod]
     fn sv(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
         InclinedWave::sv(profile.0.clone(), angle).or_raise().map(Self)
@@ -361,8 +361,7 @@ impl PyInclinedWave {
         InclinedWave::sh(profile.0.clone(), angle).or_raise().map(Self)
     }
 
-    /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-    /// positive.
+    /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive.
     #[staticmethod]
     fn p(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
         InclinedWave::p(profile.0.clone(), angle).or_raise().map(Self)
@@ -374,10 +373,9 @@ impl PyInclinedWave {
         self.0.apparent_velocity()
     }
 
-    /// The `FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
-    /// (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
-    /// "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-    /// default) is as in `travelling_wave`.
+    /// The `FreeField` of the surface for the ``record`` at the ``control`` point at ``origin`` (x, m), which the wave
+    /// reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base without layers) or
+    /// "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
     #[pyo3(signature = (record, origin, *, control="outcrop_horizontal", azimuth=0.0))]
     fn field(
         &self,

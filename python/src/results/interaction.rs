@@ -9,7 +9,7 @@ use crate::array::OrderedDict;
 use crate::error::OrRaise;
 use crate::names::preformatted;
 
-/// Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19).
+/// Vibration mode on a fixed base and on the ground (ASCE 7, chapter 19).
 #[pyclass(name = "SystemMode", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySystemMode(SystemMode);

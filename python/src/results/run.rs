@@ -15,7 +15,9 @@ use crate::motion::{PyRecord, PySpectrum, coarse_period_warnings};
 use crate::names::preformatted;
 use crate::ticker::with_progress;
 
-/// A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
+/// Results of a run: `Summary` of the whole base, energies and time series.
+///
+/// It also has envelopes and warnings.
 ///
 /// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
 /// printed, a run is a page for a report.
@@ -153,7 +155,7 @@ impl PyRun {
         self.run.shear_coefficient()
     }
 
-    /// Each foundation by itself: list of `Summary`, from left to right.
+    /// Each foundation separately: list of `Summary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PySummary> {
         self.run.foundations.iter().cloned().map(PySummary).collect()

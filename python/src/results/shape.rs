@@ -15,12 +15,14 @@ use crate::structure::{
     PyWithModalDamping, PyWithSprings, PyWithWalls, structure_recipe,
 };
 
-/// Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
+/// Points and outlines of a ``structure`` for pictures and for ParaView.
+///
+/// The degrees of freedom of the structure move the points.
 ///
 /// A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
 /// grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
 /// is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
-/// of this ``height`` (m) on its base; it is an error if ``height`` is not given.
+/// of this ``height`` (m) on its base; it is an error unless ``height`` is given.
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
 pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
 

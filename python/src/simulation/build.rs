@@ -141,8 +141,11 @@ pub(super) fn run_step_count(
             error::warn(py, text)?;
             Ok(motion_steps)
         }
-        (None, None, None) => {
-            Err(input_error("give steps or a duration: the motion has no record with an end"))
-        }
+        (None, None, None) => Err(missing_end_error("steps or a duration")),
     }
+}
+
+/// Error for a motion without an end, for which the user must give these `arguments`.
+pub(super) fn missing_end_error(arguments: &str) -> PyErr {
+    input_error(format!("give {arguments}: the motion has no record with an end"))
 }

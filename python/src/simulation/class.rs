@@ -7,7 +7,7 @@ use basemat::coupled::{Change, Checkpoint};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::build;
+use super::build::{self, missing_end_error};
 use super::options::{
     PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions,
     reject_unknown_arguments,
@@ -16,16 +16,14 @@ use super::parts::{BuilderParts, OptionGroups, SimulationParts};
 use super::run_reporter::{RunReporter, prepare_next_step, step_result};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps};
 use crate::array::{Array, whole_numbers};
-use crate::error::{
-    self, OrRaise, input_error, lock_error, take_exception, to_exception, user_code_error,
-};
+use crate::error::{self, OrRaise, lock_error, take_exception, to_exception, user_code_error};
 use crate::list_arguments::{ListOf, type_error};
 use crate::names::DofNames;
 use crate::probe::PyProbe;
 use crate::results::{PyInteraction, PyRun};
 use crate::ticker::{progress_function, with_progress};
 
-/// Simulation of a structure on a ground in time, from the static state under its weight.
+/// Simulation of a structure on a ground, from its static state on.
 ///
 /// Args:
 ///     time_step: time step, s.
@@ -34,8 +32,8 @@ use crate::ticker::{progress_function, with_progress};
 ///         `UserGround`.
 ///     interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for all contact elements, or a list
 ///         of one each, from left to right.
-///     motion: ground motion, a `FreeField`: a `Record`, a wave, or what `free_field` makes of a function. Without a
-///         motion the ground is at rest.
+///     motion: ground motion, a `FreeField`: a `Record`, a wave, or a function by `free_field`. Without a motion the
+///         ground is at rest.
 ///     loads: forces from outside, a list of `Load`; none unless given.
 ///     probes: quantities to record at every step, a list of `Probe` with names of their own; none unless given.
 ///     initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
@@ -59,7 +57,7 @@ pub(crate) struct PySimulation {
     motion_duration: Option<f64>,
     /// Checkpoint at the start, or the reason why the simulation cannot return to it.
     start: PyResult<Checkpoint>,
-    /// Parts and settings, from which the same scene can be made again.
+    /// Parts and settings, from which the same scene can be built again.
     parts: SimulationParts,
 }
 
@@ -237,8 +235,7 @@ impl PySimulation {
     /// The series of all steps must fit into `memory_limit` before the first step; with ``observe``, which may end the
     /// run, only the series of the steps made.
     ///
-    /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
-    /// by default.
+    /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True by default.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
         every=1, contact_every=None, motion_every=None, foundations=false, warn=true,
@@ -289,8 +286,8 @@ impl PySimulation {
         Ok(run)
     }
 
-    /// Makes one step and returns the new state. Raises `StepError` if the step could not be
-    /// solved; the simulation is then as it was before.
+    /// Makes one step and returns the new state. A `StepError` is raised if the step has no solution; the simulation is
+    /// then unchanged.
     fn step(&self, py: Python<'_>) -> PyResult<PyState> {
         take_exception();
         py.detach(|| {
@@ -319,11 +316,11 @@ impl PySimulation {
         Ok(PySteps { simulation: slf.into_any().unbind(), remaining })
     }
 
-    /// Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
+    /// Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
     ///
-    /// ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
-    /// None returns to that function. A controller computes it from the last state and sets it before each
-    /// `step`. A checkpoint holds it; `reset` returns to the functions.
+    /// ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
+    /// of the load; None restores that function. A controller computes the force from the last state and sets it before
+    /// each `step`. A checkpoint contains it; `reset` restores the functions.
     fn set_load(
         &self,
         #[pyo3(from_py_with = whole_numbers)] index: usize,
@@ -341,8 +338,8 @@ impl PySimulation {
     /// deflection in this mode. The soil is linear: give it the moduli of the design motion.
     #[pyo3(signature = (duration=None))]
     fn interaction(&self, py: Python<'_>, duration: Option<f64>) -> PyResult<PyInteraction> {
-        let requirement = "give a duration: the motion has no record with an end";
-        let duration = duration.or(self.motion_duration).ok_or_else(|| input_error(requirement))?;
+        let duration =
+            duration.or(self.motion_duration).ok_or_else(|| missing_end_error("a duration"))?;
         take_exception();
         let interaction = py.detach(|| {
             step_result(basemat::analyses::interaction(duration, || {
@@ -374,9 +371,8 @@ impl PySimulation {
     #[pyo3(signature = (checkpoint, changes=None))]
     fn resume(&self, checkpoint: &PyCheckpoint, changes: Option<Vec<String>>) -> PyResult<()> {
         take_exception();
-        let change_names = changes.unwrap_or_default();
         let changes: basemat::Result<Vec<Change>> =
-            change_names.iter().map(|name| name.parse()).collect();
+            changes.iter().flatten().map(|name| name.parse()).collect();
         step_result(self.lock()?.resume_changed(&checkpoint.0, &step_result(changes)?))
     }
 

@@ -126,7 +126,9 @@ impl PyFoundation {
     }
 }
 
-/// Forces on the soil behind one face of a structure in the ground, per metre of thickness: from `State.face`.
+/// Forces on the soil at one face of a structure in the ground.
+///
+/// They are per metre of thickness. `State.face` returns them.
 #[pyclass(name = "FaceForces", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFaceForces(pub(super) FaceForces);

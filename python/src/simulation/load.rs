@@ -13,7 +13,7 @@ use crate::row::{RowLike, WeightCount};
 
 /// A force that acts on a structure from outside.
 ///
-/// ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time (s) that returns the
+/// ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
 /// force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
 /// applied slowly after the weight, while the interface law acts.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]

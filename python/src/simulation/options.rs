@@ -103,7 +103,7 @@ impl PySolverOptions {
 ///
 /// Args:
 ///     moment_center: x of the reference point of the base moment, m; the middle of the base unless given.
-///     energy_balance: whether energies are computed; True by default. Without them a step takes less time, and
+///     energy_balance: whether energies are computed; True by default. Without them steps are faster, and
 ///         `Run.energy_error` is NaN.
 ///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the interface
 ///         law unless given.

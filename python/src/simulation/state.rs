@@ -192,13 +192,14 @@ impl PyState {
             .collect()
     }
 
-    /// Each foundation by itself: list of `FoundationState`, from left to right.
+    /// Each foundation separately: list of `FoundationState`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundation> {
         self.0.foundations.iter().cloned().map(PyFoundation).collect()
     }
 
-    /// Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal".
+    /// Search method of the modes in this step: "active_set", "gauss_seidel", "path", and in plan "newton" or
+    /// "proximal".
     #[getter]
     fn method(&self) -> String {
         self.0.method.to_string()
@@ -234,7 +235,7 @@ impl PyState {
     }
 }
 
-/// Iterator over steps of a simulation, which yields the `State` at the end of each step.
+/// Iterator over steps, which yields the `State` at the end of each.
 ///
 /// ``len()`` is the number of remaining steps. `Simulation.steps` creates it.
 #[pyclass(name = "Steps", module = "basemat")]

@@ -8,8 +8,10 @@ use crate::error::{OrRaise, WithOption};
 use crate::names::DofNames;
 use crate::row::{PyDofCombination, python_rows};
 
-/// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-/// the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
+/// A rigid block on a flat base, in the plane.
+///
+/// Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
+/// "x", "y", "rotation" for `dof`.
 ///
 /// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
 /// (m/s²) of the P–Δ effect of its weight; none unless given.
@@ -17,8 +19,8 @@ use crate::row::{PyDofCombination, python_rows};
 pub(crate) struct PyRigidBlock(RigidBlock);
 
 extends!(PyRigidBlock, block => {
-    let names = ["x", "y", "rotation"].map(String::from).to_vec();
-    PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(names, 3)?))
+    let dof_names = ["x", "y", "rotation"].map(String::from).to_vec();
+    PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 3)?))
 });
 
 /// The block at its place, with P–Δ if there is a gravity for it.
@@ -98,9 +100,11 @@ impl PyRigidBlock {
     }
 }
 
-/// A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along x (to
-/// the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a
-/// ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
+/// A rigid body on a flat base, in space.
+///
+/// Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
+/// rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
+/// `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
 #[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
@@ -108,8 +112,8 @@ pub(crate) struct PyRigidBody(pub(super) RigidBody);
 pub(super) const BODY_DOF_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 extends!(PyRigidBody, body => {
-    let names = BODY_DOF_NAMES.map(String::from).to_vec();
-    PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(names, 6)?))
+    let dof_names = BODY_DOF_NAMES.map(String::from).to_vec();
+    PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 6)?))
 });
 
 /// The body at its place, with P–Δ if there is a gravity for it.

@@ -83,12 +83,12 @@ const BASE_DOF_NAMES: [&str; 3] = ["base_x", "base_y", "base_rotation"];
 extends!(PyShearBuilding, building => {
     let make = Arc::clone(&building.0);
     let dof_count = building.model()?.dofs();
-    let mut names = BASE_DOF_NAMES.map(String::from).to_vec();
+    let mut dof_names = BASE_DOF_NAMES.map(String::from).to_vec();
     for storey in 0..dof_count - BASE_DOF_NAMES.len() {
-        names.push(format!("floor_{storey}"));
+        dof_names.push(format!("floor_{storey}"));
     }
-    let names = DofNames::new(names, dof_count)?;
-    PyStructure::new(move || make()).with_dof_names(Some(names))
+    let dof_names = DofNames::new(dof_names, dof_count)?;
+    PyStructure::new(move || make()).with_dof_names(Some(dof_names))
 });
 
 impl PyShearBuilding {
@@ -240,8 +240,10 @@ enum StoreyLaw {
     Biaxial(Factory<BiaxialSpring>),
 }
 
-/// Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
-/// and twist, and tilt with the mat.
+/// Building with rigid floors on a rigid mat, in space.
+///
+/// Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
+/// and tilt with the mat.
 ///
 /// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
 /// every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
@@ -260,11 +262,11 @@ const FLOOR_DOF_NAMES: [&str; 3] = ["x", "y", "rz"];
 extends!(PyStoreyBuilding, building => {
     let make = Arc::clone(&building.0);
     let dof_count = building.model()?.dofs();
-    let mut names = BODY_DOF_NAMES.map(String::from).to_vec();
+    let mut dof_names = BODY_DOF_NAMES.map(String::from).to_vec();
     for storey in 0..(dof_count - BODY_DOF_NAMES.len()) / FLOOR_DOF_NAMES.len() {
-        names.extend(FLOOR_DOF_NAMES.map(|name| format!("floor_{storey}_{name}")));
+        dof_names.extend(FLOOR_DOF_NAMES.map(|name| format!("floor_{storey}_{name}")));
     }
-    PyStructure::new(move || make()).with_dof_names(Some(DofNames::new(names, dof_count)?))
+    PyStructure::new(move || make()).with_dof_names(Some(DofNames::new(dof_names, dof_count)?))
 });
 
 impl PyStoreyBuilding {

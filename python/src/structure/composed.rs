@@ -15,7 +15,9 @@ use crate::names::DofNames;
 use crate::recipe::{Factory, Recipe, SharedStructure};
 use crate::row::{PyDofCombination, RowLike};
 
-/// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
+/// Rayleigh damping by a damping matrix a M + b K.
+///
+/// ``mass``: factor a of the mass matrix, 1/s. ``stiffness``: factor b of the stiffness matrix, s.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
@@ -26,7 +28,7 @@ impl PyRayleighDamping {
         Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
     }
 
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    /// Rayleigh damping with the damping ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
     #[staticmethod]
     fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
         RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self)
@@ -50,9 +52,11 @@ impl PyRayleighDamping {
     }
 }
 
-/// A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in the list
-/// ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio`` of these modes replaces
-/// the damping of the structure, if given.
+/// A ``structure`` reduced by the method of Craig and Bampton.
+///
+/// The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
+/// the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
+/// structure, if given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel {
     pub(crate) reduced: Arc<ReducedModel>,
@@ -107,9 +111,10 @@ impl PyReducedModel {
     }
 }
 
-/// Several structures on one ground, coupled through the soil: ``members`` is a list of pairs ``(structure, shift)``
-/// from left to right, each moved to the right by its shift (m); in plan in any order, without overlap; their positions
-/// along y are unchanged (``center`` of `RigidBody.cuboid`).
+/// Several structures on one ground, coupled through the soil.
+///
+/// ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
+/// plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     pub(crate) make: Factory<StructureGroup>,
@@ -157,8 +162,10 @@ impl PyStructureGroup {
     }
 }
 
-/// A ``structure`` with damping ``ratios`` (array of shape (m,)) of its modes in addition to its damping: the lowest
-/// mode first; the last ratio is that of all further modes.
+/// A ``structure`` with additional damping of its modes.
+///
+/// ``ratios``: damping ratios of the modes (array of shape (m,)), the lowest mode first; the last ratio is that of all
+/// further modes.
 ///
 /// With ``fixed_base`` the modes are those on a fixed base, as in codes and tests. Without it (the default) they are
 /// those of the free structure, whose frequencies are far higher: with a ratio of 5 %, the first mode of five storeys
@@ -182,7 +189,7 @@ impl PyWithModalDamping {
         let py = structure.py();
         let make_structure = structure_recipe(&structure)?;
         let undamped = make_structure().or_raise()?;
-        let names = DofNames::from_structure(&structure, undamped.dofs())?;
+        let dof_names = DofNames::from_structure(&structure, undamped.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
         let add_damping = move |undamped| {
             if fixed_base { damping.on_fixed_base(undamped) } else { damping.on(undamped) }
@@ -191,7 +198,7 @@ impl PyWithModalDamping {
         let damped = py.detach(|| add_damping(undamped)).or_raise()?;
         let frequencies = damped.frequencies().to_vec();
         let superclass =
-            PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(names);
+            PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(dof_names);
         let model = Self { frequencies, structure: structure.unbind() };
         Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }
@@ -222,9 +229,9 @@ impl PyWithWalls {
     fn new(structure: Bound<'_, PyAny>, depth: f64) -> PyResult<PyClassInitializer<Self>> {
         let make_structure = structure_recipe(&structure)?;
         let with_walls = WithWalls::new(make_structure().or_raise()?, depth).or_raise()?;
-        let names = DofNames::from_structure(&structure, with_walls.dofs())?;
+        let dof_names = DofNames::from_structure(&structure, with_walls.dofs())?;
         let superclass = PyStructure::new(move || WithWalls::new(make_structure()?, depth))
-            .with_dof_names(names);
+            .with_dof_names(dof_names);
         let model = Self { structure: structure.unbind(), depth };
         Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }

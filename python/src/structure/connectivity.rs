@@ -65,7 +65,7 @@ fn node_number(value: f64) -> PyResult<usize> {
     Ok(value as usize)
 }
 
-/// Node numbers of elements: anything that numpy takes for an array of shape (elements, nodes each).
+/// Node numbers of elements: anything that numpy converts to an array of shape (elements, nodes each).
 pub(super) struct Connectivity {
     /// Number of nodes of an element.
     pub(super) nodes_each: usize,

@@ -176,8 +176,10 @@ impl PyFemModel {
     }
 }
 
-/// A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes closer than
-/// ``merge_within`` (m) become one, no nodes unless given.
+/// A mesh of quadrilaterals from a file of Gmsh.
+///
+/// ``path`` of the file: formats 4.1 and 2.2, text or binary. Nodes closer than ``merge_within`` (m) become one, no
+/// nodes unless given.
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 

@@ -13,8 +13,10 @@ use crate::array::{Count, Rows, real_number};
 use crate::error::OrRaise;
 use crate::list_arguments::type_error;
 
-/// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats 4.1 and 2.2,
-/// text or binary) at ``path``; nodes closer than ``merge_within`` (m) become one, no nodes unless given.
+/// A mesh in space from a file of Gmsh.
+///
+/// It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
+/// or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 

@@ -26,8 +26,10 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
     choice("direction", name, &choices)
 }
 
-/// Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given. `in_space` makes
-/// a mesh in space. Its methods add elements and return their numbers; after an error they have added none.
+/// Nodes and finite elements in the plane, or by `in_space` in space.
+///
+/// ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
+/// an error they have added none.
 ///
 /// In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
 /// of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",

@@ -12,8 +12,9 @@ use crate::array::{Array, Count, Numbers, Rows, whole_numbers};
 use crate::error::{OrRaise, call_user_code, extract_returned, input_error, raise_user_exceptions};
 use crate::row::PySectionRows;
 
-/// Forces and moments of a shell at a point, per metre of width, in its `axes`: from
-/// `FemModel.shell_resultants` and `ShellRows.value`.
+/// Forces and moments of a shell at a point, per metre of width.
+///
+/// They refer to the `axes`. `FemModel.shell_resultants` and `ShellRows.value` return them.
 #[pyclass(name = "ShellResultants", module = "basemat", frozen)]
 pub(crate) struct PyShellResultants(ShellResultants);
 
@@ -56,8 +57,9 @@ impl PyShellResultants {
     }
 }
 
-/// Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
-/// `FemModel.shell_rows`.
+/// Rows of the forces and moments of shells at a node, for `Probe.section`.
+///
+/// They are rows of displacements, per metre of width. `FemModel.shell_rows` returns them.
 ///
 /// A probe records changes from the static state; the static part is the `value` for the ``static_displacement`` of the
 /// simulation. The rows contain the elastic forces, without damping.

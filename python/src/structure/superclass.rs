@@ -14,8 +14,9 @@ use crate::recipe::Recipe;
 use crate::row::PyDofCombination;
 use crate::user::UserStructure;
 
-/// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a description from
-/// which each simulation builds a separate structure.
+/// A structure with n degrees of freedom, which only the ground supports.
+///
+/// Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
@@ -28,7 +29,7 @@ impl PyStructure {
         Self::new(move || Ok(structure.clone()))
     }
 
-    /// The superclass object of a structure that `make` makes for each simulation.
+    /// The superclass object of a structure that `make` builds for each simulation.
     pub(crate) fn new<S: Structure + 'static>(
         make: impl Fn() -> basemat::Result<S> + Send + Sync + 'static,
     ) -> Self {
