@@ -1,4 +1,4 @@
-//! Arrays and matrices that come from Python, and the memory that they may take.
+//! Arrays and matrices that come from Python, and the limit of their memory.
 
 use basemat::structure::Triplets;
 use numpy::ndarray::{Ix1, Ix2, Ix3};
@@ -9,7 +9,7 @@ use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
 use crate::error::input_error;
 
-/// The array of real numbers that numpy makes of an object, with the number of axes of `shape`.
+/// Array of real numbers by numpy from an object, with the number of axes of `shape`.
 ///
 /// An error for complex numbers, texts and None, which numpy would convert.
 fn real_array<'py, D: numpy::ndarray::Dimension>(
@@ -23,29 +23,30 @@ fn real_array<'py, D: numpy::ndarray::Dimension>(
     let array = numpy.call_method1("asarray", (object,)).map_err(|error| {
         input_error(format!("no array of numbers, but must be one of shape {shape} ({error})"))
     })?;
-    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-    let array = match kind.as_str() {
+    let dtype_kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    let array = match dtype_kind.as_str() {
         "f" | "i" | "u" | "b" => array,
         "O" => {
             let values = array.call_method0("ravel")?.call_method0("tolist")?;
-            let each = values.try_iter()?.map(|value| real_number("an entry", &value?));
-            let values = each.collect::<PyResult<Vec<f64>>>()?;
-            let list = numpy.call_method1("array", (values,))?;
-            list.call_method1("reshape", (array.getattr("shape")?,))?
+            let numbers = values.try_iter()?.map(|value| real_number("an entry", &value?));
+            let values = numbers.collect::<PyResult<Vec<f64>>>()?;
+            let flat_array = numpy.call_method1("array", (values,))?;
+            flat_array.call_method1("reshape", (array.getattr("shape")?,))?
         }
         _ => {
-            let found = array.getattr("dtype")?;
-            return Err(input_error(format!("an array of {found}, but must be of real numbers")));
+            let dtype = array.getattr("dtype")?;
+            return Err(input_error(format!("an array of {dtype}, but must be of real numbers")));
         }
     };
     let array = array.call_method1("astype", ("float64",))?;
     if let Ok(array) = array.cast::<PyArray<f64, D>>() {
         return readonly(array);
     }
-    let found = array.getattr("shape")?;
-    Err(input_error(format!("an array of shape {found}, but must be of shape {shape}")))
+    let array_shape = array.getattr("shape")?;
+    Err(input_error(format!("an array of shape {array_shape}, but must be of shape {shape}")))
 }
 
+/// The array for reading; an error while it is being written.
 fn readonly<'py, T: Element, D: numpy::ndarray::Dimension>(
     array: &Bound<'py, PyArray<T, D>>,
 ) -> PyResult<PyReadonlyArray<'py, T, D>> {
@@ -58,27 +59,27 @@ pub(crate) fn real_number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64>
         return Ok(number.value());
     }
     let numpy = value.py().import("numpy")?;
-    let complex = numpy.call_method1("iscomplexobj", (value,))?.is_truthy()?;
-    let number = if complex { None } else { value.extract::<f64>().ok() };
+    let is_complex = numpy.call_method1("iscomplexobj", (value,))?.is_truthy()?;
+    let number = if is_complex { None } else { value.extract::<f64>().ok() };
     match number {
         Some(number) => Ok(number),
         None => Err(input_error(format!("{name} is {}, but must be a real number", value.repr()?))),
     }
 }
 
-/// Whole numbers from 0 on: a count, an index, or a list of them.
+/// Extracts whole numbers of 0 or more: a count, an index, or a list of them.
 pub(crate) fn whole_numbers<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
-    if let Ok(found) = object.extract() {
-        return Ok(found);
+    if let Ok(numbers) = object.extract() {
+        return Ok(numbers);
     }
-    let found = object.repr()?;
-    Err(input_error(format!("{found}, but only whole numbers from 0 on will do")))
+    let object_text = object.repr()?;
+    Err(input_error(format!("{object_text}, but must be whole numbers of 0 or more")))
 }
 
-/// An array of `values` in a new array of numpy, which raises a `MemoryError` if it does not fit.
+/// New array of numpy with these `values`; a `MemoryError` if it does not fit.
 pub(crate) fn filled_array<T: Element>(
     py: Python<'_>,
     shape: [usize; 2],
@@ -95,13 +96,13 @@ pub(crate) fn filled_array<T: Element>(
     Ok(array)
 }
 
-/// `N` whole numbers from 0 on.
+/// Extracts `N` whole numbers of 0 or more.
 pub(crate) fn whole_array<const N: usize>(object: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
-    let found: Vec<usize> = whole_numbers(object)?;
-    let count = found.len();
-    found
+    let numbers: Vec<usize> = whole_numbers(object)?;
+    let number_count = numbers.len();
+    numbers
         .try_into()
-        .map_err(|_| input_error(format!("{count} numbers, but must be {N}")))
+        .map_err(|_| input_error(format!("{number_count} numbers, but must be {N}")))
 }
 
 /// Numbers that Python gets as an array of shape (n,).
@@ -135,8 +136,8 @@ impl<'py, T: Element> IntoPyObject<'py> for Array<T> {
     }
 }
 
-/// A complex number as numpy has it.
-pub(crate) fn complex(value: basemat::Complex) -> Complex64 {
+/// A complex number as a number of numpy.
+pub(crate) fn numpy_complex(value: basemat::Complex) -> Complex64 {
     Complex64::new(value.re, value.im)
 }
 
@@ -172,65 +173,66 @@ impl<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>> IntoPyObject<'py> for Orde
     }
 }
 
-/// A number of a part, an index or a count.
+/// An index or a count: a whole number of 0 or more.
 #[derive(Clone, Copy)]
 pub(crate) struct Count(pub(crate) usize);
 
 extracts!(Count, object => Ok(Self(whole_numbers(&object)?)));
 
-/// Numbers of anything that numpy takes for a list of them.
+/// Numbers: anything that numpy converts to an array of shape (n,).
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
 extracts!(Numbers, object => Ok(Self(real_array::<Ix1>(&object, "(n,)")?.as_array().to_vec())));
 
-/// Pairs of numbers: anything that numpy takes for an array of shape (n, 2).
+/// Pairs of numbers: anything that numpy converts to an array of shape (n, 2).
 pub(crate) struct Pairs(pub(crate) Vec<[f64; 2]>);
 
 extracts!(Pairs, object => {
-    let Table { columns, rows } = Table::read(&object, "(n, 2)")?;
+    let Table { column_count, rows } = Table::read(&object, "(n, 2)")?;
     let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
     Ok(Self(pairs.map_err(|row| {
-        input_error(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
+        input_error(format!("an array of {column_count} columns, but must be of shape (n, 2): {row:?}"))
     })?))
 });
 
-/// Points in the plane or in space: anything that numpy takes for an array of shape (n, 2) or (n, 3).
+/// Points in the plane or in space: anything that numpy converts to an array of shape (n, 2) or (n, 3).
 pub(crate) struct Points {
-    columns: usize,
+    /// Number of coordinates of a point, two or three.
+    axis_count: usize,
     rows: Vec<Vec<f64>>,
 }
 
 extracts!(Points, object => {
-    let Table { columns, rows } = Table::read(&object, "(n, 3), or (n, 2) in the plane")?;
-    if !(columns == 2 || columns == 3) {
-        let needed = "must be of shape (n, 3), or (n, 2) in the plane";
-        return Err(input_error(format!("an array of {columns} columns, but {needed}")));
+    let Table { column_count, rows } = Table::read(&object, "(n, 3), or (n, 2) in the plane")?;
+    if !(column_count == 2 || column_count == 3) {
+        let requirement = "must be of shape (n, 3), or (n, 2) in the plane";
+        return Err(input_error(format!("an array of {column_count} columns, but {requirement}")));
     }
-    Ok(Self { columns, rows })
+    Ok(Self { axis_count: column_count, rows })
 });
 
 impl Points {
-    /// Places [x, y, z], with z = 0 for points in the plane.
+    /// Coordinates [x, y, z], with z = 0 for points in the plane.
     pub(crate) fn in_plane(self) -> Vec<[f64; 3]> {
-        let places = self.rows.iter();
-        places.map(|row| [row[0], row[1], row.get(2).copied().unwrap_or_default()]).collect()
+        let rows = self.rows.iter();
+        rows.map(|row| [row[0], row[1], row.get(2).copied().unwrap_or_default()]).collect()
     }
 
     /// Number of coordinates of a point, two or three.
     pub(crate) fn axis_count(&self) -> usize {
-        self.columns
+        self.axis_count
     }
 
-    /// Places [x, y, z]; an error for points of two coordinates.
+    /// Coordinates [x, y, z]; an error for points of two coordinates.
     pub(crate) fn in_space(self) -> PyResult<Vec<[f64; 3]>> {
-        if self.columns == 3 {
+        if self.axis_count == 3 {
             return Ok(self.in_plane());
         }
         Err(input_error("an array of 2 columns, but must have 3 in space: x, y and z"))
     }
 }
 
-/// Points in rows and columns: anything that numpy takes for an array of shape (rows, columns, 3).
+/// Points in rows and columns: anything that numpy converts to an array of shape (rows, columns, 3).
 pub(crate) struct PointGrid {
     /// Numbers of rows and columns.
     pub(crate) shape: [usize; 2],
@@ -242,17 +244,18 @@ extracts!(PointGrid, object => {
     let shape = "(rows, columns, 3)";
     let array = real_array::<Ix3>(&object, shape)?;
     let array = array.as_array();
-    let found = array.dim();
-    if found.2 != 3 {
-        return Err(input_error(format!("an array of shape {found:?}, but must be of shape {shape}")));
+    let (row_count, column_count, axis_count) = array.dim();
+    if axis_count != 3 {
+        let array_shape = array.dim();
+        return Err(input_error(format!("an array of shape {array_shape:?}, but must be of shape {shape}")));
     }
     let points = array.rows().into_iter().map(|point| [point[0], point[1], point[2]]).collect();
-    Ok(Self { shape: [found.0, found.1], points })
+    Ok(Self { shape: [row_count, column_count], points })
 });
 
-/// Rows of numbers: anything that numpy takes for an array of two axes.
+/// Rows of numbers: anything that numpy converts to an array of two axes.
 pub(crate) struct Table {
-    pub(crate) columns: usize,
+    pub(crate) column_count: usize,
     pub(crate) rows: Vec<Vec<f64>>,
 }
 
@@ -261,27 +264,28 @@ impl Table {
         let array = real_array::<Ix2>(object, shape)?;
         let array = array.as_array();
         let rows = array.rows().into_iter().map(|row| row.to_vec()).collect();
-        Ok(Self { columns: array.ncols(), rows })
+        Ok(Self { column_count: array.ncols(), rows })
     }
 }
 
-/// A square matrix: dense, or any of `scipy.sparse`. Entries of zero are left out.
+/// A square matrix: dense, or any of `scipy.sparse`. Entries of zero are dropped.
 pub(crate) struct Matrix(pub(crate) Triplets);
 
 extracts!(Matrix, object => {
-    if object.hasattr("tocoo")? { sparse(&object) } else { dense(&object) }
+    if object.hasattr("tocoo")? { sparse_matrix(&object) } else { dense_matrix(&object) }
 });
 
-fn square(shape: (usize, usize)) -> PyResult<Triplets> {
+/// An empty matrix of this shape, which must be square.
+fn empty_square(shape: (usize, usize)) -> PyResult<Triplets> {
     if shape.0 == shape.1 {
         return Ok(Triplets::new(shape.0));
     }
     Err(input_error(format!("a matrix of shape {shape:?}, but must be square")))
 }
 
-fn sparse(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
+fn sparse_matrix(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     let entries = object.call_method0("tocoo")?;
-    let mut matrix = square(entries.getattr("shape")?.extract()?)?;
+    let mut matrix = empty_square(entries.getattr("shape")?.extract()?)?;
     let rows = sparse_indices(&entries, "row")?;
     let columns = sparse_indices(&entries, "col")?;
     let Numbers(values) = entries.getattr("data")?.extract()?;
@@ -299,10 +303,10 @@ fn sparse_indices(entries: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<usize>
         .map_err(|error| input_error(format!("indices of a sparse matrix: {error}")))
 }
 
-fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
+fn dense_matrix(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     let array = real_array::<Ix2>(object, "(n, n)")?;
     let array = array.as_array();
-    let mut matrix = square(array.dim())?;
+    let mut matrix = empty_square(array.dim())?;
     for ((row, column), &value) in array.indexed_iter() {
         if value != 0.0 {
             matrix.add(row, column, value);
@@ -311,14 +315,14 @@ fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     Ok(Matrix(matrix))
 }
 
-/// Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take: 8 GiB. Sizes are compared with it
-/// before anything is allocated; an error states the memory that they would take.
+/// Largest memory of one mesh, matrix, ground, record or sweep, bytes: 8 GiB. The needed memory is compared with this
+/// limit before it is allocated; the error states the needed memory.
 #[pyfunction]
 pub(crate) fn memory_limit() -> u64 {
     basemat::memory_limit()
 }
 
-/// Deprecated: warns, and ignores bytes. The limit of one part is fixed (`memory_limit`).
+/// Deprecated: warns and has no effect, since the `memory_limit` is fixed. ``bytes`` is ignored.
 #[pyfunction]
 pub(crate) fn set_memory_limit(
     py: Python<'_>,

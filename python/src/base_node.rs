@@ -6,13 +6,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyIterator;
 
 use crate::array::whole_array;
+use crate::list_arguments::type_error;
 use crate::row::{PyDofCombination, RowLike, WeightCount};
-use crate::several::type_error;
 
-/// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
-/// one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-/// (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
-/// below the surface also its height ``z`` above the surface (m, negative; zero unless given).
+/// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination` or its ``terms``) of its displacement
+/// to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y`` (away from the reader, m; zero
+/// unless given) and the row of its displacement along y, ``across``. On walls and bases below the surface also its
+/// height ``z`` above the surface (m, negative; zero unless given).
 #[pyclass(name = "BaseNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyBaseNode(BaseNode, WeightCount);
@@ -23,7 +23,7 @@ impl From<BaseNode> for PyBaseNode {
     }
 }
 
-/// Nodes as objects of Python.
+/// Nodes of the core as objects of Python.
 fn python_nodes(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
     nodes.into_iter().map(PyBaseNode::from).collect()
 }
@@ -124,17 +124,17 @@ impl PyBaseNode {
 
     fn __repr__(&self) -> String {
         let BaseNode { x, y, z, horizontal, across, vertical, .. } = &self.0;
-        let in_plan = if across.is_empty() && *y == 0.0 {
+        let plan_text = if across.is_empty() && *y == 0.0 {
             String::new()
         } else {
             format!(", y={y:?}, across={:?}", &**across)
         };
-        let below = if *z == 0.0 { String::new() } else { format!(", z={z:?}") };
-        format!("BaseNode({x:?}, {:?}, {:?}{in_plan}{below})", &**horizontal, &**vertical)
+        let height_text = if *z == 0.0 { String::new() } else { format!(", z={z:?}") };
+        format!("BaseNode({x:?}, {:?}, {:?}{plan_text}{height_text})", &**horizontal, &**vertical)
     }
 }
 
-/// The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
+/// The base of a structure in plan: ``faces``, a list of lists of `BaseNode`. An iteration yields these lists.
 ///
 /// A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
 /// face, its outline, which may be given without a list. Faces that touch are one foundation.
@@ -154,18 +154,18 @@ impl PyBaseFaces {
         self.0.len()
     }
 
-    /// Goes through the faces, each a list of its corners (`BaseNode`).
+    /// Iterates over the faces, each a list of its corners (`BaseNode`).
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
         self.0.clone().into_pyobject(py)?.try_iter()
     }
 
     fn __repr__(&self) -> String {
-        let corners: Vec<_> = self.0.iter().map(Vec::len).collect();
-        format!("BaseFaces({} faces of {corners:?} corners)", corners.len())
+        let corner_counts: Vec<_> = self.0.iter().map(Vec::len).collect();
+        format!("BaseFaces({} faces of {corner_counts:?} corners)", corner_counts.len())
     }
 }
 
-/// Python's lists of the nodes of lines or faces; a single line or face needs no list around it.
+/// Lists of the nodes of lines or faces; a single one needs no list around it.
 struct NodeLists(Vec<Vec<PyBaseNode>>);
 
 extracts!(NodeLists, object => {
@@ -194,26 +194,26 @@ extracts!(BaseLike, object => {
 
 impl BaseLike {
     /// The base of a structure with this number of degrees of freedom.
-    pub(crate) fn of_structure(self, dofs: usize) -> PyResult<Base> {
+    pub(crate) fn of_structure(self, dof_count: usize) -> PyResult<Base> {
         match self {
-            Self::Lines(lines) => checked_nodes(lines, dofs).map(Base::Lines),
-            Self::Faces(faces) => checked_nodes(faces, dofs).map(Base::Faces),
+            Self::Lines(lines) => structure_nodes(lines, dof_count).map(Base::Lines),
+            Self::Faces(faces) => structure_nodes(faces, dof_count).map(Base::Faces),
         }
     }
 }
 
 /// Nodes whose rows belong to a structure with this number of degrees of freedom.
-fn checked_nodes(lists: Vec<Vec<PyBaseNode>>, dofs: usize) -> PyResult<Vec<Vec<BaseNode>>> {
-    let mut checked_lists = Vec::with_capacity(lists.len());
-    for list in lists {
-        let mut checked = Vec::with_capacity(list.len());
-        for PyBaseNode(node, weight_count) in list {
-            weight_count.check(&format!("the contact node at {} m", node.x), dofs)?;
-            checked.push(node);
+fn structure_nodes(lists: Vec<Vec<PyBaseNode>>, dof_count: usize) -> PyResult<Vec<Vec<BaseNode>>> {
+    let mut node_lists = Vec::with_capacity(lists.len());
+    for python_nodes in lists {
+        let mut nodes = Vec::with_capacity(python_nodes.len());
+        for PyBaseNode(node, weight_count) in python_nodes {
+            weight_count.check(&format!("the contact node at {} m", node.x), dof_count)?;
+            nodes.push(node);
         }
-        checked_lists.push(checked);
+        node_lists.push(nodes);
     }
-    Ok(checked_lists)
+    Ok(node_lists)
 }
 
 /// A base as an object of Python: a list of lines, or faces in plan.

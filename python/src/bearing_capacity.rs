@@ -6,7 +6,9 @@ use pyo3::prelude::*;
 use crate::error::OrRaise;
 use crate::soil::PySoilStrength;
 
-/// Bearing capacity factors of drained soil of a ``friction_angle`` (rad) under a rough strip, by EN 1997-1:2004, D.4.
+/// Bearing capacity factors of drained soil under a rough strip.
+///
+/// ``friction_angle`` of the soil: rad. Source: EN 1997-1:2004, D.4.
 #[pyclass(name = "BearingFactors", module = "basemat", frozen, dict, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PyBearingFactors(BearingFactors);
@@ -18,27 +20,28 @@ impl PyBearingFactors {
         BearingFactors::new(friction_angle).or_raise().map(Self)
     }
 
-    /// N_c of the cohesion, a number; π + 2 without friction.
+    /// Factor N_c of the cohesion, a number; π + 2 without friction.
     #[getter]
     fn cohesion(&self) -> f64 {
         self.0.cohesion
     }
 
-    /// N_q of the pressure of the soil beside the base, a number.
+    /// Factor N_q of the pressure of the soil beside the base, a number.
     #[getter]
     fn surcharge(&self) -> f64 {
         self.0.surcharge
     }
 
-    /// N_γ of the weight of the soil below the base, a number.
+    /// Factor N_γ of the unit weight of the soil below the base, a number.
     #[getter]
     fn unit_weight(&self) -> f64 {
         self.0.unit_weight
     }
 }
 
-/// Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D, without partial factors: of a rectangle, or
-/// `circle`.
+/// Rectangular shallow footing, or a `circle`, for its bearing capacity.
+///
+/// The capacity follows EN 1997-1:2004, Annex D, without partial factors.
 ///
 /// ``sides`` along x and y (m); with ``math.inf`` along y it is a strip, whose forces are per metre. ``surcharge``: vertical
 /// pressure of the soil beside the base at its level (Pa; 0 by default), unit weight times depth. ``eccentricity`` of the
@@ -80,8 +83,8 @@ impl PyShallowFooting {
             .map(Self)
     }
 
-    /// Circle of a ``diameter`` (m), loaded in its middle. ``surcharge``, ``vertical_force``, ``horizontal_force`` and
-    /// ``base_tilt`` are as in the constructor.
+    /// Circular footing of a ``diameter`` (m), loaded in its middle. ``surcharge``, ``vertical_force``,
+    /// ``horizontal_force`` and ``base_tilt`` are as in the constructor.
     #[pyo3(
         signature = (diameter, *, surcharge=0.0, vertical_force=0.0, horizontal_force=(0.0, 0.0), base_tilt=0.0),
         text_signature = "(diameter, *, surcharge=0.0, vertical_force=0.0, horizontal_force=(0.0, 0.0), base_tilt=0.0)"
@@ -121,8 +124,9 @@ impl PyShallowFooting {
         self.0.drained_pressure(&strength.0, unit_weight).or_raise()
     }
 
-    /// Growth of the drained bearing pressure as the base sinks (Pa/m), for a ``strength`` and ``unit_weight`` as in
-    /// `drained_pressure`: N_q times the unit weight, and the factors of shape, inclination and tilt.
+    /// Increase of the drained bearing pressure with the settlement of the base (Pa/m), for a ``strength`` and
+    /// ``unit_weight`` as in `drained_pressure`: the product of N_q, the unit weight and the factors of shape,
+    /// inclination and tilt.
     fn pressure_growth(&self, strength: &PySoilStrength, unit_weight: f64) -> PyResult<f64> {
         self.0.pressure_growth(&strength.0, unit_weight).or_raise()
     }
@@ -132,9 +136,9 @@ impl PyShallowFooting {
         self.0.undrained_pressure(undrained_strength).or_raise()
     }
 
-    /// Critical contact area over the area of the base, and the moments (N·m) that make the footing rock along x and along y
-    /// under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2 (1 − A_c/A) (Gajan and
-    /// Kutter 2008).
+    /// Ratio of the critical contact area to the area of the base, and the moments (N·m) at which the footing rocks
+    /// along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2
+    /// (1 − A_c/A) (Gajan and Kutter 2008).
     fn rocking_capacity(
         &self,
         vertical_force: f64,

@@ -1,4 +1,4 @@
-//! Files of a sweep's cases, as the core writes and reads them.
+//! Files of the cases of a sweep, which the core writes and reads.
 
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -10,12 +10,12 @@ use crate::array::{Numbers, whole_numbers};
 use crate::error::{OrRaise, extract_returned, input_error};
 
 /// Names of parameters and their values.
-type Grid<'py> = Vec<(String, Bound<'py, PyAny>)>;
+type ParameterGrid<'py> = Vec<(String, Bound<'py, PyAny>)>;
 /// Columns of results, and for each case its number, its results, the texts of its warnings, and the text of its error.
-type Outcomes = (Vec<String>, Vec<(usize, Option<Vec<f64>>, Option<String>, Option<String>)>);
+type CaseOutcomes = (Vec<String>, Vec<(usize, Option<Vec<f64>>, Option<String>, Option<String>)>);
 
 /// The sweep over all combinations, or a shard of it.
-fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'static>> {
+fn sweep_cases(grid: ParameterGrid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'static>> {
     let parameters = grid.into_iter().map(|(name, values)| {
         if let Ok(texts) = values.extract::<Vec<String>>() {
             return Ok(Parameter::texts(name, texts));
@@ -25,7 +25,7 @@ fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'stati
     });
     let sweep = Sweep::grid(parameters.collect::<PyResult<Vec<_>>>()?).or_raise()?;
     match shard {
-        Some((index, of)) => sweep.shard(index, of).or_raise(),
+        Some((shard_index, shard_count)) => sweep.shard(shard_index, shard_count).or_raise(),
         None => Ok(sweep),
     }
 }
@@ -34,14 +34,14 @@ fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'stati
 #[pyfunction(name = "_case_numbers")]
 #[pyo3(signature = (grid, shard=None))]
 pub(crate) fn case_numbers(
-    grid: Grid<'_>,
+    grid: ParameterGrid<'_>,
     #[pyo3(from_py_with = whole_numbers)] shard: Option<(usize, usize)>,
 ) -> PyResult<Vec<usize>> {
-    Ok(sweep(grid, shard)?.cases().collect())
+    Ok(sweep_cases(grid, shard)?.cases().collect())
 }
 
 /// Cases of a sweep's file: the columns of results, and the rows.
-fn outcomes(table: &CaseTable) -> Outcomes {
+fn case_outcomes(table: &CaseTable) -> CaseOutcomes {
     let rows = table.rows().map(|row| {
         let results = row.results.ok().map(<[f64]>::to_vec);
         let error = row.results.err().map(str::to_owned);
@@ -55,14 +55,16 @@ fn outcomes(table: &CaseTable) -> Outcomes {
 #[pyclass(name = "_CaseFile", module = "basemat._core", frozen)]
 pub(crate) struct PyCaseFile(Mutex<Option<CaseFile>>);
 
-/// Error of a file that two threads use at once.
-const IN_USE: &str = "the file of cases is in use by another thread";
+/// Error of a file that two threads use at the same time.
+const FILE_IN_USE_ERROR: &str = "the file of cases is in use by another thread";
+/// Error of a file after `finish`.
+const FILE_FINISHED_ERROR: &str = "the file of cases is finished";
 
 impl PyCaseFile {
-    /// Calls a function with the file, which `finish` closes.
-    fn with<T>(&self, call: impl FnOnce(&mut CaseFile) -> PyResult<T>) -> PyResult<T> {
-        let mut file = self.0.try_lock().map_err(|_| input_error(IN_USE))?;
-        call(file.as_mut().ok_or_else(|| input_error("the file of cases is finished"))?)
+    /// Calls a function with the file, unless `finish` has closed it.
+    fn with_file<T>(&self, call: impl FnOnce(&mut CaseFile) -> PyResult<T>) -> PyResult<T> {
+        let mut file = self.0.try_lock().map_err(|_| input_error(FILE_IN_USE_ERROR))?;
+        call(file.as_mut().ok_or_else(|| input_error(FILE_FINISHED_ERROR))?)
     }
 }
 
@@ -72,16 +74,16 @@ impl PyCaseFile {
     #[pyo3(signature = (path, grid, shard=None))]
     fn new(
         path: PathBuf,
-        grid: Grid<'_>,
+        grid: ParameterGrid<'_>,
         #[pyo3(from_py_with = whole_numbers)] shard: Option<(usize, usize)>,
     ) -> PyResult<Self> {
-        let file = sweep(grid, shard)?.open(path).or_raise()?;
+        let file = sweep_cases(grid, shard)?.open(path).or_raise()?;
         Ok(Self(Mutex::new(Some(file))))
     }
 
     /// Columns of results, and the rows so far: number of the case, results, warnings, error.
-    fn rows(&self) -> PyResult<Outcomes> {
-        self.with(|file| Ok(outcomes(&file.table())))
+    fn rows(&self) -> PyResult<CaseOutcomes> {
+        self.with_file(|file| Ok(case_outcomes(&file.table())))
     }
 
     /// Appends the row of a case: ``results`` under ``names``, or the text of its ``error``.
@@ -97,21 +99,21 @@ impl PyCaseFile {
             Some(reason) => Err(reason),
             None => Ok(extract_returned::<Numbers>(&format!("case {case}"), &results)?.0),
         };
-        self.with(|file| {
+        self.with_file(|file| {
             file.append(case, &names, outcome, &warnings.unwrap_or_default()).or_raise()
         })
     }
 
     /// Writes the whole file at once and returns its rows as `rows` does.
-    fn finish(&self) -> PyResult<Outcomes> {
-        let file = self.0.try_lock().map_err(|_| input_error(IN_USE))?.take();
-        let file = file.ok_or_else(|| input_error("the file of cases is finished"))?;
-        Ok(outcomes(&file.finish().or_raise()?))
+    fn finish(&self) -> PyResult<CaseOutcomes> {
+        let file = self.0.try_lock().map_err(|_| input_error(FILE_IN_USE_ERROR))?.take();
+        let file = file.ok_or_else(|| input_error(FILE_FINISHED_ERROR))?;
+        Ok(case_outcomes(&file.finish().or_raise()?))
     }
 }
 
 /// Columns and rows of all cases of a grid from the files of its shards, as `_CaseFile.rows` returns them.
 #[pyfunction(name = "_merge_cases")]
-pub(crate) fn merge_cases(paths: Vec<PathBuf>, grid: Grid<'_>) -> PyResult<Outcomes> {
-    Ok(outcomes(&sweep(grid, None)?.merge(paths).or_raise()?))
+pub(crate) fn merge_cases(paths: Vec<PathBuf>, grid: ParameterGrid<'_>) -> PyResult<CaseOutcomes> {
+    Ok(case_outcomes(&sweep_cases(grid, None)?.merge(paths).or_raise()?))
 }

@@ -25,7 +25,7 @@ thread_local! {
     static STORED_EXCEPTION: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
-/// Stores an exception of user code until the core returns; a stored one stays.
+/// Stores an exception of user code until the core returns; an earlier one is kept.
 pub(crate) fn store_exception(error: PyErr) {
     STORED_EXCEPTION.with_borrow_mut(|stored| {
         stored.get_or_insert(error);
@@ -37,7 +37,9 @@ pub(crate) fn has_stored_exception() -> bool {
     STORED_EXCEPTION.with_borrow(Option::is_some)
 }
 
-/// Result of user code; if it raises, the exception is stored and the result is `fallback`, which ends the step.
+/// Result of user code, or `fallback`, which ends the step, if it raises.
+///
+/// The exception is stored until the core returns.
 pub(crate) fn call_user_code<T>(fallback: T, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
     Python::attach(call).unwrap_or_else(|error| {
         store_exception(error);
@@ -50,28 +52,29 @@ pub(crate) fn take_exception() -> Option<PyErr> {
     STORED_EXCEPTION.take()
 }
 
-/// The result of a call of user code whose exceptions are not stored.
+/// Result of a call of user code whose exceptions are dropped.
 pub(crate) fn discard_exceptions<T>(
     call: impl FnOnce() -> basemat::Result<T>,
 ) -> basemat::Result<T> {
-    let outer = take_exception();
-    let found = call();
-    STORED_EXCEPTION.set(outer);
-    found
+    let outer_exception = take_exception();
+    let result = call();
+    STORED_EXCEPTION.set(outer_exception);
+    result
 }
 
-/// The result of a call that may run user code, or the exception that this code raised. One that was
-/// there before belongs to a run around this call and stays for it.
+/// Result of a call that may run user code, or the exception that this code raised.
+///
+/// An exception that was stored before belongs to an outer run and stays stored.
 pub(crate) fn raise_user_exceptions<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
-    let outer = has_stored_exception();
-    let found = call();
-    match if outer { None } else { take_exception() } {
+    let has_outer_exception = has_stored_exception();
+    let result = call();
+    match if has_outer_exception { None } else { take_exception() } {
         Some(raised) => Err(raised),
-        None => found,
+        None => result,
     }
 }
 
-/// Stores an exception of user code, and returns an error of the core in its place.
+/// Error of the core in place of an exception of user code, which is stored.
 pub(crate) fn user_code_error(part: &'static str, error: PyErr) -> basemat::Error {
     let text = error.to_string();
     store_exception(error);
@@ -83,13 +86,13 @@ pub(crate) fn input_error(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
 }
 
-/// Value returned by a function of the user's, extracted as a `T`; `name` is the function's name.
+/// Value that the function `name` of the user returned, as a `T`.
 pub(crate) fn extract_returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
     value.extract::<T>().map_err(Into::into).map_err(|reason: PyErr| {
-        input_error(format!("{name} returned what will not do: {}", reason.value(value.py())))
+        input_error(format!("{name} returned an invalid value: {}", reason.value(value.py())))
     })
 }
 
@@ -104,7 +107,7 @@ pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     text.map_or(Ok(()), |text| issue_warning(py, text))
 }
 
-/// Collects the warnings of this thread from now on, or shows them again; returns those that it has collected.
+/// Starts to ``collect`` the warnings of this thread, or shows warnings again; returns the warnings collected so far.
 #[pyfunction(name = "_collect_warnings")]
 pub(crate) fn collect_warnings(collect: bool) -> Vec<String> {
     COLLECTED_WARNINGS.replace(collect.then(Vec::new)).unwrap_or_default()
@@ -116,21 +119,19 @@ pub(crate) fn issue_warning(py: Python<'_>, text: String) -> PyResult<()> {
     PyErr::warn(py, &py.get_type::<classes::BasematWarning>(), &text, 1)
 }
 
-/// An `Error` that says why a simulation cannot be used.
+/// `Error` with the reason why a simulation cannot be used.
 pub(crate) fn lock_error<T>(reason: TryLockError<T>) -> PyErr {
     classes::Error::new_err(match reason {
         TryLockError::WouldBlock => {
-            "the simulation is running (in another thread, or around this call)"
+            "the simulation is running (in another thread, or in a caller of this function)"
         }
-        TryLockError::Poisoned(_) => {
-            "the simulation cannot be used any more: an earlier call ended in a panic"
-        }
+        TryLockError::Poisoned(_) => "the simulation is unusable: an earlier call ended in a panic",
     })
 }
 
-/// A message of the core, with Python's names in place of the core's functions.
+/// Message of the core with Python's names in place of Rust's.
 pub(crate) fn in_python_words(mut text: String) -> String {
-    for (core, python) in [
+    for (core_text, python_text) in [
         (
             "`analyses::largest_convergent_step` finds a time step that converges",
             "a shorter step may converge",
@@ -158,7 +159,7 @@ pub(crate) fn in_python_words(mut text: String) -> String {
         ),
         ("the recorder must keep the motion (`Recorder::motion`)", "give `motion_every` to `run`"),
     ] {
-        text = text.replace(core, python);
+        text = text.replace(core_text, python_text);
     }
     text
 }
@@ -176,7 +177,7 @@ pub(crate) fn to_exception(error: basemat::Error) -> PyErr {
             let exception = classes::StepError::new_err(text);
             Python::attach(|py| {
                 let value = exception.value(py);
-                // An exception whose attributes cannot be set is raised without them.
+                // If setting an attribute fails, the exception is raised without it.
                 let _ = value.setattr("step", step).and_then(|()| value.setattr("time", time));
             });
             exception
@@ -191,6 +192,7 @@ pub(crate) fn to_exception(error: basemat::Error) -> PyErr {
 
 /// Results of the core as results of Python.
 pub(crate) trait OrRaise<T> {
+    /// The value, or the exception for the error.
     fn or_raise(self) -> PyResult<T>;
 }
 
@@ -200,8 +202,9 @@ impl<T> OrRaise<T> for basemat::Result<T> {
     }
 }
 
-/// A builder of the core, whose methods are called for optional arguments that are there.
+/// Calls methods of a builder for those optional arguments that are present.
 pub(crate) trait WithOption<B>: Sized {
+    /// The builder after its `method` with the argument, if there is one.
     fn with<T>(
         self,
         argument: Option<T>,

@@ -1,14 +1,14 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Conversion of a `$class` to Python, whose superclass object `$base` is made from the value called `$value`.
+/// Converts a `$class` to Python: `$base` is the superclass object for the value `$value`.
 macro_rules! extends {
     ($class:ty, $value:ident => $base:expr) => {
         impl $class {
             fn initializer(self) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
                 let $value = &self;
-                let base = $base;
-                Ok(pyo3::PyClassInitializer::from(base).add_subclass(self))
+                let superclass = $base;
+                Ok(pyo3::PyClassInitializer::from(superclass).add_subclass(self))
             }
         }
 
@@ -41,21 +41,19 @@ mod array;
 mod base_node;
 mod bearing_capacity;
 mod cases;
-mod dof_names;
 mod error;
 mod ground;
-mod html;
 mod interface;
+mod list_arguments;
 mod motion;
 mod names;
+mod pickling;
 mod probe;
 mod profile;
 mod recipe;
 mod refine;
-mod restored;
 mod results;
 mod row;
-mod several;
 mod simulation;
 mod site;
 mod soil;
@@ -90,10 +88,10 @@ mod _core {
             PyTrenchMotion, el_centro_1940, free_field, log_spaced, ricker, travelling_wave,
             triaxial, vertical_incidence,
         },
+        pickling::restored,
         probe::PyProbe,
         profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
         refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity, refine, sensitivity},
-        restored::restored,
         results::{
             PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun,
             PyServiceCheck, PySummary, PySystemMode, equivalent_damping,

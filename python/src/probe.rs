@@ -1,4 +1,4 @@
-//! Probes.
+//! Probes: quantities that a run records at every step.
 
 use basemat::coupled::Probe;
 use pyo3::prelude::*;
@@ -7,17 +7,17 @@ use crate::row::{PyDofCombination, PySectionRows, RowLike, WeightCount};
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 ///
-/// ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``:
-/// its label in tables; unless given, the quantity's.
+/// ``name``: name of its time series. ``row``: a `DofCombination` or its ``terms``. ``unit``: its label in tables;
+/// unless given, the unit of the quantity.
 ///
-/// Displacements are changes against the static state, relative to the translation of the free
-/// field; `absolute_displacement` includes it. Velocities and accelerations are total. No two
-/// probes of a simulation have the same name, and none the name of another time series of a run.
+/// Displacements are changes against the static state, relative to the translation of the free field;
+/// `absolute_displacement` includes it. Velocities and accelerations are total. The names of the probes of a simulation
+/// differ from each other and from the names of other time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) WeightCount);
 
 /// A probe with the label of its unit, if there is one.
-fn labelled(probe: Probe, weight_count: WeightCount, unit: Option<String>) -> PyProbe {
+fn with_unit(probe: Probe, weight_count: WeightCount, unit: Option<String>) -> PyProbe {
     let probe = match unit {
         Some(unit) => probe.in_unit(unit),
         None => probe,
@@ -32,7 +32,7 @@ impl PyProbe {
     #[pyo3(signature = (name, row, *, unit=None))]
     #[staticmethod]
     fn displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
-        labelled(Probe::displacement(name, row.0), row.1, unit)
+        with_unit(Probe::displacement(name, row.0), row.1, unit)
     }
 
     /// Displacement (m) of the ``row`` with the translation of the free field, as the time series
@@ -40,7 +40,7 @@ impl PyProbe {
     #[pyo3(signature = (name, row, *, unit=None))]
     #[staticmethod]
     fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
-        labelled(Probe::absolute_displacement(name, row.0), row.1, unit)
+        with_unit(Probe::absolute_displacement(name, row.0), row.1, unit)
     }
 
     /// Total velocity of the ``row``, m/s, as the time series ``name``; ``unit``: its label, "m/s" unless
@@ -48,7 +48,7 @@ impl PyProbe {
     #[pyo3(signature = (name, row, *, unit=None))]
     #[staticmethod]
     fn velocity(name: String, row: RowLike, unit: Option<String>) -> Self {
-        labelled(Probe::velocity(name, row.0), row.1, unit)
+        with_unit(Probe::velocity(name, row.0), row.1, unit)
     }
 
     /// Total acceleration of the ``row``, m/s², as the time series ``name``; ``unit``: its label, "m/s²"
@@ -56,7 +56,7 @@ impl PyProbe {
     #[pyo3(signature = (name, row, *, unit=None))]
     #[staticmethod]
     fn acceleration(name: String, row: RowLike, unit: Option<String>) -> Self {
-        labelled(Probe::acceleration(name, row.0), row.1, unit)
+        with_unit(Probe::acceleration(name, row.0), row.1, unit)
     }
 
     /// Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
@@ -64,7 +64,7 @@ impl PyProbe {
     #[pyo3(signature = (name, section, *, unit=None))]
     #[staticmethod]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
-        labelled(Probe::section(name, &section.0), section.1, unit)
+        with_unit(Probe::section(name, &section.0), section.1, unit)
     }
 
     /// Name of the probe and of its time series.
@@ -73,7 +73,7 @@ impl PyProbe {
         &self.0.name
     }
 
-    /// Label of its unit; values are what the weights make of SI units.
+    /// Label of its unit. It converts nothing: values are sums of SI values times the weights.
     #[getter]
     fn unit(&self) -> &str {
         &self.0.unit

@@ -10,11 +10,11 @@ use pyo3::prelude::*;
 
 use crate::array::Numbers;
 use crate::error::OrRaise;
-use crate::html::preformatted;
-use crate::several::{ListOf, type_error};
+use crate::list_arguments::{ListOf, type_error};
+use crate::names::preformatted;
 use crate::soil::PySoil;
 
-/// Damping of a soil: how its shear modulus depends on frequency.
+/// Damping of a soil: its complex shear modulus over frequency.
 #[pyclass(name = "DampingLaw", module = "basemat", frozen, dict)]
 pub(crate) struct PyDampingLaw(Arc<dyn Relaxation>);
 
@@ -31,17 +31,18 @@ impl PyDampingLaw {
         new_damping_law(Ok(Elastic))
     }
 
-    /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
-    /// frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
-    /// default): the usual choice in time.
+    /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest frequency,
+    /// Hz; 0.1 to 30 by default) and the soil's modulus at the frequency ``reference`` (Hz; 1 by default): the usual
+    /// choice in the time domain.
     #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0), text_signature = "(ratio, band=(0.1, 30.0), reference=1.0)")]
     #[staticmethod]
     fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> PyResult<Self> {
         new_damping_law(GeneralizedMaxwell::constant_q(ratio, band, reference))
     }
 
-    /// Generalised Maxwell body: ratio ``long_term`` of its modulus to the soil's, ``ratios`` of the rest
-    /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
+    /// Generalised Maxwell body of m mechanisms. ``long_term``: ratio of its long-term modulus to the modulus of the
+    /// soil. ``ratios``: ratios of the moduli of the mechanisms to the modulus of the soil (array of shape (m,)).
+    /// ``rates``: their relaxation rates (array of shape (m,), 1/s).
     #[staticmethod]
     fn maxwell(long_term: f64, ratios: Numbers, rates: Numbers) -> PyResult<Self> {
         new_damping_law(GeneralizedMaxwell::new(long_term, ratios.0, rates.0))
@@ -53,15 +54,15 @@ impl PyDampingLaw {
         new_damping_law(KelvinVoigt::with_ratio(ratio, frequency))
     }
 
-    /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
-    /// 1 by default).
+    /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at the frequency ``reference``
+    /// (Hz; 1 by default).
     #[pyo3(signature = (ratio, reference=1.0))]
     #[staticmethod]
     fn kjartansson(ratio: f64, reference: f64) -> PyResult<Self> {
         new_damping_law(Kjartansson::new(ratio, reference))
     }
 
-    /// The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
+    /// Damping ``ratio`` that is the same at all frequencies, as usual in the frequency domain. It is not causal: for
     /// impedances only.
     #[staticmethod]
     fn hysteretic(ratio: f64) -> PyResult<Self> {
@@ -69,8 +70,8 @@ impl PyDampingLaw {
     }
 }
 
-/// A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
-/// (`DampingLaw`; none unless given).
+/// A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
+/// unless given).
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
@@ -95,14 +96,16 @@ impl PySoilLayer {
     }
 }
 
-/// The damping law of an optional argument, elastic if there is none.
+/// Damping law of an optional argument; elastic without one.
 pub(crate) fn law_or_elastic(damping: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
     damping.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 
-/// Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil
-/// ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: `DampingLaw` of the
-/// bedrock; none unless given. Printed, it is a table.
+/// Horizontal soil layers on a half-plane or on rigid bedrock.
+///
+/// ``layers``: list of `SoilLayer` from the surface down. They lie on a half-plane of the soil ``bedrock``, or on rigid
+/// bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given. Printed,
+/// it is a table.
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 
@@ -140,7 +143,7 @@ impl PySoilProfile {
         }
     }
 
-    /// Depth of all layers, m.
+    /// Total thickness of the layers, m.
     #[getter]
     fn depth(&self) -> f64 {
         self.0.depth()
@@ -152,7 +155,7 @@ impl PySoilProfile {
         self.0.first_frequency()
     }
 
-    /// Time that a shear wave takes through all layers, s.
+    /// Travel time of a shear wave through all layers, s.
     #[getter]
     fn travel_time(&self) -> f64 {
         self.0.travel_time()

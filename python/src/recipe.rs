@@ -1,39 +1,42 @@
-//! Recipes: Python's structures, grounds, laws and motions are descriptions, from which every
-//! simulation gets a part of its own.
+//! Recipes: Python's structures, grounds, laws and motions are descriptions, from which each
+//! simulation builds separate parts.
 
 use std::sync::Arc;
 
 use basemat::Result;
 use basemat::structure::{Base, Structure, StructureDescription, Triplets};
 
-use crate::dof_names::DofNames;
+use crate::names::DofNames;
 
-/// Makes a value, always the same.
-pub(crate) type Make<T> = Arc<dyn Fn() -> Result<T> + Send + Sync>;
+/// Builds a value; each call builds an equal one.
+pub(crate) type Factory<T> = Arc<dyn Fn() -> Result<T> + Send + Sync>;
 
-/// Makes a part for one simulation.
-pub(crate) type Recipe<T> = Make<Box<T>>;
+/// Builds a part for one simulation.
+pub(crate) type Recipe<T> = Factory<Box<T>>;
 
 /// A linear structure that several simulations read, and names of its degrees of freedom.
-pub(crate) struct Shared<T>(pub(crate) Arc<T>, pub(crate) Option<DofNames>);
+pub(crate) struct SharedStructure<T> {
+    pub(crate) structure: Arc<T>,
+    pub(crate) dof_names: Option<DofNames>,
+}
 
-impl<T> Clone for Shared<T> {
+impl<T> Clone for SharedStructure<T> {
     fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0), self.1.clone())
+        Self { structure: Arc::clone(&self.structure), dof_names: self.dof_names.clone() }
     }
 }
 
 /// Methods that are forwarded to the shared structure.
-macro_rules! forward {
+macro_rules! forward_to_structure {
     ($($name:ident($($argument:ident: $type:ty),*) -> $out:ty;)+) => {
         $(fn $name(&self $(, $argument: $type)*) -> $out {
-            self.0.$name($($argument),*)
+            self.structure.$name($($argument),*)
         })+
     };
 }
 
-impl<T: Structure + Sync> Structure for Shared<T> {
-    forward! {
+impl<T: Structure + Sync> Structure for SharedStructure<T> {
+    forward_to_structure! {
         dofs() -> usize;
         base() -> Base;
         mass(matrix: &mut Triplets) -> Result<()>;
@@ -47,9 +50,9 @@ impl<T: Structure + Sync> Structure for Shared<T> {
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        match &self.1 {
+        match &self.dof_names {
             Some(names) => names.describe(dofs),
-            None => self.0.describe(dofs),
+            None => self.structure.describe(dofs),
         }
     }
 }

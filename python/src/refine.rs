@@ -1,4 +1,4 @@
-//! Error against run time.
+//! Error against run time at several settings, and sensitivity of peaks.
 
 use basemat::analyses::{PeakTwins, Refinement, Refinements, Sensitivity};
 use pyo3::IntoPyObjectExt;
@@ -15,19 +15,19 @@ use crate::error::{
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRefinement(Refinement);
 
-/// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+/// Runs a scene at six settings and estimates the error of each.
 ///
-/// ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-/// peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-/// ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-/// elements, and twice the elements with half the step.
+/// The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+/// an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+/// are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+/// the elements with half the step.
 ///
-/// A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
-/// extrapolated by itself, so that units may differ.
+/// If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+/// extrapolated separately, so that units may differ.
 ///
-/// An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
-/// settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-/// and may change between the settings; ``stages`` of `ElasticGround` keeps it.
+/// A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
+/// a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
+/// change between the settings; ``stages`` of `ElasticGround` fixes it.
 #[pyfunction]
 pub(crate) fn refine(
     py: Python<'_>,
@@ -35,20 +35,20 @@ pub(crate) fn refine(
     time_step: f64,
     scene: Py<PyAny>,
 ) -> PyResult<Py<PyAny>> {
-    let mut form = ResultForm::Unknown;
-    let found = raise_user_exceptions(|| {
-        let refinement = basemat::analyses::refine(elements, time_step, |elements, time_step| {
+    let mut result_form = ResultForm::Unknown;
+    let refinement = raise_user_exceptions(|| {
+        let result = basemat::analyses::refine(elements, time_step, |elements, time_step| {
             let result = scene.call1(py, (elements, time_step));
-            let values = result.and_then(|result| form.values(result.bind(py)));
+            let values = result.and_then(|result| result_form.values(result.bind(py)));
             values.map_err(|error| user_code_error("scene", error))
         });
-        refinement.or_raise()
+        result.or_raise()
     })?;
-    match form {
+    match result_form {
         ResultForm::Named(names) => {
-            PyRefinements(Refinements::named(names, &found).or_raise()?).into_py_any(py)
+            PyRefinements(Refinements::named(names, &refinement).or_raise()?).into_py_any(py)
         }
-        ResultForm::Unknown | ResultForm::Unnamed => PyRefinement(found).into_py_any(py),
+        ResultForm::Unknown | ResultForm::Unnamed => PyRefinement(refinement).into_py_any(py),
     }
 }
 
@@ -71,8 +71,8 @@ impl ResultForm {
                 Err(_) => extract_returned::<Numbers>("the scene", result).map(|numbers| numbers.0),
             };
         }
-        let peaks = peaks(result)?;
-        let names: Vec<String> = peaks.iter().map(|(name, _)| name.clone()).collect();
+        let named_values = named_values(result)?;
+        let names: Vec<String> = named_values.iter().map(|(name, _)| name.clone()).collect();
         match self {
             Self::Unknown => *self = Self::Named(names),
             Self::Named(first_names) if *first_names == names => {}
@@ -82,29 +82,29 @@ impl ResultForm {
                 )));
             }
         }
-        Ok(peaks.into_iter().map(|(_, value)| value).collect())
+        Ok(named_values.into_iter().map(|(_, value)| value).collect())
     }
 }
 
 /// Names and numbers of the dict that a scene returned.
-fn peaks(value: &Bound<'_, PyAny>) -> PyResult<Vec<(String, f64)>> {
-    let dict = value.cast::<PyDict>().map_err(|_| {
+fn named_values(result: &Bound<'_, PyAny>) -> PyResult<Vec<(String, f64)>> {
+    let dict = result.cast::<PyDict>().map_err(|_| {
         input_error("the scene must return a dict of numbers by their names, at every setting")
     })?;
-    let each = dict.iter().map(|(name, value)| {
+    let pairs = dict.iter().map(|(name, value)| {
         let name = extract_returned::<String>("the scene", &name)?;
         let value = real_number(&format!("'{name}' of a scene"), &value)?;
         Ok((name, value))
     });
-    each.collect()
+    pairs.collect()
 }
 
 /// Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
 /// and half of the elements.
 ///
-/// ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. A body that
-/// rocks on its corners may lose the memory of its start; its peaks then belong to one motion out of many, and no
-/// finer setting makes them converge. The twins tell how many digits of a peak can be quoted, and cost less than two
+/// ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. The
+/// motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of many, and no
+/// finer setting makes them converge. The twins show how many digits of a peak can be quoted, and cost less than two
 /// further runs.
 #[pyfunction]
 pub(crate) fn sensitivity(
@@ -114,11 +114,12 @@ pub(crate) fn sensitivity(
     scene: Py<PyAny>,
 ) -> PyResult<PySensitivity> {
     raise_user_exceptions(|| {
-        let sensitivity = basemat::analyses::sensitivity(elements, time_step, |elements, step| {
-            let result = scene.call1(py, (elements, step));
-            let peaks = result.and_then(|result| peaks(result.bind(py)));
-            peaks.map_err(|error| user_code_error("scene", error))
-        });
+        let sensitivity =
+            basemat::analyses::sensitivity(elements, time_step, |elements, time_step| {
+                let result = scene.call1(py, (elements, time_step));
+                let peaks = result.and_then(|result| named_values(result.bind(py)));
+                peaks.map_err(|error| user_code_error("scene", error))
+            });
         sensitivity.or_raise().map(PySensitivity)
     })
 }
@@ -137,7 +138,7 @@ impl PyRefinement {
         self.0.settings.iter().map(|setting| setting.time_step).collect()
     }
 
-    /// Estimated errors of the settings, relative to the size of the results: array of shape (6,).
+    /// Estimated errors of the settings, relative to the magnitude of the results: array of shape (6,).
     #[getter]
     fn errors(&self) -> Array {
         self.0.settings.iter().map(|setting| setting.error).collect()
@@ -162,20 +163,20 @@ impl PyRefinement {
         self.0.extrapolated.as_slice().into()
     }
 
-    /// Observed order of convergence in the element length; NaN if nothing depends on it.
+    /// Observed order of convergence in the element length; NaN if the results do not depend on it.
     #[getter]
     fn mesh_order(&self) -> f64 {
         self.0.mesh_order
     }
 
-    /// Observed order of convergence in the time step; NaN if nothing depends on it.
+    /// Observed order of convergence in the time step; NaN if the results do not depend on it.
     #[getter]
     fn step_order(&self) -> f64 {
         self.0.step_order
     }
 
-    /// Distance of the last setting's results from those predicted from the other errors, relative to the size of the
-    /// results.
+    /// Difference between the results of the last setting and the results predicted from the other errors, relative to
+    /// the magnitude of the results.
     #[getter]
     fn mismatch(&self) -> f64 {
         self.0.mismatch
@@ -260,7 +261,7 @@ impl PyPeakTwins {
         self.0.spread()
     }
 
-    /// Significant digits that hold, six at most: half a unit of the last one is the spread or more.
+    /// Number of reliable significant digits, at most six: half a unit of the last digit is the spread or more.
     #[getter]
     fn digits(&self) -> u32 {
         self.0.digits()

@@ -30,7 +30,7 @@ impl From<DofCombination> for PyDofCombination {
     }
 }
 
-/// Rows of the core, of three directions.
+/// Rows of the core in three directions as objects of Python.
 pub(crate) fn python_rows(rows: [DofCombination; 3]) -> [PyDofCombination; 3] {
     rows.map(PyDofCombination::from)
 }
@@ -43,21 +43,23 @@ pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) WeightCount);
 pub(crate) struct WeightCount(pub(crate) Option<usize>);
 
 impl WeightCount {
-    /// Number of weights common to two rows of one structure; an error if they differ.
+    /// Number of weights of two rows of one structure; an error if the numbers differ.
     pub(crate) fn common_with(self, other: Self) -> PyResult<Self> {
         match (self.0, other.0) {
-            (Some(one), Some(two)) if one != two => Err(input_error(format!(
-                "rows of {one} and of {two} weights are for no one structure"
-            ))),
+            (Some(weight_count), Some(other_count)) if weight_count != other_count => {
+                Err(input_error(format!(
+                    "rows of {weight_count} and of {other_count} weights cannot belong to one structure"
+                )))
+            }
             _ => Ok(Self(self.0.or(other.0))),
         }
     }
 
-    /// Error for a row of a structure with another number of degrees of freedom; `name` names the row in the text.
-    pub(crate) fn check(self, name: &str, dofs: usize) -> PyResult<()> {
+    /// Error unless the row, called `name`, can belong to a structure with so many degrees of freedom.
+    pub(crate) fn check(self, name: &str, dof_count: usize) -> PyResult<()> {
         match self.0 {
-            Some(weights) if weights != dofs => Err(input_error(format!(
-                "{name} has an array of {weights} weights, but the structure has {dofs} degrees of freedom"
+            Some(weight_count) if weight_count != dof_count => Err(input_error(format!(
+                "{name} has an array of {weight_count} weights, but the structure has {dof_count} degrees of freedom"
             ))),
             _ => Ok(()),
         }
@@ -75,10 +77,10 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
         if object.is_instance_of::<PyInt>() {
             return Ok(Self(whole_numbers::<usize>(&object)?.into(), WeightCount::default()));
         }
-        if let Ok(terms) = object.cast::<PyDict>() {
-            let terms: Vec<(usize, f64)> = terms
+        if let Ok(weights_by_dof) = object.cast::<PyDict>() {
+            let terms: Vec<(usize, f64)> = weights_by_dof
                 .iter()
-                .map(|(k, w)| Ok((k.extract()?, w.extract()?)))
+                .map(|(dof, weight)| Ok((dof.extract()?, weight.extract()?)))
                 .collect::<PyResult<_>>()?;
             return Ok(Self(terms.into(), WeightCount::default()));
         }
@@ -89,12 +91,12 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
             return Ok(Self(terms.collect(), weight_count));
         }
         if let Ok(dof) = object.extract::<usize>() {
-            // Integers of numpy.
+            // An integer of numpy.
             return Ok(Self(dof.into(), WeightCount::default()));
         }
         if let Ok(name) = object.extract::<String>() {
             return Err(input_error(format!(
-                "a row is '{name}', but must be a number: structure.dof('{name}') is that of a name"
+                "a row is the text '{name}', but must be a number: structure.dof('{name}') returns the row of this name"
             )));
         }
         match object.extract::<Vec<(usize, f64)>>() {
@@ -121,14 +123,17 @@ impl From<SectionRows> for PySectionRows {
 /// Rows of the six resultants of a cut in space.
 pub(crate) fn space_sections(section: SpaceSection) -> [PySectionRows; 6] {
     let SpaceSection {
-        shear: [along, across],
+        shear: [shear_x, shear_y],
         compression,
-        moments: [about_x, about_y],
+        moments: [moment_x, moment_y],
         torque,
         ..
     } = section;
-    [along, across, compression, about_x, about_y, torque].map(PySectionRows::from)
+    [shear_x, shear_y, compression, moment_x, moment_y, torque].map(PySectionRows::from)
 }
+
+/// Units of a resultant: of a force and a moment per metre of thickness, and of the whole body.
+const RESULTANT_UNITS: [&str; 4] = ["N/m", "N·m/m", "N", "N·m"];
 
 #[pymethods]
 impl PySectionRows {
@@ -140,8 +145,7 @@ impl PySectionRows {
         acceleration: RowLike,
         unit: &str,
     ) -> PyResult<Self> {
-        let units = ["N/m", "N·m/m", "N", "N·m"].map(|unit| (unit, unit));
-        let unit = choice("unit", unit, &units)?;
+        let unit = choice("unit", unit, &RESULTANT_UNITS.map(|unit| (unit, unit)))?;
         let weight_count = displacement.1.common_with(velocity.1)?.common_with(acceleration.1)?;
         let rows = SectionRows {
             unit,
@@ -181,8 +185,8 @@ impl PySectionRows {
         py: Python<'py>,
     ) -> PyResult<((PyDofCombination, PyDofCombination, PyDofCombination), Bound<'py, PyDict>)>
     {
-        let unit = PyDict::new(py);
-        unit.set_item("unit", self.0.unit)?;
-        Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
+        let keywords = PyDict::new(py);
+        keywords.set_item("unit", self.0.unit)?;
+        Ok(((self.displacement(), self.velocity(), self.acceleration()), keywords))
     }
 }

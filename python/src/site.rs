@@ -8,17 +8,20 @@ use pyo3::prelude::*;
 
 use crate::array::{Array, Numbers, Rows, whole_numbers};
 use crate::error::{OrRaise, input_error};
-use crate::motion::{PyColumn, PyRecord, control};
+use crate::list_arguments::ListOf;
+use crate::motion::{PyColumn, PyRecord, control_point};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
-use crate::several::ListOf;
 use crate::ticker::with_progress;
 
-/// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
+/// Modulus reduction and damping ratio of a soil over shear strain.
+///
+/// The modulus reduction is G/G_max. A strain of 0.01 is 1 %.
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
 pub(crate) struct PyStrainCurves(StrainCurves);
 
-fn checked(curves: StrainCurves) -> PyResult<PyStrainCurves> {
+/// The curves as an object of Python; an error if their parameters are invalid.
+fn checked_curves(curves: StrainCurves) -> PyResult<PyStrainCurves> {
     curves.at(0.0).or_raise()?;
     Ok(PyStrainCurves(curves))
 }
@@ -28,7 +31,7 @@ impl PyStrainCurves {
     /// A soil or rock that stays linear, with this ``damping`` ratio.
     #[staticmethod]
     fn linear(damping: f64) -> PyResult<Self> {
-        checked(StrainCurves::Linear { damping })
+        checked_curves(StrainCurves::Linear { damping })
     }
 
     /// Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
@@ -38,19 +41,19 @@ impl PyStrainCurves {
     fn seed_idriss(bound: &str) -> PyResult<Self> {
         let bounds =
             [("mean", StrainCurves::SeedIdrissMean), ("upper", StrainCurves::SeedIdrissUpper)];
-        checked(choice("bound", bound, &bounds)?)
+        checked_curves(choice("bound", bound, &bounds)?)
     }
 
-    /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
+    /// Soil with this ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
     #[staticmethod]
     fn vucetic_dobry(plasticity_index: f64) -> PyResult<Self> {
-        checked(StrainCurves::VuceticDobry { plasticity_index })
+        checked_curves(StrainCurves::VuceticDobry { plasticity_index })
     }
 
     /// Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993).
     #[staticmethod]
     fn epri(depth: f64) -> PyResult<Self> {
-        checked(StrainCurves::Epri { depth })
+        checked_curves(StrainCurves::Epri { depth })
     }
 
     /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
@@ -64,7 +67,7 @@ impl PyStrainCurves {
         frequency: f64,
         cycles: f64,
     ) -> PyResult<Self> {
-        checked(StrainCurves::Darendeli {
+        checked_curves(StrainCurves::Darendeli {
             plasticity_index,
             overconsolidation,
             mean_stress,
@@ -77,24 +80,25 @@ impl PyStrainCurves {
     /// ratios, ``dampings``.
     #[staticmethod]
     fn table(strains: Numbers, modulus_ratios: Numbers, dampings: Numbers) -> PyResult<Self> {
-        let sizes = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
-        if sizes != [sizes[0]; 3] {
+        let lengths = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
+        if lengths != [lengths[0]; 3] {
             return Err(input_error(format!(
-                "arrays of lengths {sizes:?}, but they must have one length"
+                "arrays of lengths {lengths:?}, but their lengths must be equal"
             )));
         }
-        let pairs = strains.0.iter().zip(&modulus_ratios.0).zip(&dampings.0);
-        checked(StrainCurves::Table(
-            pairs.map(|((strain, ratio), damping)| [*strain, *ratio, *damping]).collect(),
+        let rows = strains.0.iter().zip(&modulus_ratios.0).zip(&dampings.0);
+        checked_curves(StrainCurves::Table(
+            rows.map(|((strain, modulus_ratio), damping)| [*strain, *modulus_ratio, *damping])
+                .collect(),
         ))
     }
 
     /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).
     fn at(&self, strains: Numbers) -> PyResult<(Array, Array)> {
-        let values = strains.0.iter().map(|strain| self.0.at(*strain));
-        let values: Vec<[f64; 2]> = values.collect::<Result<_, _>>().or_raise()?;
-        let ratios = values.iter().map(|[ratio, _]| *ratio).collect();
-        Ok((ratios, values.iter().map(|[_, damping]| *damping).collect()))
+        let results = strains.0.iter().map(|strain| self.0.at(*strain));
+        let values: Vec<[f64; 2]> = results.collect::<Result<_, _>>().or_raise()?;
+        let modulus_ratios = values.iter().map(|[modulus_ratio, _]| *modulus_ratio).collect();
+        Ok((modulus_ratios, values.iter().map(|[_, damping]| *damping).collect()))
     }
 }
 
@@ -126,7 +130,7 @@ impl PyColumn {
     ) -> PyResult<PyEquivalentLinear> {
         let defaults = EquivalentLinearOptions::default();
         let options = EquivalentLinearOptions {
-            control: self::control(control)?,
+            control: control_point(control)?,
             strain_ratio: strain_ratio.unwrap_or(defaults.strain_ratio),
             tolerance: tolerance.unwrap_or(defaults.tolerance),
             most_iterations: most_iterations.unwrap_or(defaults.most_iterations),
@@ -192,19 +196,19 @@ impl PyEquivalentLinear {
         self.0.peak_accelerations.as_slice().into()
     }
 
-    /// Linear calculations made.
+    /// Number of linear calculations.
     #[getter]
     fn iterations(&self) -> usize {
         self.0.iterations
     }
 
-    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
+    /// Estimated largest relative change of a modulus or damping ratio by all further iterations.
     #[getter]
     fn last_change(&self) -> f64 {
         self.0.last_change
     }
 
-    /// Warnings, in words.
+    /// Texts of the warnings.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.0.warnings.iter().map(ToString::to_string).collect()

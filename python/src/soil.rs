@@ -1,4 +1,4 @@
-//! The soil.
+//! Elastic soil, and the strength of drained soil.
 
 use basemat::Soil;
 use basemat::soil::SoilStrength;
@@ -6,9 +6,11 @@ use pyo3::prelude::*;
 
 use crate::error::OrRaise;
 
-/// Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5),
-/// ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
-/// outside 500 to 10 000 kg/m³, which a slip of units often makes.
+/// Elastic soil, isotropic and homogeneous.
+///
+/// ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5), ``density`` (kg/m³). A run warns
+/// if the speed of shear waves is outside 10 to 5 000 m/s or the density outside 500 to 10 000 kg/m³: a usual cause is
+/// a wrong unit.
 #[pyclass(name = "Soil", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySoil(pub(crate) Soil);
@@ -78,11 +80,13 @@ impl PySoil {
     }
 }
 
-/// Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion``
-/// (Pa; 0 by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+/// Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`.
 ///
-/// Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
-/// passive pressure.
+/// It has the ``friction_angle`` (rad), its ``cohesion`` (Pa; 0 by default), and the ``wall_friction_angle`` between
+/// soil and wall (rad; 0 by default), at most the friction angle.
+///
+/// Stresses are effective stresses. Plane wedges overestimate the passive pressure if the wall friction angle is a
+/// third of the soil's friction angle or more.
 #[pyclass(name = "SoilStrength", module = "basemat", frozen, dict, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PySoilStrength(pub(crate) SoilStrength);
@@ -98,8 +102,8 @@ impl PySoilStrength {
         strength.or_raise().map(Self)
     }
 
-    /// Active and passive horizontal pressure over the vertical pressure, without cohesion: Coulomb's, without wall friction
-    /// Rankine's.
+    /// Active and passive ratio of the horizontal to the vertical pressure, without cohesion (Coulomb; without wall
+    /// friction Rankine).
     #[getter]
     fn pressure_ratios(&self) -> [f64; 2] {
         self.0.pressure_ratios()

@@ -10,30 +10,30 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, issue_warning, take_exception};
 
-/// Time between two calls of Python for signals, cancellation and progress.
+/// Time between two calls of Python: short for a reader, long against the cost of the call.
 const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 
 thread_local! {
     /// An event (`is_set`) that ends the runs of this thread.
-    static CANCELLED: RefCell<Option<Py<PyAny>>> = const { RefCell::new(None) };
+    static CANCELLATION_EVENT: RefCell<Option<Py<PyAny>>> = const { RefCell::new(None) };
 }
 
 /// Runs of this thread end with ``KeyboardInterrupt`` once ``event.is_set()``; None for no event.
 #[pyfunction(name = "_cancel_when")]
 #[pyo3(signature = (event=None))]
 pub(crate) fn cancel_when(event: Option<Py<PyAny>>) {
-    let before = CANCELLED.replace(event);
-    drop(before);
+    let previous_event = CANCELLATION_EVENT.replace(event);
+    drop(previous_event);
 }
 
-/// Warns where Python ignores Ctrl-C.
+/// Warns if the process ignores Ctrl-C.
 fn warn_of_ignored_interrupt(py: Python<'_>) -> PyResult<()> {
     let signal = py.import("signal")?;
     let handler = signal.call_method1("getsignal", (signal.getattr("SIGINT")?,))?;
     if handler.eq(signal.getattr("SIG_IGN")?)? {
-        let text = "Ctrl-C does not end this run: the process ignores SIGINT, as one does that a script \
-                    starts in the background; signal.signal(signal.SIGINT, \
-                    signal.default_int_handler) before it changes that";
+        let text = "Ctrl-C does not end this run: the process ignores SIGINT, as processes do that a script \
+                    starts in the background. To enable Ctrl-C, call signal.signal(signal.SIGINT, \
+                    signal.default_int_handler) before the run";
         issue_warning(py, text.into())?;
     }
     Ok(())
@@ -41,37 +41,37 @@ fn warn_of_ignored_interrupt(py: Python<'_>) -> PyResult<()> {
 
 /// Calls Python every 50 ms during a long calculation: for signals, cancellation and progress.
 pub(crate) struct Ticker {
-    last_call: Instant,
+    last_call_time: Instant,
     /// Whether the handling of Ctrl-C has been checked.
-    interrupt_checked: bool,
+    is_interrupt_checked: bool,
     /// Function of the number of parts done and of the number of all parts.
-    progress: Option<Py<PyAny>>,
-    /// Parts done at the last call of `progress`.
-    last_reported: Option<usize>,
+    report_progress: Option<Py<PyAny>>,
+    /// Parts done at the last call of `report_progress`.
+    last_reported_part: Option<usize>,
 }
 
 impl Ticker {
-    pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
+    pub(crate) fn new(report_progress: Option<Py<PyAny>>) -> Self {
         Self {
-            last_call: Instant::now(),
-            interrupt_checked: false,
-            progress,
-            last_reported: None,
+            last_call_time: Instant::now(),
+            is_interrupt_checked: false,
+            report_progress,
+            last_reported_part: None,
         }
     }
 
-    /// Reports `done` of `total` parts if the interval has passed; called without the GIL.
-    pub(crate) fn tick(&mut self, done: usize, total: usize) -> PyResult<()> {
-        if self.last_call.elapsed() < REPORT_INTERVAL {
+    /// Reports progress if the interval has passed; called without the GIL.
+    pub(crate) fn tick(&mut self, parts_done: usize, part_count: usize) -> PyResult<()> {
+        if self.last_call_time.elapsed() < REPORT_INTERVAL {
             return Ok(());
         }
         let result = Python::attach(|py| {
-            if !std::mem::replace(&mut self.interrupt_checked, true) {
+            if !std::mem::replace(&mut self.is_interrupt_checked, true) {
                 warn_of_ignored_interrupt(py)?;
             }
-            self.call_python(py, done, total)
+            self.call_python(py, parts_done, part_count)
         });
-        self.last_call = Instant::now();
+        self.last_call_time = Instant::now();
         result
     }
 
@@ -79,34 +79,38 @@ impl Ticker {
     pub(crate) fn call_python(
         &mut self,
         py: Python<'_>,
-        done: usize,
-        total: usize,
+        parts_done: usize,
+        part_count: usize,
     ) -> PyResult<()> {
         py.check_signals()?;
-        let event = CANCELLED.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
+        let event =
+            CANCELLATION_EVENT.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
         if let Some(event) = event
             && event.call_method0(py, "is_set")?.is_truthy(py)?
         {
             return Err(PyKeyboardInterrupt::new_err("cancelled"));
         }
-        if let Some(progress) = &self.progress {
-            self.last_reported = Some(done);
-            progress.call1(py, (done, total))?;
+        if let Some(report_progress) = &self.report_progress {
+            self.last_reported_part = Some(parts_done);
+            report_progress.call1(py, (parts_done, part_count))?;
         }
         Ok(())
     }
 }
 
-/// The function that reports progress: for True one that writes a line on stderr, for False none.
+/// Function that reports progress on items of this name.
+///
+/// For True it writes a line on stderr; for False or None there is no function.
 pub(crate) fn progress_function(
     progress: Option<&Bound<'_, PyAny>>,
-    items: &str,
+    item_name: &str,
 ) -> PyResult<Option<Py<PyAny>>> {
     match progress {
         Some(function) if function.is_callable() => Ok(Some(function.clone().unbind())),
         Some(flag) if flag.is_truthy()? => {
-            let line = flag.py().import("basemat._progress")?.call_method1("Line", (items,))?;
-            Ok(Some(line.unbind()))
+            let progress_line =
+                flag.py().import("basemat._progress")?.call_method1("Line", (item_name,))?;
+            Ok(Some(progress_line.unbind()))
         }
         _ => Ok(None),
     }
@@ -121,10 +125,11 @@ pub(crate) struct ProgressObserver {
 }
 
 impl ProgressObserver {
-    pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { ticker: Ticker::new(progress), exception: None, last_progress: None }
+    pub(crate) fn new(report_progress: Option<Py<PyAny>>) -> Self {
+        Self { ticker: Ticker::new(report_progress), exception: None, last_progress: None }
     }
 
+    /// Stores the progress and reports it; `Break` ends the call.
     pub(crate) fn update(&mut self, progress: Progress) -> ControlFlow<()> {
         self.last_progress = Some(progress);
         match self.ticker.tick(progress.done, progress.total) {
@@ -142,11 +147,11 @@ impl ProgressObserver {
             return Err(exception);
         }
         let value = result.or_raise()?;
-        // Completes a progress line that has begun.
-        if let Some(Progress { total, .. }) = self.last_progress
-            && self.ticker.last_reported.is_some_and(|done| done < total)
+        // A progress line that has begun ends at 100 %.
+        if let Some(Progress { total: part_count, .. }) = self.last_progress
+            && self.ticker.last_reported_part.is_some_and(|parts_done| parts_done < part_count)
         {
-            Python::attach(|py| self.ticker.call_python(py, total, total))?;
+            Python::attach(|py| self.ticker.call_python(py, part_count, part_count))?;
         }
         Ok(value)
     }
@@ -154,10 +159,10 @@ impl ProgressObserver {
 
 /// Result of a long call of the core that Ctrl-C, cancellation or an exception may stop; called without the GIL.
 pub(crate) fn with_progress<T>(
-    progress: Option<Py<PyAny>>,
+    report_progress: Option<Py<PyAny>>,
     call: impl FnOnce(&mut Observer<'_>) -> basemat::Result<T>,
 ) -> PyResult<T> {
-    let mut observer = ProgressObserver::new(progress);
+    let mut observer = ProgressObserver::new(report_progress);
     let result = call(&mut |progress| observer.update(progress));
     observer.end(result)
 }

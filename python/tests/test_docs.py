@@ -151,7 +151,7 @@ def test_stubs_have_the_modules_texts() -> None:
 @pytest.mark.parametrize(
     ("expression", "name", "text"),
     [
-        ("bm.Simulation", "Simulation", "A structure on a ground, ready to march"),
+        ("bm.Simulation", "Simulation", "Simulation of a structure on a ground"),
         ("bm.el_centro_1940().high_pass", "Record.high_pass", "Record filtered at a ``corner``"),
         ("bm.load('run').floor_spectra", "Run.floor_spectra", "Floor spectra as a pandas frame"),
         ("bm.load('run').base_shear.magnitude", "Extremes.magnitude", "Magnitude of `largest`"),

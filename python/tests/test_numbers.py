@@ -188,7 +188,7 @@ def test_wrong_types_are_named_in_pythons_words(text: str, call: Callable[[], ob
 
 
 def test_an_observer_says_yes_or_no(rocking) -> None:
-    with pytest.raises(bm.InputError, match="observe returned what will not do"):
+    with pytest.raises(bm.InputError, match="observe returned an invalid value"):
         rocking().run(5, observe=lambda state: "on")
     with pytest.raises(bm.InputError, match="observe must be a function"):
         rocking().run(5, observe=3)
@@ -212,7 +212,7 @@ def test_soil_far_from_any_soil_warns_once(rocking, block) -> None:
 def test_counts_of_a_run_are_whole_and_not_negative(rocking) -> None:
     simulation = rocking()
     for name in ("steps", "observe_every", "every", "contact_every", "motion_every"):
-        with pytest.raises(bm.InputError, match=f"{name}: -1, but only whole numbers from 0 on"):
+        with pytest.raises(bm.InputError, match=f"{name}: -1, but must be whole numbers of 0 or more"):
             simulation.run(**{"steps": 1, name: -1})
     with pytest.raises(bm.InputError, match="expected_steps: 1000000000.0, but"):
         rocking(solver=bm.SolverOptions(expected_steps=1e9))

@@ -147,7 +147,7 @@ def test_limits_of_the_packages_laws() -> None:
         (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
         (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),
         (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "a list of BaseNode, a list of such lists, or"),
-        (lambda: BODY.dof("x").relative_to_base(BODY), "none of the plane"),
+        (lambda: BODY.dof("x").relative_to_base(BODY), "not in the plane"),
         (lambda: simulation().state.value("tork"), "no quantity 'tork', only base_shear"),
     ],
 )

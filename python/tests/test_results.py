@@ -159,7 +159,7 @@ def test_arrays_and_grids_for_other_programs(run: bm.Run, block: bm.RigidBlock, 
     grid = ElementTree.parse(tmp_path / "base_base_0060.vtu")
     cells = {own.get("Name"): own.text for own in grid.iterfind(".//CellData/DataArray")}
     assert [float(own) for own in (cells["pressure"] or "").split()] == run.contact["pressure"][60].tolist()
-    with pytest.raises(bm.InputError, match="height: give that of the box"):
+    with pytest.raises(bm.InputError, match="give the height of the box"):
         run.save_paraview(tmp_path, "block", block)
     with pytest.raises(bm.InputError, match="base: give `contact_every` to `run`"):
         ground = bm.SpringGround.under(block, 4, 1e8, 5e7)

@@ -71,7 +71,7 @@ def test_points_of_your_own_and_a_structure_that_has_them() -> None:
     assert shape.in_space and shape.points.tolist() == [[0.0, 0.0, 0.0], [0.0, 1.0, 4.0]]
     assert shape.displacements([1.0, 2.0, 3.0, 4.0, 5.0]).tolist() == [[1.0, 2.0, 3.0], [8.0, 5.0, 0.0]]
     for points, rows, message in (
-        ([[0.0, 0.0]], [], "rows are 0, but must be 1"),
+        ([[0.0, 0.0]], [], "rows has 0 entries, but must have 1"),
         ([[0.0, 0.0]], [[0, 1, 2]], "a point has 3 rows, but must have 2"),
     ):
         with pytest.raises(bm.InputError, match=message):

@@ -224,7 +224,7 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
         rocking(
             structure=block, ground=bm.ElasticGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)
         ).resume(saved)
-    with pytest.raises(bm.InputError, match="bytes of a checkpoint"):
+    with pytest.raises(bm.InputError, match="these bytes are not a checkpoint"):
         bm.Checkpoint(b"\xff" * 5)
 
 

@@ -228,7 +228,7 @@ def test_rows_add_and_scale(block: bm.RigidBlock) -> None:
     assert block.horizontal_at(9.0).relative_to_base(block).value(
         np.array([0.5, 0, 0.01])
     ) == pytest.approx(-0.09)
-    with pytest.raises(bm.InputError, match=r"structure\.dof\('roof'\) is that of a name"):
+    with pytest.raises(bm.InputError, match=r"structure\.dof\('roof'\) returns the row of this name"):
         bm.Probe.acceleration("roof", "roof")
     with pytest.raises(bm.InputError, match="a row must be"):
         bm.DofCombination(1.5)

@@ -113,10 +113,10 @@ _MatrixLike: TypeAlias = Any
 
 @final
 class BaseNode:
-    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
-    one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
-    below the surface also its height ``z`` above the surface (m, negative; zero unless given).
+    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination` or its ``terms``) of its displacement
+    to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y`` (away from the reader, m; zero
+    unless given) and the row of its displacement along y, ``across``. On walls and bases below the surface also its
+    height ``z`` above the surface (m, negative; zero unless given).
     """
 
     def __new__(
@@ -170,7 +170,7 @@ class BaseNode:
 
 @final
 class BaseFaces:
-    """The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
+    """The base of a structure in plan: ``faces``, a list of lists of `BaseNode`. An iteration yields these lists.
 
     A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
     face, its outline, which may be given without a list. Faces that touch are one foundation.
@@ -182,24 +182,28 @@ class BaseFaces:
 
 @final
 class BearingFactors:
-    """Bearing capacity factors of drained soil of a ``friction_angle`` (rad) under a rough strip, by EN 1997-1:2004, D.4."""
+    """Bearing capacity factors of drained soil under a rough strip.
+
+    ``friction_angle`` of the soil: rad. Source: EN 1997-1:2004, D.4.
+    """
 
     def __new__(cls, friction_angle: float) -> Self: ...
     @property
     def cohesion(self) -> float:
-        """N_c of the cohesion, a number; π + 2 without friction."""
+        """Factor N_c of the cohesion, a number; π + 2 without friction."""
     @property
     def surcharge(self) -> float:
-        """N_q of the pressure of the soil beside the base, a number."""
+        """Factor N_q of the pressure of the soil beside the base, a number."""
     @property
     def unit_weight(self) -> float:
-        """N_γ of the weight of the soil below the base, a number."""
+        """Factor N_γ of the unit weight of the soil below the base, a number."""
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class ShallowFooting:
-    """Shallow footing whose bearing capacity follows EN 1997-1:2004, Annex D, without partial factors: of a rectangle, or
-    `circle`.
+    """Rectangular shallow footing, or a `circle`, for its bearing capacity.
+
+    The capacity follows EN 1997-1:2004, Annex D, without partial factors.
 
     ``sides`` along x and y (m); with ``math.inf`` along y it is a strip, whose forces are per metre. ``surcharge``: vertical
     pressure of the soil beside the base at its level (Pa; 0 by default), unit weight times depth. ``eccentricity`` of the
@@ -228,8 +232,8 @@ class ShallowFooting:
         horizontal_force: tuple[float, float] = (0.0, 0.0),
         base_tilt: float = 0.0,
     ) -> ShallowFooting:
-        """Circle of a ``diameter`` (m), loaded in its middle. ``surcharge``, ``vertical_force``, ``horizontal_force`` and
-        ``base_tilt`` are as in the constructor.
+        """Circular footing of a ``diameter`` (m), loaded in its middle. ``surcharge``, ``vertical_force``,
+        ``horizontal_force`` and ``base_tilt`` are as in the constructor.
         """
     @property
     def effective_sides(self) -> list[float]:
@@ -242,15 +246,16 @@ class ShallowFooting:
         soil below the base, N/m³.
         """
     def pressure_growth(self, strength: SoilStrength, unit_weight: float) -> float:
-        """Growth of the drained bearing pressure as the base sinks (Pa/m), for a ``strength`` and ``unit_weight`` as in
-        `drained_pressure`: N_q times the unit weight, and the factors of shape, inclination and tilt.
+        """Increase of the drained bearing pressure with the settlement of the base (Pa/m), for a ``strength`` and
+        ``unit_weight`` as in `drained_pressure`: the product of N_q, the unit weight and the factors of shape,
+        inclination and tilt.
         """
     def undrained_pressure(self, undrained_strength: float) -> float:
         """Bearing pressure (Pa) of undrained soil of an ``undrained_strength`` (Pa) on the effective area."""
     def rocking_capacity(self, vertical_force: float, bearing_pressure: float) -> tuple[float, list[float]]:
-        """Critical contact area over the area of the base, and the moments (N·m) that make the footing rock along x and along y
-        under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2 (1 − A_c/A) (Gajan and
-        Kutter 2008).
+        """Ratio of the critical contact area to the area of the base, and the moments (N·m) at which the footing rocks
+        along x and along y, under a ``vertical_force`` (N) on soil of a ``bearing_pressure`` (Pa): of a rectangle V L/2
+        (1 − A_c/A) (Gajan and Kutter 2008).
         """
     def __eq__(self, value: object, /) -> bool: ...
 
@@ -280,8 +285,10 @@ class _CaseFile:
 
 @final
 class SharedKernels:
-    """Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
-    are built with the same object. A copy in another process begins empty; ``len()`` counts them.
+    """Convolution weights that grounds of equal soil and elements share.
+
+    They are computed once for all simulations that are built with the same object. A copy in another process is empty;
+    ``len()`` is the number of stored sets.
     """
 
     def __new__(cls) -> Self: ...
@@ -290,12 +297,12 @@ class SharedKernels:
 
 @disjoint_base
 class Ground:
-    """A ground: a description from which every simulation makes one of its own."""
+    """A ground: a description from which each simulation builds a separate ground."""
 
     @property
     def elements(self) -> NDArray[np.float64]:
-        """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both are the
-        same on a wall.
+        """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both
+        ends are equal on a wall.
         """
     @property
     def heights(self) -> NDArray[np.float64]:
@@ -308,17 +315,18 @@ class Ground:
 
 @final
 class ElasticGround(Ground):
-    """Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
-    elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
+    """Elastic ground, homogeneous or layered, with contact elements on its surface.
 
-    ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
-    half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
-    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (unless given, 1e-12 with "auto" and
-    1e-10 with "exponentials"); ``history_memory``: bytes that the history may take (1 GiB unless given).
-    ``kernels``: `SharedKernels` of several simulations; not shared unless given.
-    Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
-    ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
-    ``kernel_file``: path of a file that stores them (none unless given).
+    ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
+    in three dimensions.
+
+    ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
+    under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
+    ``history_tolerance``: permitted relative error of exponentials, 1e-12 to 1e-2 (unless given, 1e-12 with "auto" and
+    1e-10 with "exponentials"); ``history_memory``: largest memory of the history, bytes (1 GiB unless given).
+    ``kernels``: `SharedKernels` of several simulations; not shared unless given. For layers and damping: ``stages``: 2
+    or 3 Runge–Kutta stages (the rule's choice unless given); ``tolerance``: relative error of the element compliances,
+    1e-13 to 1e-4 (1e-10 unless given); ``kernel_file``: path of a file that stores them (none unless given).
     """
 
     def __new__(
@@ -349,10 +357,11 @@ class ElasticGround(Ground):
         kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
-        """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-        structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
-        outline that is oblique to them.
-        A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+        """Ground with contact elements under the foundations of a ``structure``.
+
+        It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
+        a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
+        flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
         ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
 
         ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
@@ -367,15 +376,17 @@ class ElasticGround(Ground):
 
 @final
 class Plan:
-    """Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
-    cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it), with ``cells`` along the shorter side of them all.
-    Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
+    """Square contact cells under a mat, for an `ElasticGround` in plan.
+
+    They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
+    m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
+    cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
     """
 
     def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
     @staticmethod
     def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
-        """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
+        """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` along its diameter."""
     @staticmethod
     def masked(corner: Sequence[float], pitch: Sequence[float], mask: Any) -> Plan:
         """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
@@ -386,16 +397,19 @@ class Plan:
         """Sides of a cell along x and y, m."""
     @property
     def middle(self) -> list[float]:
-        """Middle of the bounding rectangle, x and y, m: what impedances refer to."""
+        """Middle of the bounding rectangle, x and y, m: the reference point of impedances."""
     @property
     def area_error(self) -> float:
         """Area of the cells inside the outline minus the area of the faces, relative to the latter."""
     def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
-        """The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
-        ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
+        """The plan with contact elements that are rectangles of cells: the list ``along`` has the numbers of columns that
+        are united, ``across`` those of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2, 1 are as
+        accurate as separate cells.
         """
     def without_overhang(self) -> Plan:
-        """The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces."""
+        """The plan with cells that end at the edges of the faces: for springs, for prescribed pressures and for flexible
+    faces.
+    """
     def __len__(self) -> int: ...
     def impedances(
         self,
@@ -404,20 +418,22 @@ class Plan:
         *,
         contact: _StripContact = "bonded",
     ) -> NDArray[np.complex128]:
-        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
-        e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
-        moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
-        "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
+        """Dynamic stiffness of the mat as one rigid body on a ``soil``.
+
+        It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
+        Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
+        (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
+        without shear, horizontal ones without pressure).
         """
 
 @final
 class SpringGround(Ground):
     """Independent springs and dashpots under each element (Winkler bed).
 
-    ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end with the mat.
-    ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
-    given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
-    given.
+    ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end at the edge of the mat.
+    ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential
+    one unless given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: θ of their time
+    integration, ½ to 1; ½ unless given.
     """
 
     def __new__(
@@ -441,11 +457,13 @@ class SpringGround(Ground):
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
     ) -> SpringGround:
-        """Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
-        the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
-        and ``theta`` are as in the class, the last three if given.
-        A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
-        ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+        """Spring bed with contact elements under the foundations of a ``structure``.
+
+        It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
+        along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
+        ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
+        element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
+        its number of elements, and ``len(ground.elements)`` is that number.
         """
 
 @final
@@ -457,15 +475,17 @@ class Strip:
     def __new__(cls, left: float, right: float, count: int, *, grading: _Grading = "cosine") -> Self: ...
     @staticmethod
     def from_nodes(nodes: ArrayLike) -> Strip:
-        """Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending)."""
+        """Strip of elements between ``nodes`` (array of shape (elements + 1,), m, ascending)."""
     @property
     def nodes(self) -> list[float]:
         """Ends of the elements: list of elements + 1 numbers, m."""
 
 @final
 class Impedances:
-    """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-    arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
+    """Dynamic stiffness of a rigid base without mass, per metre of thickness.
+
+    It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
+    radiation and damping.
     """
 
     @property
@@ -502,27 +522,30 @@ class Impedances:
 
 @final
 class Trench:
-    """Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep."""
+    """Rectangular trench in the surface of the ground, in the plane.
+
+    It reaches from ``left`` to ``right`` (x, m) and is ``depth`` (m) deep.
+    """
 
     def __new__(cls, left: float, right: float, depth: float) -> Self: ...
     @property
     def sides(self) -> list[float]:
-        """Places of the left and the right wall, x, m."""
+        """x of the left and of the right wall, m."""
     @property
     def depth(self) -> float:
         """Depth of the base below the surface, m."""
     def elements(self, base: int, wall: int) -> TrenchElements:
         """The `TrenchElements`: ``base`` contact elements of the base, an even number, and ``wall`` elements of each wall.
 
-        Elements are shorter towards the ends of each face. With 8 and 6 impedances are off by about 0.5 %, with twice as
-        many by 0.1 %.
+        Elements are shorter towards the ends of each face. With 8 and 6 elements the error of impedances is about 0.5
+        %, with twice as many 0.1 %.
         """
 
 @final
 class TrenchElements:
     """Contact elements of the faces of a `Trench`: down the left wall, along the base, up the right wall.
 
-    `Trench.elements` makes them; ``len()`` counts them.
+    `Trench.elements` creates them; ``len()`` is their number.
     """
 
     def interfaces(self, base: _Interface, walls: _Interface) -> list[_Interface]:
@@ -533,16 +556,18 @@ class TrenchElements:
 
 @final
 class TrenchGround(Ground):
-    """Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
-    ``elements`` (`TrenchElements`).
+    """Soil around a trench, in the plane.
+
+    It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
+    (`TrenchElements`).
 
     The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 
-    ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
-    unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,
-    if it is damped, its `DampingLaw`; the profile unless given.
-    ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
-    `ElasticGround`, whose defaults they have unless given.
+    ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
+    − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its
+    width (m), its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given. ``history``,
+    ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for `ElasticGround`,
+    whose defaults they have unless given.
     """
 
     def __new__(
@@ -560,7 +585,8 @@ class TrenchGround(Ground):
         kernels: SharedKernels | None = None,
     ) -> Self: ...
     def impedances(self, frequencies: ArrayLike) -> Impedances:
-        """Dynamic stiffness of a rigid body welded to walls and base, `Impedances`, at ``frequencies`` (array of shape (m,), Hz).
+        """Dynamic stiffness of a rigid body bonded to walls and base, `Impedances`, at ``frequencies`` (array of shape
+        (m,), Hz).
 
         It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
         """
@@ -580,12 +606,14 @@ class TrenchGround(Ground):
     def kinematic_motions(self, frequencies: ArrayLike) -> KinematicMotions:
         """Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
 
-        Shear and pressure waves travel vertically. With backfill they do not, and the call raises an error.
+        Shear and pressure waves travel vertically. A ground with backfill raises an error, since its waves do not.
         """
 
 @final
 class KinematicMotions:
-    """Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+    """Harmonic motion of a rigid body without mass in a trench.
+
+    It is relative to a unit motion e^(iωt) of the surface of the free field.
 
     It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
     Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
@@ -616,9 +644,7 @@ class InterfaceLaw:
     def modes(self) -> list[Mode]:
         """List of the names of the modes that this law uses; the first is the mode of an element at rest."""
     def conditions(self, mode: Mode, start: PreviousContact) -> tuple[Condition, Condition]:
-        """The two `Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
-        (`PreviousContact`) is.
-        """
+        """The two `Condition` that ``mode`` imposes at the end of a step that begins with ``start`` (`PreviousContact`)."""
     def next_mode(
         self,
         mode: Mode,
@@ -626,9 +652,8 @@ class InterfaceLaw:
         trial: ContactState,
         tolerance: Tolerance,
     ) -> Mode:
-        """The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step
-        that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
-        ``tolerance`` left aside.
+        """The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step that begins with
+        ``start``; ``mode`` itself if the trial is admissible apart from differences below the ``tolerance``.
         """
     def limits(self, start: PreviousContact) -> Limits:
         """The `Limits` of an element's tractions in the step after ``start``
@@ -637,7 +662,7 @@ class InterfaceLaw:
 
 @final
 class Bonded(InterfaceLaw):
-    """Base and ground never part."""
+    """Base and ground are bonded: they neither separate nor slide."""
 
     def __new__(cls) -> Self: ...
 
@@ -645,11 +670,10 @@ class Bonded(InterfaceLaw):
 class Coulomb(InterfaceLaw):
     """Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 
-    ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
-    With 3 or more, steps in plan may have several solutions: compare the run with one of the mirror image.
-    ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
-    contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
-    rule); on the gap unless given.
+    ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides. With 3 or more, steps in
+    plan may have several solutions: compare the run with one of the mirror image. ``tensile_strength`` (Pa; 0 by
+    default) acts on an element until it first opens. ``closed_below`` (m): contact conditions act on the change of the
+    gap of elements whose gap is at most that (Moreau's rule); on the gap unless given.
     """
 
     def __new__(
@@ -665,27 +689,32 @@ class Coulomb(InterfaceLaw):
 
 @final
 class Cohesive(InterfaceLaw):
-    """A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
-    (Pa) against opening and shear, ``friction`` the coefficient when it is broken.
+    """A bond that breaks permanently, and friction afterwards: ``tension`` and ``cohesion`` are its strengths (Pa) against
+    opening and shear, ``friction`` the coefficient when it is broken.
     """
 
     def __new__(cls, tension: float, cohesion: float, friction: float) -> Self: ...
 
 @final
 class Yielding(InterfaceLaw):
-    """Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa)."""
+    """Coulomb friction on soil that yields under its bearing pressure.
+
+    ``bearing_pressure``: Pa. ``friction``: coefficient.
+    """
 
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
 
 @final
 class CyclicYielding(InterfaceLaw):
-    """Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and bears at most its
-    ``bearing_pressure`` (Pa).
+    """Coulomb friction on soil that settles in every cycle of load.
 
-    Under virgin load half of that acts at the ``reference_settlement`` (m; 0 or more). ``elastic_range``: rise of pressure
-    without yielding, relative to the bearing pressure, above 0 and at most 1; 1, soil that remembers its largest pressure,
-    unless given. ``depth_gradient``: growth of the bearing pressure with the settlement, Pa/m; 0 unless given. State
-    variables of an element: settlement (m), and pressure above which it yields (Pa).
+    ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
+
+    Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
+    ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
+    unless given, for soil that yields again only above its largest previous pressure. ``depth_gradient``: growth of the
+    bearing pressure with the settlement, Pa/m; 0 unless given. State variables of an element: settlement (m), and
+    pressure above which it yields (Pa).
     """
 
     def __new__(
@@ -698,15 +727,17 @@ class CyclicYielding(InterfaceLaw):
         depth_gradient: float = 0.0,
     ) -> Self: ...
     def virgin_settlement(self, pressure: float) -> float:
-        """Settlement (m) of soil that has borne nothing before under a ``pressure`` (Pa), without the elastic ground."""
+        """Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without that of the elastic ground."""
 
 @final
 class EarthPressure(InterfaceLaw):
-    """Coulomb friction of a wall, of a coefficient ``friction``, on soil that follows a wall that moves away, at its
-    ``active`` pressure (Pa), and yields to a wall that is pushed in, at its ``passive`` pressure (Pa).
+    """Coulomb friction between a wall and soil that yields.
 
-    With an ``active`` pressure of 0 the soil stands by its cohesion, and the wall opens. `TrenchGround.interfaces` makes
-    these laws from the strength of the soil.
+    ``friction``: coefficient. The soil yields at its ``active`` pressure (Pa) towards a wall that moves away, at its
+    ``passive`` pressure (Pa) under a wall that moves into it.
+
+    With an ``active`` pressure of 0 the soil is stable by its cohesion, and a gap opens at the wall.
+    `TrenchGround.interfaces` creates these laws from the strength of the soil.
     """
 
     def __new__(cls, active: float, passive: float, friction: float) -> Self: ...
@@ -716,7 +747,7 @@ class EarthPressure(InterfaceLaw):
 
 @final
 class ThinLayer(InterfaceLaw):
-    """The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
+    """Thin elastic layer between base and ground (Patel and Spyrakos).
 
     ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
     coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
@@ -760,9 +791,10 @@ class ThinLayer(InterfaceLaw):
 
 @final
 class VariableFriction(InterfaceLaw):
-    """Coulomb friction whose coefficient is a function of the start of the step:
-    ``coefficient(start)`` returns a number for a `PreviousContact`. It may raise: the exception
-    comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
+    """Coulomb friction with a coefficient by a function of Python.
+
+    ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
+    raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
     """
 
     def __new__(
@@ -774,8 +806,8 @@ class VariableFriction(InterfaceLaw):
 
 @disjoint_base
 class FreeField:
-    """Motion of the ground's surface without the structure: a `Record`, a wave, or what
-    `free_field` makes of a function. Until t = 0 the ground rests.
+    """Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+    the ground is at rest.
     """
 
     def displacement(self, x: float, time: float) -> list[float]:
@@ -790,9 +822,8 @@ class Record(FreeField):
     """Ground acceleration at equal time steps, linear between samples; velocity and displacement are
     its exact integrals from rest.
 
-    ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``:
-    "m/s²" (the default), "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it
-    is horizontal, the same everywhere at once.
+    ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``: "m/s²" (the default),
+    "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it is horizontal and the same everywhere.
     """
 
     def __new__(
@@ -848,16 +879,15 @@ class Record(FreeField):
         """Reads a file at ``path``.
 
         ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
-        (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net"
-        (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet".
-        ``unit`` of the acceleration as for the class: needed for columns and values along lines, for files of
-        "cosmos" and "slist" that name none; other files have their own. Of columns: ``columns`` are the numbers of
-        time and acceleration from 1, (1, 2) unless given; with ``time_step`` (s) times do not count, and only one
-        column may be there unless ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the
-        Fortran format of their lines, such as "8F9.6", none unless given. Of both ``header_lines`` at the beginning
-        are passed over, and ``samples`` is the number of samples, if known: another number is an error.
-        ``channel`` is the number of the component from 1, for formats that hold several ("cosmos", "k_net_csv",
-        "afad", "geonet", "slist").
+        (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and
+        KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet". ``unit`` of the
+        acceleration as for the class: needed for columns and values along lines, for files of "cosmos" and "slist" that
+        name none; other files have their own. Of columns: ``columns`` are the numbers of time and acceleration from 1,
+        (1, 2) unless given; with ``time_step`` (s) times are ignored, and the file must have one column unless
+        ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the Fortran format of their lines,
+        such as "8F9.6", none unless given. Both skip ``header_lines`` at the beginning, and raise an error if the
+        number of samples is not ``samples``, if given. ``channel`` is the number of the component from 1, for formats
+        that hold several ("cosmos", "k_net_csv", "afad", "geonet", "slist").
         """
     @staticmethod
     def read_all(
@@ -879,11 +909,11 @@ class Record(FreeField):
         by default 0.05 and 0.95: between them is the significant duration.
         """
     def scaled(self, factor: float) -> Record:
-        """Record with all samples times a ``factor``."""
+        """Record with all samples multiplied by a ``factor``."""
     def scaled_to_peak(self, peak: float) -> Record:
         """Record scaled to a ``peak`` acceleration (m/s²), signs kept."""
     def resampled(self, time_step: float) -> Record:
-        """Record with samples every ``time_step`` (s), linear between the old ones."""
+        """Record with samples every ``time_step`` (s), linear between the present ones."""
     def with_baseline(self, treatment: _Baseline, *, degree: int = 4) -> Record:
         """Record with its baseline treated. ``treatment``: "remove_mean", "newmark_parabola",
         "velocity_polynomial", "displacement_polynomial" or "rest_to_rest"; polynomials have the ``degree``, 4 by
@@ -893,14 +923,14 @@ class Record(FreeField):
         """Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
         8; 4 by default), forwards and backwards, so without phase shift.
 
-        The record gets longer by quiet time of 1.5 ``order / corner`` s before and after it, 30 s each
-        for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
-        displacement do not return to zero.
+        Rest of 1.5 ``order / corner`` s is added before and after the record, 30 s each for a corner of 0.2 Hz, since
+        the filter changes the motion there. Do not remove it: without it velocity and displacement do not return to
+        zero.
         """
     def low_pass(self, corner: float, *, order: int = 4) -> Record:
-        """Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
-        forwards and backwards, so without phase shift; longer as by `high_pass`. Deconvolution needs it
-        (`SoilColumn.from_surface`).
+        """Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by
+        default), forwards and backwards, so without phase shift; rest is added as by `high_pass`. Use it before a
+        deconvolution (`SoilColumn.from_surface`).
         """
     def tapered(self, beginning: float, end: float) -> Record:
         """Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends."""
@@ -934,10 +964,10 @@ class Spectrum:
         """Largest total accelerations: array of shape (m,), m/s²."""
     @property
     def warnings(self) -> list[str]:
-        """Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact."""
+        """Texts of warnings of periods shorter than ten time steps of the record, where the spectrum is not exact."""
     def broadened(self, fraction: float = 0.15) -> Spectrum:
-        """Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
-        by default (U.S. NRC R.G. 1.122).
+        """Spectrum with peaks broadened by the ``fraction`` of their frequency to both sides, 0.15 by default (U.S. NRC
+        R.G. 1.122).
         """
     def __len__(self) -> int: ...
     def plot(
@@ -959,12 +989,12 @@ class Spectrum:
 
 @final
 class TrenchMotion(FreeField):
-    """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
+    """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` is for other waves.
 
-    ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
-    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero unless given. Motion at
-    depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
-    surface (`Record.padded`).
+    ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record`
+    of the surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero
+    unless given. Motion at depth precedes the motion of the surface: begin the record with rest that lasts the travel
+    time of the waves from the base to the surface (`Record.padded`).
     """
 
     def __new__(
@@ -975,17 +1005,19 @@ class TrenchMotion(FreeField):
     ) -> Self: ...
     @staticmethod
     def travelling(ground: TrenchGround, wave: FreeField) -> TrenchMotion:
-        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of what a `PlaneWave` or an `InclinedWave` makes of
-        a record, or of a `travelling_wave`.
+        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of a field of a `PlaneWave` or an
+        `InclinedWave`, or of a `travelling_wave`.
 
-        The wave must be one of the ground's profile, along x: the motion of the surface and its velocity along it determine
-        the field below. Motion before and after the wave's record fades within half of its length.
+        The wave must belong to the profile of the ground and travel along x: the motion and the apparent velocity at
+        the surface determine the field below. The motion before and after the record of the wave decays within half the
+        length of the record.
         """
 
 @final
 class PlaneWave:
-    """A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
-    `field_from_horizontal` and `field_from_vertical` make it a motion.
+    """Plane wave below the surface of a half-plane, or Rayleigh wave.
+
+    `field_from_horizontal` and `field_from_vertical` convert it to a motion.
     """
 
     @staticmethod
@@ -995,8 +1027,8 @@ class PlaneWave:
         """
     @staticmethod
     def sh(soil: Soil, angle: float) -> PlaneWave:
-        """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
-        across its direction only.
+        """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the
+        surface only perpendicular to its direction.
         """
     @staticmethod
     def p(soil: Soil, angle: float) -> PlaneWave:
@@ -1015,20 +1047,18 @@ class PlaneWave:
         `travelling_wave`.
         """
     def field_from_across(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-        (rad; 0 by default) is as in `travelling_wave`.
+        """The `FreeField` whose motion perpendicular to its direction at ``origin`` (x, m) is the ``record``, of an SH
+        wave; ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
         """
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
     def reversed(self) -> PlaneWave:
-        """Wave with this motion, running the other way."""
+        """Wave with the same motion in the opposite direction."""
 
 @final
 class SoilColumn:
-    """A soil ``profile`` (`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
-    (the default) or "pressure".
-    """
+    """A soil ``profile`` (`SoilProfile`) as a column with vertical waves; ``wave``: "shear" (the default) or "pressure"."""
 
     def __new__(cls, profile: SoilProfile, wave: _Wave = "shear") -> Self: ...
     def transfer(
@@ -1037,19 +1067,19 @@ class SoilColumn:
         *,
         control: _ControlPoint = "outcrop",
     ) -> NDArray[np.complex128]:
-        """Ratio of the motion of the surface to the motion of the ``control`` point for e^(iωt): complex array of
-        shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
-        base without layers) or "within" (the base under them).
+        """Ratio of the surface motion to the motion of the ``control`` point for e^(iωt): complex array of shape (m,) at
+        ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the base without layers) or
+        "within" (the base under them).
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
-        """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-        "within", as long. A `BasematWarning` gives the size, relative to the peak, of what comes before or after
-        and is cut off, from 0.01 % on: `Record.padded` makes room for it.
+        """The record of the surface, as long as the ``record`` of the ``control`` point, "outcrop" (the default) or
+        "within". If motion is cut off at its ends, a `BasematWarning` states how much of the peak, from 0.01 % on;
+        `Record.padded` avoids it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
-        """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
-        surface (deconvolution); it warns as `to_surface`, and of a motion that is mostly noise which the way down
-        amplifies more than a hundredfold: `Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
+        """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the surface
+        (deconvolution); it warns as `to_surface`, and also if most of the motion is noise that the deconvolution
+        amplifies more than a hundredfold: filter the record with `Record.low_pass` before, typically at 15 to 25 Hz.
         """
     @staticmethod
     def surface_in_plan(
@@ -1060,9 +1090,9 @@ class SoilColumn:
         *,
         control: _ControlPoint = "outcrop",
     ) -> list[Record | None]:
-        """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
-        default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
-        is None stays so.
+        """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point,
+        "outcrop" (the default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by
+        pressure waves; None for a record that is not given.
         """
     def equivalent_linear(
         self,
@@ -1087,23 +1117,19 @@ class SoilColumn:
 
 @final
 class InclinedWave:
-    """A plane wave from the half-plane under a layered profile; `field` makes it a motion."""
+    """A plane wave from the half-plane under a layered profile; `field` converts it to a motion."""
 
     @staticmethod
     def sv(profile: SoilProfile, angle: float) -> InclinedWave:
-        """SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-        positive.
-        """
+        """SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive."""
     @staticmethod
     def sh(profile: SoilProfile, angle: float) -> InclinedWave:
-        """SH wave as of `sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
-        direction.
+        """SH wave with a ``profile`` and an ``angle`` (rad) as for `sv`, for a ground in plan: its motion is horizontal
+        and perpendicular to its direction.
         """
     @staticmethod
     def p(profile: SoilProfile, angle: float) -> InclinedWave:
-        """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
-        positive.
-        """
+        """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if positive."""
     @property
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
@@ -1115,22 +1141,21 @@ class InclinedWave:
         control: _InclinedControl = "outcrop_horizontal",
         azimuth: float = 0.0,
     ) -> FreeField:
-        """The `FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
-        (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
-        "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-        default) is as in `travelling_wave`.
+        """The `FreeField` of the surface for the ``record`` at the ``control`` point at ``origin`` (x, m), which the wave
+        reaches first. ``control``: "outcrop_horizontal" (the default), "outcrop_vertical" (base without layers) or
+        "incident" (incident wave alone). ``azimuth`` (rad; 0 by default) is as in `travelling_wave`.
         """
 
 @final
 class Probe:
     """A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 
-    ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``:
-    its label in tables; unless given, the quantity's.
+    ``name``: name of its time series. ``row``: a `DofCombination` or its ``terms``. ``unit``: its label in tables;
+    unless given, the unit of the quantity.
 
-    Displacements are changes against the static state, relative to the translation of the free
-    field; `absolute_displacement` includes it. Velocities and accelerations are total. No two
-    probes of a simulation have the same name, and none the name of another time series of a run.
+    Displacements are changes against the static state, relative to the translation of the free field;
+    `absolute_displacement` includes it. Velocities and accelerations are total. The names of the probes of a simulation
+    differ from each other and from the names of other time series of a run.
     """
 
     @staticmethod
@@ -1163,47 +1188,48 @@ class Probe:
         """Name of the probe and of its time series."""
     @property
     def unit(self) -> str:
-        """Label of its unit; values are what the weights make of SI units."""
+        """Label of its unit. It converts nothing: values are sums of SI values times the weights."""
     @property
     def rows(self) -> list[DofCombination]:
         """Three `DofCombination`: of displacements, of velocities and of accelerations."""
 
 @final
 class DampingLaw:
-    """Damping of a soil: how its shear modulus depends on frequency."""
+    """Damping of a soil: its complex shear modulus over frequency."""
 
     @staticmethod
     def elastic() -> DampingLaw:
         """No damping."""
     @staticmethod
     def constant_q(ratio: float, band: Sequence[float] = (0.1, 30.0), reference: float = 1.0) -> DampingLaw:
-        """Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
-        frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
-        default): the usual choice in time.
+        """Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest frequency,
+        Hz; 0.1 to 30 by default) and the soil's modulus at the frequency ``reference`` (Hz; 1 by default): the usual
+        choice in the time domain.
         """
     @staticmethod
     def maxwell(long_term: float, ratios: ArrayLike, rates: ArrayLike) -> DampingLaw:
-        """Generalised Maxwell body: ratio ``long_term`` of its modulus to the soil's, ``ratios`` of the rest
-        (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
+        """Generalised Maxwell body of m mechanisms. ``long_term``: ratio of its long-term modulus to the modulus of the
+        soil. ``ratios``: ratios of the moduli of the mechanisms to the modulus of the soil (array of shape (m,)).
+        ``rates``: their relaxation rates (array of shape (m,), 1/s).
         """
     @staticmethod
     def kelvin_voigt(ratio: float, frequency: float) -> DampingLaw:
         """Kelvin–Voigt body with the damping ``ratio`` at ``frequency`` (Hz)."""
     @staticmethod
     def kjartansson(ratio: float, reference: float = 1.0) -> DampingLaw:
-        """Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
-        1 by default).
+        """Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at the frequency ``reference``
+        (Hz; 1 by default).
         """
     @staticmethod
     def hysteretic(ratio: float) -> DampingLaw:
-        """The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
+        """Damping ``ratio`` that is the same at all frequencies, as usual in the frequency domain. It is not causal: for
         impedances only.
         """
 
 @final
 class SoilLayer:
-    """A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
-    (`DampingLaw`; none unless given).
+    """A horizontal soil layer with its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping`` (`DampingLaw`; none
+    unless given).
     """
 
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
@@ -1216,9 +1242,11 @@ class SoilLayer:
 
 @final
 class SoilProfile:
-    """Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil
-    ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: `DampingLaw` of the
-    bedrock; none unless given. Printed, it is a table.
+    """Horizontal soil layers on a half-plane or on rigid bedrock.
+
+    ``layers``: list of `SoilLayer` from the surface down. They lie on a half-plane of the soil ``bedrock``, or on rigid
+    bedrock if ``bedrock`` is not given. ``bedrock_damping``: `DampingLaw` of the bedrock; none unless given. Printed,
+    it is a table.
     """
 
     def __new__(
@@ -1236,13 +1264,13 @@ class SoilProfile:
         """The `Soil` of the half-plane under the layers; None on rigid bedrock."""
     @property
     def depth(self) -> float:
-        """Depth of all layers, m."""
+        """Total thickness of the layers, m."""
     @property
     def first_frequency(self) -> float | None:
         """First natural frequency of the layers, Hz; None without layers."""
     @property
     def travel_time(self) -> float:
-        """Time that a shear wave takes through all layers, s."""
+        """Travel time of a shear wave through all layers, s."""
     def _repr_html_(self) -> str: ...
     def plot(
         self,
@@ -1270,7 +1298,7 @@ class Refinement:
         """Time steps of the settings: array of shape (6,), s."""
     @property
     def errors(self) -> NDArray[np.float64]:
-        """Estimated errors of the settings, relative to the size of the results: array of shape (6,)."""
+        """Estimated errors of the settings, relative to the magnitude of the results: array of shape (6,)."""
     @property
     def wall_times(self) -> NDArray[np.float64]:
         """Wall times of the settings: array of shape (6,), s."""
@@ -1284,14 +1312,14 @@ class Refinement:
         """
     @property
     def mesh_order(self) -> float:
-        """Observed order of convergence in the element length; NaN if nothing depends on it."""
+        """Observed order of convergence in the element length; NaN if the results do not depend on it."""
     @property
     def step_order(self) -> float:
-        """Observed order of convergence in the time step; NaN if nothing depends on it."""
+        """Observed order of convergence in the time step; NaN if the results do not depend on it."""
     @property
     def mismatch(self) -> float:
-        """Distance of the last setting's results from those predicted from the other errors, relative to the size of the
-        results.
+        """Difference between the results of the last setting and the results predicted from the other errors, relative to
+        the magnitude of the results.
         """
     @property
     def is_regular(self) -> bool:
@@ -1334,7 +1362,7 @@ class PeakTwins:
         """Largest difference between a twin and the run, in the unit of the peak."""
     @property
     def digits(self) -> int:
-        """Significant digits that hold, six at most: half a unit of the last one is the spread or more."""
+        """Number of reliable significant digits, at most six: half a unit of the last digit is the spread or more."""
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -1360,19 +1388,19 @@ class EnergyBalance:
         """Elastic energy of the structure, J."""
     @property
     def hysteresis(self) -> float:
-        """Heat of hysteretic parts of the structure, J."""
+        """Energy dissipated in hysteretic parts of the structure, J."""
     @property
     def damping(self) -> float:
         """Work of the dashpots, J."""
     @property
     def algorithmic(self) -> float:
-        """Energy that the time scheme removes, J; negative if it makes any."""
+        """Energy that the time scheme removes, J; negative if it adds energy."""
     @property
     def soil(self) -> float:
-        """Work done on the soil, radiated and stored, J."""
+        """Work done on the soil, which radiates and stores it, J."""
     @property
     def contact(self) -> float:
-        """Loss by friction and impact, J."""
+        """Energy lost by friction and impact, J."""
     @property
     def interface(self) -> float:
         """Elastic energy of compliant interfaces, J."""
@@ -1400,11 +1428,11 @@ class EnergyBalance:
 
 @final
 class SystemMode:
-    """Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19)."""
+    """Vibration mode on a fixed base and on the ground (ASCE 7, chapter 19)."""
 
     @property
     def axis(self) -> str | None:
-        """Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane."""
+        """Axis along which the mode has the most modal mass, "x" or "y" in plan; None in the plane."""
     @property
     def fixed_period(self) -> float:
         """Period T on a fixed base, s."""
@@ -1444,7 +1472,9 @@ class Interaction:
         """
     @property
     def probe_ratios(self) -> dict[str, float]:
-        """Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names."""
+        """Ratios of the largest magnitudes of the probes on the ground to those on the fixed base: dict of numbers by the
+    names of the probes.
+    """
     def ratio(self, name: str) -> float:
         """Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
         NaN where both are zero.
@@ -1534,7 +1564,7 @@ class Summary:
         """Largest ratio of the open length to the length: its `Peak`."""
     @property
     def uplift_duration(self) -> float:
-        """Time with uplift, s."""
+        """Duration of uplift, s."""
     @property
     def mean_slip(self) -> Extremes:
         """Slip averaged over the foundation, m: its `Extremes`."""
@@ -1552,15 +1582,15 @@ class Summary:
         """Slip events: list of tuples (start in s, end in s, slip in m)."""
     @property
     def slip_path(self) -> float:
-        """Sliding distance: |slip| of it summed over time, m."""
+        """Sliding distance: sum of the |slip| increments over time, m."""
     @property
     def least_sliding_safety(self) -> Peak | None:
         """Lowest factor of safety against sliding, a `Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the
-        left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
-        middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
+        """Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the left
+        or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the middle
+        of elements: a base of few elements tips about its edge at a factor above 1, which a printed run states.
         """
     def extremes(self, quantity: _Quantity) -> Extremes:
         """The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
@@ -1569,7 +1599,9 @@ class Summary:
 
 @final
 class Run(Summary):
-    """A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
+    """Results of a run: `Summary` of the whole base, energies and time series.
+
+    It also has envelopes and warnings.
 
     ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
     printed, a run is a page for a report.
@@ -1594,8 +1626,8 @@ class Run(Summary):
     ) -> float:
         """Equivalent viscous damping ratio E/(2π M θ) of the one cycle of rocking between the times ``start`` and ``end`` (s).
 
-        E is the work of the moment, M and θ are half the ranges of moment and rotation (Gajan and Kutter 2008). An `InputError` tells
-        of steps that are not one closed cycle. ``foundation`` and ``across`` as for `rocking`.
+        E is the work of the moment, M and θ are half the ranges of moment and rotation (Gajan and Kutter 2008). An
+        `InputError` is raised if the steps are not one closed cycle. ``foundation`` and ``across`` as for `rocking`.
         """
     @property
     def steps(self) -> int:
@@ -1614,15 +1646,16 @@ class Run(Summary):
         """Time step, s."""
     @property
     def ground_motion(self) -> dict[str, float | None]:
-        """The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
-        record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
+        """The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of
+        its record (s; None without one) and "passed", the fraction of the intensity of the record up to the end of the
+        run.
         """
     @property
     def is_overturned(self) -> bool:
         """Whether the run ended because a base turned beyond the ``rotation_limit`` of the `Simulation`."""
     @property
     def _ground_motion(self) -> str:
-        """The ground motion in words, as on the page of the run."""
+        """The ground motion as a text, as in the report of the run."""
     @property
     def time(self) -> NDArray[np.float64]:
         """Times of the recorded steps: array of shape (steps + 1,), s; the first is the start."""
@@ -1631,7 +1664,7 @@ class Run(Summary):
         """Names of the structure's degrees of freedom: list of n texts; None without names."""
     @property
     def largest_gap(self) -> Peak:
-        """Largest gap of any element, m: its `Peak`."""
+        """Largest gap of any element, m, a `Peak`."""
     @property
     def largest_pressure(self) -> Peak | None:
         """Largest pressure of any element, Pa, a `Peak`; None without elements."""
@@ -1640,10 +1673,10 @@ class Run(Summary):
         """Ratio of the largest base shear to the weight; None without weight."""
     @property
     def foundations(self) -> list[Summary]:
-        """Each foundation by itself: list of `Summary`, from left to right."""
+        """Each foundation separately: list of `Summary`, from left to right."""
     @property
     def serviceability(self) -> list[ServiceCheck]:
-        """A check of each limit of service that the simulation was given: list of `ServiceCheck`."""
+        """A check of each limit of service of the simulation: list of `ServiceCheck`."""
     @property
     def is_serviceable(self) -> bool | None:
         """Whether the run stays within all limits of service; None without limits."""
@@ -1661,10 +1694,10 @@ class Run(Summary):
         """Number of linear solves of the search for contact modes."""
     @property
     def fallbacks(self) -> int:
-        """Number of steps that the first search did not solve."""
+        """Number of steps that the first search method did not solve."""
     @property
     def warnings(self) -> list[str]:
-        """List of the texts of warnings: strained assumptions, and steps and elements too coarse for it."""
+        """List of the texts of warnings: violated assumptions, and steps and elements that are too coarse."""
     @property
     def series(self) -> dict[str, NDArray[np.float64]]:
         """All time series: dict of arrays of shape (steps + 1,), "time" first."""
@@ -1725,18 +1758,18 @@ class Run(Summary):
     def acceleration_record(self, probe: str) -> Record:
         """The `Record` of the acceleration probe called ``probe``."""
     def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
-        """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
-        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
-        vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
-        tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
+        """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at ``periods`` (array of
+        shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free vibration within one
+        period after the end of the run are included: run until the floor is at rest. A `BasematWarning` names periods
+        shorter than ten time steps, for which the spectrum needs a run with a shorter step.
         """
     def summary(self) -> dict[str, Any]:
         """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
         service "is_serviceable".
         """
     def save_npz(self, path: str | os.PathLike[str]) -> None:
-        """Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
-        names with their units, such as "base_shear_n_per_m", in any version and without this package.
+        """Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` returns
+        them by names with units, such as "base_shear_n_per_m", in any version and without this package.
         """
     def save_paraview(
         self,
@@ -1749,9 +1782,9 @@ class Run(Summary):
         """Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
         contact. Returns the number of grids.
 
-        With the simulation's ``structure``, or its `DeformedShape`, there is also a grid of it for each snapshot of the
-        motion; none unless given. ``height`` (m): height of the box that stands for a rigid block or body, as for
-        `DeformedShape`; None for structures with a shape of their own.
+        With the ``structure`` of the simulation, or its `DeformedShape`, it also writes a grid of the structure for
+        each snapshot of the motion; none unless given. ``height`` (m): height of the box that represents a rigid block
+        or body, as for `DeformedShape`; None for structures with a shape.
         """
     def animate(
         self,
@@ -1930,12 +1963,14 @@ class Run(Summary):
 
 @final
 class DeformedShape:
-    """Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
+    """Points and outlines of a ``structure`` for pictures and for ParaView.
 
-    A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and
-    columns; reduced, damped and grouped structures and those in the ground as the structures that they are made of. An object with a method
-    ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
-    box of this ``height`` (m) on its base; unless given, such a structure is an error.
+    The degrees of freedom of the structure move the points.
+
+    A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
+    grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
+    is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
+    of this ``height`` (m) on its base; it is an error unless ``height`` is given.
     """
 
     def __new__(cls, structure: _Structure | DeformedShape, *, height: float | None = None) -> Self: ...
@@ -1945,15 +1980,17 @@ class DeformedShape:
         rows: Sequence[Sequence[_RowLike]],
         cells: Sequence[Sequence[int]],
     ) -> DeformedShape:
-        """Shape of ``points`` of your own: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space,
-        x, y and z, m; heights are above the ground.
+        """Shape by its ``points``: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space, x,
+        y and z, m; heights are above the ground.
 
         ``rows``: for each point the rows of its displacements along these axes, two or three. ``cells``: list of the points
         of each line (2), triangle (3), quadrilateral (4) or polygon, by their numbers.
         """
     @property
     def points(self) -> NDArray[np.float64]:
-        """Places at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height in space."""
+        """Coordinates of the points at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height
+    in space.
+    """
     @property
     def cells(self) -> list[list[int]]:
         """Outlines: list of the points of each line or polygon, by their numbers."""
@@ -2033,21 +2070,21 @@ class DofCombination:
     def terms(self) -> list[tuple[int, float]]:
         """List of pairs ``(dof, weight)``."""
     def value(self, dofs: ArrayLike) -> float:
-        """The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit."""
+        """The sum for the values ``dofs`` of the degrees of freedom (array of shape (n,)), in their unit."""
     def weights(self, dofs: int) -> NDArray[np.float64]:
         """All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``."""
     @staticmethod
     def of_base(structure: _Structure, place: Sequence[float]) -> list[DofCombination]:
-        """The three `DofCombination` of the displacements along x, along y and up of a point that the base of the
-        ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
+        """The three `DofCombination` of the displacements along x, along y and up of a point that moves with the base of
+        the ``structure`` as one rigid body. ``place``: position from the middle of the base (x, y, height; m).
         """
     def relative_to_base(self, structure: _Structure) -> DofCombination:
         """This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
         `of_base`.
         """
     def total_drift(self, structure: _Structure, height: float) -> DofCombination:
-        """This displacement to the right, relative to the base of the ``structure``, its rotation included,
-        which moves what is ``height`` (m) above it: the lateral deformation.
+        """This displacement to the right minus the rigid motion of the base of the ``structure``, whose rotation acts at
+        ``height`` (m) above the base: the lateral deformation.
         """
     def __add__(self, value: _RowLike, /) -> DofCombination: ...
     def __sub__(self, value: _RowLike, /) -> DofCombination: ...
@@ -2089,29 +2126,28 @@ class SectionRows:
 
 @final
 class Simulation:
-    """A structure on a ground, ready to march: from the static state under its weight, step by step.
+    """Simulation of a structure on a ground, from its static state on.
 
     Args:
         time_step: time step, s.
         structure: a `Structure`, or any object with the methods of `UserStructure`.
         ground: a `Ground`: an `ElasticGround`, `SpringGround` or `TrenchGround`; or any object with the methods of
             `UserGround`.
-        interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for
-            all contact elements, or a list of one each, from left to right.
-        motion: ground motion, a `FreeField`: a `Record`, a wave, or what
-            `free_field` makes of a function. The ground rests unless given.
+        interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for all contact elements, or a list
+            of one each, from left to right.
+        motion: ground motion, a `FreeField`: a `Record`, a wave, or a function by `free_field`. Without a motion the
+            ground is at rest.
         loads: forces from outside, a list of `Load`; none unless given.
-        probes: quantities to record at every step, a list of `Probe` with names of their own;
-            none unless given.
+        probes: quantities to record at every step, a list of `Probe` with names of their own; none unless given.
         initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
         solver: time scheme, coordinates and so on, `SolverOptions`; the defaults unless given.
         results: quantities that a run evaluates, `ResultOptions`; the defaults unless given.
         service_limits: limits of service, `ServiceLimits`; none unless given.
-        fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
-            under it. Ground and interface are then left out, but for the places of the contact elements.
-            False by default; `interaction` compares both.
-        progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
-            ground with layers or a trench are computed for the expected steps; none unless given.
+        fixed_base: whether the base is fixed: each foundation keeps its shape and moves with the free field under it.
+            Ground and interface then have no effect, except for the positions of the contact elements. False by
+            default; `interaction` compares both.
+        progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the convolution weights
+            of a ground with layers or a trench are computed for the expected steps; none unless given.
     """
 
     @property
@@ -2131,29 +2167,28 @@ class Simulation:
         """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
     @property
     def history_choice(self) -> str | None:
-        """The method by which the ground computes its history, in words; None for a ground without history."""
+        """Text with the method by which the ground computes its history; None for a ground without history."""
     @property
     def structure(self) -> Any:
-        """The structure as it was given; of one written in Python with a ``force`` of its own the copy that
-        this simulation works on, with its internal variables.
+        """The argument ``structure``; for a structure written in Python with a method ``force``, the copy in this
+        simulation, with its internal variables.
         """
     @property
     def ground(self) -> Any:
-        """The ground as it was given; of one written in Python the copy that this simulation works on."""
+        """The argument ``ground``; for a ground written in Python, the copy in this simulation."""
     @property
     def interface(self) -> Any:
-        """The law of the interface as it was given, or the list of laws."""
+        """The argument ``interface``: a law, or the list of laws."""
     @property
     def motion(self) -> FreeField | None:
-        """The ground motion as it was given; None without one."""
+        """The argument ``motion``; None without one."""
     @property
     def _arguments(self) -> dict[str, Any]:
-        """All arguments by their names, as they were given; those that were not are None, an empty list or False."""
+        """All arguments by their names; arguments that were not given are None, an empty list or False."""
     @property
     def hysteresis(self) -> list[Any]:
-        """The springs of the structure that are written in Python (`UserHysteresis`): list of the
-        copies that this simulation works on, with their internal variables, in the order of storeys or
-        springs.
+        """The springs of the structure that are written in Python (`UserHysteresis`): list of the copies in this
+        simulation, with their internal variables, in the order of storeys or springs.
         """
     @property
     def conditioning(self) -> tuple[float, float, float]:
@@ -2192,87 +2227,66 @@ class Simulation:
     ) -> Run:
         """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
 
-        After that end the motion's number of steps again, under rest, with a `BasematWarning`; `reset` returns to the start.
+        After the end of the motion it makes as many steps again, with the ground at rest and a `BasematWarning`;
+        `reset` returns to the start.
 
-        ``progress``: True for lines on stderr, one for the ground's coefficients and one for the steps; or a function
-        ``(steps done, steps in all)``, called about every 50 ms.
+        ``progress``: True for lines on stderr, one for the convolution weights of the ground and one for the steps; or
+        a function ``(steps done, steps in all)``, called about every 50 ms.
 
-        ``observe(state)`` is called after every ``observe_every``th step. The run ends when it returns True. An exception of
-        it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
-        stays at the last accepted step.
+        ``observe(state)`` is called after every ``observe_every``th step. The run ends when it returns True. An
+        exception of ``observe`` or Ctrl-C also ends the run, and the simulation stays at the last accepted step. A
+        `BasematWarning` is issued if the process ignores Ctrl-C.
 
-        ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
-        floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
-        ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation. All of
-        them must fit into `memory_limit` before the first step; with ``observe``, which may end the run, only the values of
-        the steps made.
+        ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by
+        default, as floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
+        ``motion_every``th (none unless given), and with ``foundations`` (False by default) scalars of each foundation.
+        The series of all steps must fit into `memory_limit` before the first step; with ``observe``, which may end the
+        run, only the series of the steps made.
 
-        ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
-        by default.
+        ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True by default.
         """
     def step(self) -> State:
-        """Makes one step and returns the new state. Raises `StepError` if the step could not be
-        solved; the simulation is then as it was before.
+        """Makes one step and returns the new state. A `StepError` is raised if the step has no solution; the simulation is
+        then unchanged.
         """
     def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
-        """An iterator that makes a step and yields its state, ``steps`` times or for a
-        ``duration`` (s); without either, those to the end of the motion.
+        """Iterator that makes a step and yields its state, ``steps`` times or for a ``duration`` (s); without either, up
+        to the end of the motion.
         """
     def set_load(self, index: int, value: float | None) -> None:
-        """Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
+        """Sets the force of the load with the number ``index`` (from 0, in the order of ``loads``) for all further steps.
 
-        ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
-        None returns to that function. A controller computes it from the last state and sets it before each
-        `step`. A checkpoint holds it; `reset` returns to the functions.
+        ``value``: the total force (N/m; on a rotation N·m/m), which includes the static force, in place of the function
+        of the load; None restores that function. A controller computes the force from the last state and sets it before
+        each `step`. A checkpoint contains it; `reset` restores the functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
-        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
-        of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
-        first mode (ASCE 7, chapter 19). This simulation stays where it is.
+        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that of
+        the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its first
+        mode (ASCE 7, chapter 19). The state of this simulation is unchanged.
 
-        T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
+        T and β belong to the mode with the most modal mass along an axis, with fixed contact nodes; of a nonlinear
         structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
         deflection in this mode. The soil is linear: give it the moduli of the design motion.
         """
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
     def checkpoint(self) -> Checkpoint:
-        """Saves what the steps so far have left behind as a `Checkpoint`, for `resume`."""
+        """The `Checkpoint` of the present state and history, for `resume`."""
     def resume(self, checkpoint: Checkpoint, changes: Sequence[_Change] | None = None) -> None:
-        """Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
-        the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
-        elements, matrices, static state, and the label of `ResultOptions`, which should name interface law, ground motion
-        and loads.
+        """Returns to the state of ``checkpoint`` (a `Checkpoint`), in a simulation that was built in the same way. In a
+        simulation with other sizes, time step, elements, matrices, static state or label of `ResultOptions`, it raises
+        a `CheckpointError` that names the difference. The label should name interface law, ground motion and loads.
 
         Args:
-            changes: differences that are wanted, of "interface_law", "ground_motion" and "load", each with another
-                label, "gravity_stage" and "initial_motion"; none unless given.
+            changes: intended differences, of "interface_law", "ground_motion" and "load", each with another label,
+                "gravity_stage" and "initial_motion"; none unless given.
         """
     def reset(self) -> None:
-        """Goes back to the start: what follows has the bits that it had from there.
+        """Returns to the start; further steps have the same bits as the first time.
 
-        Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
-        ``save`` and ``restore``.
+        As for `checkpoint`, a structure written in Python that has ``commit`` must also have ``save`` and ``restore``.
         """
-
-@final
-class FaceForces:
-    """Forces on the soil behind one face of a structure in the ground, per metre: of `State.face`."""
-
-    @property
-    def thrust(self) -> float:
-        """Total pressure, positive in compression, N/m."""
-    @property
-    def shear(self) -> float:
-        """Force on the soil along the outline, N/m: positive down the left wall, to the right along the base, up the right wall."""
-    @property
-    def place(self) -> float:
-        """Point where the thrust acts, m: height above the base; of the base, distance to the right of its middle. NaN without
-        thrust.
-        """
-    @property
-    def open_fraction(self) -> float:
-        """Ratio of the length of open elements to the length of the face."""
 
 @final
 class FoundationState:
@@ -2282,7 +2296,7 @@ class FoundationState:
 
     @property
     def elements(self) -> tuple[int, int]:
-        """Numbers of its first element and of the one after its last."""
+        """Number of the first element, and one more than the number of the last."""
     @property
     def shear(self) -> float:
         """Horizontal force on the soil, positive to the right, N/m."""
@@ -2339,12 +2353,34 @@ class FoundationState:
         """Rotation as a vector by the right-hand rule, rad."""
 
 @final
+class FaceForces:
+    """Forces on the soil at one face of a structure in the ground.
+
+    They are per metre of thickness. `State.face` returns them.
+    """
+
+    @property
+    def thrust(self) -> float:
+        """Total pressure, positive in compression, N/m."""
+    @property
+    def shear(self) -> float:
+        """Force on the soil along the outline, N/m: positive down the left wall, to the right along the base, up the right wall."""
+    @property
+    def place(self) -> float:
+        """Point of action of the thrust, m: of a wall its height above the base, of the base its distance to the right of
+        the middle. NaN without thrust.
+        """
+    @property
+    def open_fraction(self) -> float:
+        """Ratio of the length of open elements to the length of the face."""
+
+@final
 class Load:
     """A force that acts on a structure from outside.
 
-    ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
-    (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
-    belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
+    ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
+    force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
+    applied slowly after the weight, while the interface law acts.
     """
 
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
@@ -2353,15 +2389,15 @@ class Load:
         """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
     @staticmethod
     def weight(row: _RowLike, force: float) -> Load:
-        """Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
-        whose mass the structure does not have.
+        """Constant ``force`` (N/m) on the ``row`` that is applied with the weight, according to ``gravity_stage``: a dead
+        load whose mass is not in the structure.
         """
     @staticmethod
     def released(row: _RowLike, force: float) -> Load:
-        """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""
+        """A ``force`` (N/m) on the ``row`` in the static state that is removed at the first step (snap-back)."""
     @staticmethod
     def record(row: _RowLike, record: Record, force: float) -> Load:
-        """``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
+        """``force`` (N/m) on the ``row`` multiplied by the accelerations of a ``record`` as numbers without unit, linear
         between its samples and zero beyond its ends.
         """
     @staticmethod
@@ -2375,15 +2411,15 @@ class InitialConditions:
     """Weight and motion at the start of a simulation.
 
     Args:
-        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
-            state: the base begins without pressure, and nothing resists uplift and sliding.
-        gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
-            after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
-            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
-            "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
-            static state, weight and loads act from t = 0 on, as for a block that is released.
-        displacement: of the n degrees of freedom at t = 0 against the static state, array of
-            shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static state: the base
+            begins without pressure, and nothing resists uplift and sliding.
+        gravity_stage: friction while the weight of masses and `Load.weight` is applied; all other loads at t = 0 are
+            applied slowly after it, while the interface law acts. "frictionless" (the default): neither friction nor
+            cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
+            "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
+            no static state, weight and loads act from t = 0 on, as for a block that is released.
+        displacement: of the n degrees of freedom at t = 0 against the static state, array of shape (n,), m and rad;
+            zero unless given. The base may move only if "unloaded".
         velocity: the same for velocities, m/s and rad/s; zero unless given.
     """
 
@@ -2398,22 +2434,21 @@ class InitialConditions:
 
 @final
 class SolverOptions:
-    """Method by which a simulation steps.
+    """Numerical methods of a simulation.
 
     Args:
         scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
-        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
-            time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
-            coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
-            relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-        expected_steps: number of steps that will be made. Memory and the ground's weights are then
-            ready before the first; unless given, the steps of the first run. More steps than fit into
-            the memory of the ground's history raise an error.
-        rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
-            run goes on; infinite: runs end by their steps alone.
-        flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-            most this number of iterations a step, for comparison with their paper; the robust search unless
-            given.
+        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less time; "physical":
+            its degrees of freedom; "modes": its vibration modes; a number: reduced coordinates, 200 to 400 Ritz vectors
+            for thousands of degrees of freedom, with this relative error of responses (above 0, below 1;
+            "reduced(1e-6)" is the same as 1e-6).
+        expected_steps: number of steps that will be made. Memory and convolution weights of the ground are then
+            prepared before the first step; unless given, for the steps of the first run. An error is raised if the
+            steps do not fit into the memory of the history of the ground.
+        rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A
+            further run continues; with ``math.inf`` the rotation ends no run.
+        flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at most this number
+            of iterations a step, for comparison with their paper; the robust search unless given.
     """
 
     def __new__(
@@ -2428,17 +2463,16 @@ class SolverOptions:
 
 @final
 class ResultOptions:
-    """Quantities that a run evaluates; they change nothing in its motion.
+    """Quantities that a run evaluates; they do not change the motion.
 
     Args:
-        moment_center: x of the point about which the base moment is taken, m; the middle of the base
-            unless given.
-        energy_balance: whether energies are computed; True by default. Without them a step takes less
-            time, and `Run.energy_error` is NaN.
-        safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
-            interface law unless given.
-        label: text that checkpoints keep and `Simulation.resume` compares; it should name what is not compared otherwise:
-            interface law, ground motion and loads. Empty unless given.
+        moment_center: x of the reference point of the base moment, m; the middle of the base unless given.
+        energy_balance: whether energies are computed; True by default. Without them steps are faster, and
+            `Run.energy_error` is NaN.
+        safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the interface
+            law unless given.
+        label: text that checkpoints store and `Simulation.resume` compares; it should name the parts that are not
+            compared otherwise: interface law, ground motion and loads. Empty unless given.
     """
 
     def __new__(
@@ -2452,7 +2486,7 @@ class ResultOptions:
 
 @final
 class ServiceLimits:
-    """Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
+    """Limits of service for `Run.serviceability`; they do not change the motion.
 
     Args:
         slip: limit of |mean slip|, m; none unless given.
@@ -2481,30 +2515,30 @@ class TimeScheme:
         """The midpoint rule: conserves energy."""
     @staticmethod
     def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme:
-        """The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
-        ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
+        """The midpoint rule with damping of high frequencies: second order, adds no energy with the soil. ``gamma``: ½
+        (the midpoint rule) to 1; 0.8 by default.
         """
     @staticmethod
     def theta(theta: float) -> TimeScheme:
         """The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½."""
     @staticmethod
     def newmark(gamma: float = 0.5, beta: float = 0.25) -> TimeScheme:
-        """Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
-        ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
+        """Newmark's rule, for comparison with papers: its coupling with the soil may add energy. ``gamma`` and ``beta``:
+        Newmark's γ and β, by default ½ and ¼ (average acceleration).
         """
     @staticmethod
     def hht_alpha(alpha: float) -> TimeScheme:
-        """The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
-        make energy. ``alpha``: −⅓ (most damping) to 0 (none).
+        """The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may add energy.
+        ``alpha``: −⅓ (most damping) to 0 (none).
         """
 
 @final
 class State:
     """The simulation at the end of an accepted step.
 
-    Displacements are changes against the static state, relative to the free field's translation
-    unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
-    It belongs to its simulation and does not pickle: a `Checkpoint` does.
+    Displacements are changes against the static state, relative to the translation of the free field unless stated
+    otherwise. Forces act from the structure on the soil, per metre of thickness. It belongs to its simulation and does
+    not pickle: a `Checkpoint` does.
     """
 
     @property
@@ -2572,7 +2606,7 @@ class State:
         """The `EnergyBalance` since the start."""
     @property
     def trials(self) -> int:
-        """Number of linear solves that the search for contact modes needed."""
+        """Number of linear solves of the search for contact modes."""
     @property
     def displacement(self) -> NDArray[np.float64]:
         """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
@@ -2595,10 +2629,12 @@ class State:
         """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
     @property
     def foundations(self) -> list[FoundationState]:
-        """Each foundation by itself: list of `FoundationState`, from left to right."""
+        """Each foundation separately: list of `FoundationState`, from left to right."""
     @property
     def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
-        """Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal"."""
+        """Search method of the modes in this step: "active_set", "gauss_seidel", "path", and in plan "newton" or
+    "proximal".
+    """
     def value(self, quantity: _Quantity) -> float:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
@@ -2614,9 +2650,9 @@ class State:
 
 @final
 class Steps:
-    """Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
+    """Iterator over steps, which yields the `State` at the end of each.
 
-    ``len()`` is the number of steps to come. `Simulation.steps` makes it.
+    ``len()`` is the number of remaining steps. `Simulation.steps` creates it.
     """
 
     def __iter__(self) -> Steps: ...
@@ -2625,8 +2661,8 @@ class Steps:
 
 @final
 class Checkpoint:
-    """A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
-    on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
+    """State of a run between two steps: `Simulation.checkpoint` creates it, `Simulation.resume` continues from it with the
+    same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
     """
 
     def __new__(cls, data: bytes) -> Self: ...
@@ -2634,13 +2670,16 @@ class Checkpoint:
     def steps(self) -> int:
         """Steps made before the checkpoint."""
     def to_bytes(self) -> bytes:
-        """All of it as bytes, for a file."""
+        """The checkpoint as bytes, for a file."""
     def __getnewargs__(self) -> tuple[bytes]: ...
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class StrainCurves:
-    """Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %)."""
+    """Modulus reduction and damping ratio of a soil over shear strain.
+
+    The modulus reduction is G/G_max. A strain of 0.01 is 1 %.
+    """
 
     @staticmethod
     def linear(damping: float) -> StrainCurves:
@@ -2652,7 +2691,7 @@ class StrainCurves:
         """
     @staticmethod
     def vucetic_dobry(plasticity_index: float) -> StrainCurves:
-        """Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991)."""
+        """Soil with this ``plasticity_index``, per cent, after Vucetic and Dobry (1991)."""
     @staticmethod
     def epri(depth: float) -> StrainCurves:
         """Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993)."""
@@ -2705,13 +2744,13 @@ class EquivalentLinear:
         """Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s²."""
     @property
     def iterations(self) -> int:
-        """Linear calculations made."""
+        """Number of linear calculations."""
     @property
     def last_change(self) -> float:
-        """Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated."""
+        """Estimated largest relative change of a modulus or damping ratio by all further iterations."""
     @property
     def warnings(self) -> list[str]:
-        """Warnings, in words."""
+        """Texts of the warnings."""
     @property
     def accelerations(self) -> NDArray[np.float64]:
         """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
@@ -2725,9 +2764,11 @@ class EquivalentLinear:
 
 @final
 class Soil:
-    """Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5),
-    ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
-    outside 500 to 10 000 kg/m³, which a slip of units often makes.
+    """Elastic soil, isotropic and homogeneous.
+
+    ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5), ``density`` (kg/m³). A run warns
+    if the speed of shear waves is outside 10 to 5 000 m/s or the density outside 500 to 10 000 kg/m³: a usual cause is
+    a wrong unit.
     """
 
     def __new__(cls, shear_modulus: float, poisson: float, density: float) -> Self: ...
@@ -2759,11 +2800,13 @@ class Soil:
 
 @final
 class SoilStrength:
-    """Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion``
-    (Pa; 0 by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+    """Strength of drained soil, for `ShallowFooting` and `TrenchGround.interfaces`.
 
-    Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
-    passive pressure.
+    It has the ``friction_angle`` (rad), its ``cohesion`` (Pa; 0 by default), and the ``wall_friction_angle`` between
+    soil and wall (rad; 0 by default), at most the friction angle.
+
+    Stresses are effective stresses. Plane wedges overestimate the passive pressure if the wall friction angle is a
+    third of the soil's friction angle or more.
     """
 
     def __new__(
@@ -2775,8 +2818,8 @@ class SoilStrength:
     ) -> Self: ...
     @property
     def pressure_ratios(self) -> list[float]:
-        """Active and passive horizontal pressure over the vertical pressure, without cohesion: Coulomb's, without wall friction
-        Rankine's.
+        """Active and passive ratio of the horizontal to the vertical pressure, without cohesion (Coulomb; without wall
+        friction Rankine).
         """
     def pressures(self, vertical: float) -> list[float]:
         """Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa."""
@@ -2784,12 +2827,13 @@ class SoilStrength:
 
 @final
 class BeamRows:
-    """Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
-    `FemModel.beam_rows`.
+    """Rows of the forces and moments at the ends of a beam.
 
-    They are those on a section whose outward normal is x, the axis of the beam, at both ends. A probe records changes
-    from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the
-    geometric stiffness, in the axes of the undeformed beam.
+    They are rows of displacements for `Probe.section`. `FemModel.beam_rows` returns them.
+
+    At both ends they act on a section whose outward normal is x, the axis of the beam. A probe records changes from the
+    static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the geometric
+    stiffness, in the axes of the undeformed beam.
     """
 
     @property
@@ -2821,29 +2865,11 @@ class BeamEndRows:
         with tension at positive z, and at negative y.
         """
 
-@final
-class BeamSection:
-    """Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
-    m⁴) and ``torsion_constant`` (m⁴).
-
-    y and z are the principal axes: y along the orientation of the beam, z across it. ``shear_areas`` along y and along
-    z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle is 5/6 of
-    its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
-    """
-
-    def __new__(
-        cls,
-        area: float,
-        second_moments: Sequence[float],
-        torsion_constant: float,
-        *,
-        shear_areas: Sequence[float] | None = None,
-    ) -> Self: ...
-
 @disjoint_base
 class Structure:
-    """A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
-    description from which every simulation makes one of its own.
+    """A structure with n degrees of freedom, which only the ground supports.
+
+    Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
     """
 
     @property
@@ -2859,7 +2885,7 @@ class Structure:
         `BaseFaces`.
         """
     def mass(self) -> NDArray[np.float64]:
-        """Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom."""
+        """Mass matrix (n × n array, kg/m); matrices become arrays up to 20 000 degrees of freedom."""
     def stiffness(self) -> NDArray[np.float64]:
         """Stiffness matrix (n × n array, N/m per metre)."""
     def damping(self) -> NDArray[np.float64]:
@@ -2867,11 +2893,13 @@ class Structure:
 
 @final
 class RigidBlock(Structure):
-    """A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-    the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
+    """A rigid block on a flat base, in the plane.
 
-    ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
-    ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
+    Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
+    "x", "y", "rotation" for `dof`.
+
+    ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
+    (m/s²) of the P–Δ effect of its weight; none unless given.
     """
 
     def __new__(
@@ -2913,9 +2941,11 @@ class RigidBlock(Structure):
 
 @final
 class RigidBody(Structure):
-    """A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
-    x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on
-    a ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` make one.
+    """A rigid body on a flat base, in space.
+
+    Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
+    rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
+    `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
     """
 
     @staticmethod
@@ -2929,8 +2959,8 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
-        ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
-        weight tips it once it leans; none unless given.
+        ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) of the P–Δ
+        effect of its weight; none unless given.
         """
     @staticmethod
     def cylinder(
@@ -2956,10 +2986,10 @@ class RigidBody(Structure):
     ) -> RigidBody:
         """Any rigid body on a convex base, by its mass and inertia.
 
-        Places count from the point of the degrees of freedom. ``outline``: corners of the base, list of x and y, m. ``mass``:
-        kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of inertia off the
-        diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta`` act as in `cuboid`, if
-        given.
+        Coordinates are relative to the point of the degrees of freedom. ``outline``: corners of the base, list of x and
+        y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of
+        inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta``
+        act as in `cuboid`, if given.
         """
     @property
     def total_mass(self) -> float:
@@ -2988,17 +3018,15 @@ class Storey:
 
 @final
 class ShearBuilding(Structure):
-    """Rigid floors on columns that shear, on a rigid base.
+    """Rigid floors on columns that deform in shear, on a rigid base.
 
-    Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-    horizontal displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation",
-    "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
-    ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the lowest first. ``damping``: ratio
-    in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
-    ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis`, or your own:
-    `UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
-    unless given.
+    Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute horizontal
+    displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation", "floor_0", "floor_1" and so
+    on. ``width`` of the base: m. ``base_mass``: kg/m. ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the
+    lowest first. ``damping``: ratio in the first mode on a fixed base, by damping proportional to stiffness; none
+    unless given. ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
+    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis` or `UserHysteresis`) that replace
+    the stiffness of storeys, storey 0 the lowest; none unless given.
     """
 
     def __new__(
@@ -3024,12 +3052,12 @@ class ShearBuilding(Structure):
         damping: float = 0.0,
         laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> ShearBuilding:
-        """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-        (`Hysteresis` or `UserHysteresis`); they become storey 0, and the building's storeys count from 1.
+        """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law`` (`Hysteresis` or
+        `UserHysteresis`). The isolators become storey 0, and the storeys of the building count from 1.
 
-        ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
-        ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
-        class; none unless given. The building must have none.
+        ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default. ``damping`` beside
+        the bearings: N s/m; 0 by default. ``laws``: laws of further storeys, as for the class; none unless given. The
+        ``building`` must have no laws.
         """
     @property
     def total_mass(self) -> float:
@@ -3043,18 +3071,18 @@ class ShearBuilding(Structure):
     def floor(self, storey: int) -> int:
         """Number of the degree of freedom of the floor above a ``storey`` (0: the lowest)."""
     def drift(self, storey: int) -> DofCombination:
-        """The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
-        displacement less what the base's rotation makes of it.
+        """The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: relative displacement of its two floors,
+        without the part due to the rotation of the base.
         """
     def total_drift(self, storey: int) -> DofCombination:
-        """The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
-        less the motion of the base, its rotation included, m.
+        """The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest) minus the rigid motion
+        of the base (displacement and rotation), m.
         """
     def shear(self, storey: int) -> SectionRows:
         """The `SectionRows` of the shear force (N/m) in the columns of a ``storey`` (0: the lowest).
 
-        The upper part of the building exerts it on the lower part. In a storey that follows a law it is computed from the
-        inertia of the floors above.
+        The upper part of the building exerts this force on the lower part. In a storey with a law the force is computed
+        from the inertia of the floors above.
         """
 
 @final
@@ -3082,17 +3110,19 @@ class PlanStorey:
 
 @final
 class StoreyBuilding(Structure):
-    """Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
-    and twist, and tilt with the mat.
+    """Building with rigid floors on a rigid mat, in space.
 
-    Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-    floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
-    "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first. ``p_delta``:
-    gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
-    (`Hysteresis` or `UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-    given. In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
-    has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
-    diagonal.
+    Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
+    and tilt with the mat.
+
+    Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
+    every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
+    "floor_0_x", "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first.
+    ``p_delta``: gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of
+    laws (`Hysteresis` or `UserHysteresis`) that replace a stiffness, direction "x", "y" or "twist"; none unless given.
+    In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force has
+    the same limit in every direction. Two laws along x and y act independently: on the diagonal their resultant reaches
+    √2 times the limit.
     """
 
     def __new__(
@@ -3119,23 +3149,28 @@ class StoreyBuilding(Structure):
         (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
         """
     def shear(self, storey: int) -> list[SectionRows]:
-        """The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
-        what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
+        """The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts
+        on the part below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors
+        above.
         """
     def section(self, storey: int, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
-        """The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
-        and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
-        inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
+        """The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m) and
+        torque about z (N·m) that the floors above exert on the part below the foot of a ``storey`` (0: the lowest),
+        from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat, m; the
+        middle by default) at the foot.
         """
 
 @final
 class RayleighDamping:
-    """Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness."""
+    """Rayleigh damping by a damping matrix a M + b K.
+
+    ``mass``: factor a of the mass matrix, 1/s. ``stiffness``: factor b of the stiffness matrix, s.
+    """
 
     def __new__(cls, mass: float, stiffness: float) -> Self: ...
     @staticmethod
     def from_ratios(frequencies: Sequence[float], ratios: Sequence[float]) -> RayleighDamping:
-        """Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz)."""
+        """Rayleigh damping with the damping ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz)."""
     @property
     def mass(self) -> float:
         """Factor of the mass, 1/s."""
@@ -3147,9 +3182,11 @@ class RayleighDamping:
 
 @final
 class ReducedModel(Structure):
-    """A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in
-    the list ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio``:
-    of these modes, in place of the structure's damping, which stays unless given.
+    """A ``structure`` reduced by the method of Craig and Bampton.
+
+    The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
+    the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
+    structure, if given.
     """
 
     def __new__(
@@ -3174,9 +3211,10 @@ class ReducedModel(Structure):
 
 @final
 class StructureGroup(Structure):
-    """ListOf structures on one ground, coupled through the soil: ``members`` is a list of pairs
-    ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
-    each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
+    """Several structures on one ground, coupled through the soil.
+
+    ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
+    plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
     """
 
     def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
@@ -3185,11 +3223,14 @@ class StructureGroup(Structure):
 
 @final
 class WithModalDamping(Structure):
-    """A ``structure`` with damping ``ratios`` (array of shape (m,)) of its modes beside its own damping: of the lowest
-    mode first, the last of them for all further modes.
+    """A ``structure`` with additional damping of its modes.
 
-    With ``fixed_base`` the modes are those on a fixed base, which codes and tests speak of. Without (the default) they
-    are those of the structure by itself, far higher: of 5 %, the first mode of five storeys on a base then has 0.9 %.
+    ``ratios``: damping ratios of the modes (array of shape (m,)), the lowest mode first; the last ratio is that of all
+    further modes.
+
+    With ``fixed_base`` the modes are those on a fixed base, as in codes and tests. Without it (the default) they are
+    those of the free structure, whose frequencies are far higher: with a ratio of 5 %, the first mode of five storeys
+    on a base then has 0.9 %.
     """
 
     def __new__(cls, structure: _Structure, ratios: ArrayLike, *, fixed_base: bool = False) -> Self: ...
@@ -3201,9 +3242,9 @@ class WithModalDamping(Structure):
 class WithWalls(Structure):
     """A ``structure`` in the ground: its rigid base lies at a ``depth`` (m) and has walls up to the surface.
 
-    The structure is the same as on the surface: its heights count from the base. The ground is a `TrenchGround` of this
-    width and depth. A structure whose base bends lists its nodes itself, down the left wall, along the base, up the right
-    wall, with their heights ``z`` (`BaseNode`).
+    The structure is the same as on the surface: its heights are relative to the base. The ground is a `TrenchGround` of
+    this width and depth. A structure with a flexible base needs no `WithWalls`: its ``base`` lists the nodes down the
+    left wall, along the base and up the right wall, with their heights ``z`` (`BaseNode`).
     """
 
     def __new__(cls, structure: _Structure, depth: float) -> Self: ...
@@ -3215,17 +3256,16 @@ class WithWalls(Structure):
 class FemModel(Structure):
     """A finite-element structure.
 
-    ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
-    a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
-    corner nodes, shells with their underside; all faces at the lowest height unless given. ``in_trench``: whether
-    ``contact`` is the outline of walls and base in a trench, down the left wall, along the base and up the right wall, in
-    a mesh whose y counts from the surface; False by default. ``rayleigh``:
-    `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
-    or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
-    unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
-    y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose forces at rest make P–Δ; none unless
-    given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
-    matrices of elements may be unsymmetric, an error by default.
+    ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right; a list of such lists
+    for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its corner nodes, shells
+    with their underside; all faces at the lowest height unless given. ``in_trench``: whether ``contact`` is the outline
+    of walls and base in a trench, down the left wall, along the base and up the right wall, in a mesh whose y counts
+    from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
+    "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
+    body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
+    along x, along y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
+    forces at rest; none unless given. ``active_damping``: whether damping may add energy, an error by default.
+    ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
     """
 
     def beam_rows(self, element: int) -> BeamRows:
@@ -3247,12 +3287,12 @@ class FemModel(Structure):
     def row(self, node: int, direction: _Direction) -> DofCombination:
         """The `DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x"."""
     def dof_at(self, node: int, direction: _Direction) -> int | None:
-        """Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if it has none of
-        its own.
+        """Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if the node has
+        no separate one.
         """
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
-        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the model's size.
-        ``z`` is 0 by default.
+        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
+        the model. ``z`` is 0 by default.
         """
     def rigid_motion(
         self,
@@ -3272,8 +3312,8 @@ class FemModel(Structure):
         and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
 
         Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
-        element may cross the cut; elements that lie in it count as below. To include the weight above, add the
-        acceleration of gravity to the vertical accelerations.
+        element may cross the cut; elements in the plane of the cut belong to the part below. To include the weight
+        above, add the acceleration of gravity to the vertical accelerations.
         """
     def pressure_row(self, nodes: Sequence[int]) -> DofCombination:
         """The `DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
@@ -3284,7 +3324,7 @@ class FemModel(Structure):
         of ``nodes`` (list of numbers): as the row of a `Load` in N/m, in space in N.
         """
     def buckling_factor(self) -> float:
-        """Factor on the axial forces of its static state at which it buckles."""
+        """Factor of the axial forces of the static state at which the structure buckles."""
     def shell_resultants(self, element: int, displacement: ArrayLike) -> list[ShellResultants]:
         """The `ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
         degrees of freedom, ``displacement`` (array of shape (n,), m and rad).
@@ -3292,8 +3332,8 @@ class FemModel(Structure):
         The ``displacement`` of a state is the change from the ``static_displacement`` of the simulation.
         """
     def shell_rows(self, elements: Sequence[int], axes: _ShellAxes) -> list[ShellRows]:
-        """The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
-        nodes: means over these shells. Give the shells of one mat or one wall.
+        """The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of nodes:
+        means over these shells, which should be those of one mat or one wall.
 
         ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
         part of the first in the plane of a shell, and the normal n is on the side of the second.
@@ -3301,8 +3341,10 @@ class FemModel(Structure):
 
 @final
 class GmshMesh:
-    """A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes at the same
-    place within ``merge_within`` (m) become one, none unless given.
+    """A mesh of quadrilaterals from a file of Gmsh.
+
+    ``path`` of the file: formats 4.1 and 2.2, text or binary. Nodes closer than ``merge_within`` (m) become one, no
+    nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
@@ -3331,15 +3373,16 @@ class GmshMesh:
 
 @final
 class GmshSpaceMesh:
-    """A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats
-    4.1 and 2.2, text or binary) at ``path``; nodes at the same place within ``merge_within`` (m) become one, none unless
-    given.
+    """A mesh in space from a file of Gmsh.
+
+    It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
+    or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
     """
 
     def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
     @property
     def nodes(self) -> NDArray[np.float64]:
-        """Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers."""
+        """Coordinates of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers."""
     def groups(self, dimension: int) -> list[str]:
         """List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes."""
     def cells(self, dimension: int, name: str) -> list[list[int]]:
@@ -3351,9 +3394,9 @@ class GmshSpaceMesh:
         `Mesh.from_arrays`.
 
         The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-        ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
-        surfaces that are sides of other elements need no part. Triangles match the sides that they share with
-        quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
+        ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and surfaces
+        that are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To
+        find the number of an element of `cells`, look up its nodes in `Mesh.elements`.
         """
 
 @final
@@ -3365,42 +3408,41 @@ class Grid:
     def __len__(self) -> int: ...
     @property
     def cells(self) -> list[list[int]]:
-        """Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
-        of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
-        upwards; of a wall that `Mesh.revolve` made, from outside.
+        """Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers, of
+        three beside a pole, row after row. Corners are listed counter-clockwise, as seen with columns to the right and
+        rows upwards; of a wall by `Mesh.revolve`, as seen from outside.
         """
     @property
     def cell_rows(self) -> NDArray[np.uint64]:
         """Number of the lower row of each of `cells`: array of shape (cells,)."""
     def extrude(self, mesh: Mesh, heights: ArrayLike) -> list[list[int]]:
-        """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
-        above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
+        """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, whose cells
+        must be counter-clockwise seen from above. Returns the nodes of the bricks between the layers, a list for
+        `Mesh.add_bricks`.
         """
 
 @disjoint_base
 class Hysteresis:
-    """A spring whose force depends on where it has been: a yield law of a storey, an isolator.
-    Forces and stiffnesses are per metre of thickness.
+    """A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
+    are per metre of thickness.
     """
 
     def path(self, deformations: ArrayLike) -> list[float]:
-        """Forces (list of m numbers, N/m) at the ``deformations`` (array of shape (m,), m) of a path that a
-        new spring is led along.
-        """
+        """Forces (list of m numbers, N/m) of a new spring at the ``deformations`` of a path (array of shape (m,), m)."""
 
 @final
 class Bilinear(Hysteresis):
-    """Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
-    the stiffness; unloading with the first stiffness.
+    """Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+    stiffness; it unloads with the initial stiffness.
     """
 
     def __new__(cls, stiffness: float, yield_force: float, hardening: float) -> Self: ...
 
 @final
 class BoucWen(Hysteresis):
-    """Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
-    the stiffness, with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops: both, or
-    neither (then 2 and 0.5).
+    """Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+    stiffness, with a smooth transition by ``exponent``, and ``beta`` for the shape of loops. Give both or neither (then
+    2 and 0.5).
     """
 
     def __new__(
@@ -3434,10 +3476,11 @@ class FrictionPendulum(Hysteresis):
 class PendulumBearing:
     """Friction pendulum that carries the structure, in plan: its weight is the vertical force on it.
 
-    ``weight`` (N; of its stiffness before it slides, and of its friction until the static state is known), ``radius`` of its
-    dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5 mm by default) before
-    it slides. `WithSprings` attaches it to three rows: it slides in any direction, climbs on its dish, and lifts off.
-    Friction follows the vertical force one step later; moments of that force at the displaced bearing are left out.
+    ``weight`` (N; for its stiffness before it slides, and for its friction until the static state is computed),
+    ``radius`` of its dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5
+    mm by default) before it slides. `WithSprings` attaches it to three rows: it slides in any direction, rises on its
+    dish, and lifts off. Friction follows the vertical force one step later; moments of that force about the undisplaced
+    bearing are neglected.
     """
 
     def __new__(
@@ -3456,9 +3499,9 @@ class PendulumBearing:
 
 @final
 class LeadRubber(Hysteresis):
-    """Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
-    of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
-    after yielding, 10 by default.
+    """Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m) of its
+    rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: ratio of the initial stiffness to the
+    stiffness after yielding, 10 by default.
     """
 
     def __new__(
@@ -3484,12 +3527,12 @@ class LeadRubber(Hysteresis):
 
 @final
 class WithSprings(Structure):
-    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-    freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
-    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
-    (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
-    along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
-    y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
+    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of freedom, which
+    is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`. In plan also ``(row_x, row_y, law)`` with
+    two deformations at a right angle and a `Hysteresis` (``BoucWen`` with an exponent of 2), whose force (N) has the
+    same limit in every direction; two springs along x and y act independently: on the diagonal their resultant reaches
+    √2 times the limit. With three deformations, along x, along y and up, ``(row_x, row_y, row_z, bearing)`` of a
+    `PendulumBearing`.
     """
 
     def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
@@ -3523,16 +3566,37 @@ class Layer:
     ) -> Self: ...
 
 @final
-class MatrixModel(Structure):
-    """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
+class BeamSection:
+    """Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
+    m⁴) and ``torsion_constant`` (m⁴).
 
-    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-    (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-    `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
-    in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
-    metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-    list of n different names, for `dof`, frames and errors; none unless given.
+    y and z are the principal axes: y along the orientation of the beam, z perpendicular to it. ``shear_areas`` along y
+    and along z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle
+    is 5/6 of its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+    """
+
+    def __new__(
+        cls,
+        area: float,
+        second_moments: Sequence[float],
+        torsion_constant: float,
+        *,
+        shear_areas: Sequence[float] | None = None,
+    ) -> Self: ...
+
+@final
+class MatrixModel(Structure):
+    """A structure by its mass, stiffness and damping matrices.
+
+    Matrices are dense or of ``scipy.sparse``.
+
+    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements (m, rad). The
+    structure has no supports; only the ground supports it. ``base``: its nodes, a list of `BaseNode` from left to
+    right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to the
+    whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
+    unless ``active_damping`` (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by
+    default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``: list of n different names, for
+    `dof`, frames and errors; none unless given.
     """
 
     def __new__(
@@ -3550,9 +3614,10 @@ class MatrixModel(Structure):
 
 @final
 class Mesh:
-    """Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
-    `in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
-    elements' numbers.
+    """Nodes and finite elements in the plane, or by `in_space` in space.
+
+    ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
+    an error they have added none.
 
     In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
     of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
@@ -3604,9 +3669,9 @@ class Mesh:
         ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
         vector, or an array of shape (beams, 3)).
 
-        ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of
-        shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which nothing
-        holds its first and its second end, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
+        ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array
+        of shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which
+        its first and its second end are free, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
         ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
         array of one per beam): axial force of P–Δ, none unless given.
         """
@@ -3623,9 +3688,10 @@ class Mesh:
         """
     def merge_nodes(self, tolerance: float) -> tuple[int, list[int]]:
         """Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
-        number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
+        number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
 
-        An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
+        If an element would have the same node twice, or two elements the same nodes, it raises an error and the mesh is
+        unchanged.
         """
     @property
     def nodes(self) -> NDArray[np.float64]:
@@ -3702,8 +3768,8 @@ class Mesh:
     def elements(self) -> list[list[int]]:
         """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
-        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
-        ``z`` is 0 by default.
+        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
+        the mesh. ``z`` is 0 by default.
         """
     def nodes_at_height(self, y: float, tolerance: float = 1e-09) -> list[int]:
         """Numbers of the nodes at a height (``y`` in the plane, in space z; m) within a ``tolerance`` (m; 1e-9 by
@@ -3747,8 +3813,9 @@ class Mesh:
 
 @final
 class ShellResultants:
-    """Forces and moments of a shell at a point, per metre of width, in its `axes`: from
-    `FemModel.shell_resultants` and `ShellRows.value`.
+    """Forces and moments of a shell at a point, per metre of width.
+
+    They refer to the `axes`. `FemModel.shell_resultants` and `ShellRows.value` return them.
     """
 
     @property
@@ -3773,10 +3840,11 @@ class ShellResultants:
 
 @final
 class ShellRows:
-    """Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
-    `FemModel.shell_rows`.
+    """Rows of the forces and moments of shells at a node, for `Probe.section`.
 
-    A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
+    They are rows of displacements, per metre of width. `FemModel.shell_rows` returns them.
+
+    A probe records changes from the static state; the static part is the `value` for the ``static_displacement`` of the
     simulation. The rows contain the elastic forces, without damping.
     """
 
@@ -3840,12 +3908,12 @@ class Condition:
         """Coefficient of the shear traction."""
     @property
     def value(self) -> float:
-        """Right-hand side: m or Pa where the coefficient is a number."""
+        """Right-hand side; in m or Pa if the coefficients have no unit."""
 
 @final
 class Tolerance:
-    """Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
-    pressure and shear (Pa).
+    """Differences below which a law treats numbers as equal: ``length`` of gaps and slips (m), ``traction`` of pressure
+    and shear (Pa).
     """
 
     def __new__(cls, length: float, traction: float) -> Self: ...
@@ -3893,11 +3961,11 @@ class ContactState:
 
 @final
 class PreviousContact(ContactState):
-    """An element at the start of a step: its `ContactState`, and the rest of its past.
+    """An element at the start of a step: its `ContactState` and its history.
 
-    A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
-    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by
-    default) and the law's ``state_variables`` (array of shape (m,); none unless given).
+    To try a law without a simulation, create one from a ``state`` (`ContactState`), its ``mode``, the ``time_step``
+    (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by default) and the law's
+    ``state_variables`` (array of shape (m,); none unless given).
     """
 
     def __new__(
@@ -3915,7 +3983,7 @@ class PreviousContact(ContactState):
         """Mode of the step before, as in `basemat.MODES`."""
     @property
     def has_opened(self) -> bool:
-        """Whether the element has been open."""
+        """Whether the element was open at any time before."""
     @property
     def slip_rate(self) -> float:
         """Slip rate of the step before, m/s; its magnitude in plan."""
@@ -3929,8 +3997,8 @@ class PreviousContact(ContactState):
     def trial_settlement(self) -> float:
         """Settlement of the yielding soil in the present trial of the step, m; 0 in its first trial.
 
-        A law whose pressure is a curve over the settlement returns the curve's tangent there, as ``pressure_cap`` and
-        ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
+        A law whose pressure is a curve over the settlement returns the tangent of the curve at this settlement, as
+        ``pressure_cap`` and ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
         """
     @property
     def state_variables(self) -> list[float]:
@@ -3987,12 +4055,12 @@ class Limits:
     def __eq__(self, value: object, /) -> bool: ...
 
 def memory_limit() -> int:
-    """Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take: 8 GiB. Sizes are compared with it
-    before anything is allocated; an error states the memory that they would take.
+    """Largest memory of one mesh, matrix, ground, record or sweep, bytes: 8 GiB. The needed memory is compared with this
+    limit before it is allocated; the error states the needed memory.
     """
 
 def set_memory_limit(bytes: int) -> None:
-    """Deprecated: warns, and ignores bytes. The limit of one part is fixed (`memory_limit`)."""
+    """Deprecated: warns and has no effect, since the `memory_limit` is fixed. ``bytes`` is ignored."""
 
 def _case_numbers(grid: Sequence[tuple[str, Any]], shard: tuple[int, int] | None = None) -> list[int]: ...
 
@@ -4011,39 +4079,39 @@ def free_field(
     duration: float | None = None,
     displacement_at: Callable[[float, float, float], Sequence[float]] | None = None,
 ) -> FreeField:
-    """A motion of functions, named by what they return: give one of them.
+    """A motion that one function defines: give ``displacement``, ``acceleration`` or ``displacement_at``.
 
-    ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
-    (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
+    ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x (m) and time (s,
+    above 0). It should begin with zero: until t = 0 the ground is at rest.
 
-    ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
-    sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
-    a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
-    velocity stays what it is by then.
+    ``acceleration``: a function ``(time) -> (right, up)`` in m/s², the same everywhere. It is sampled every
+    ``time_step`` (s) from 0 to ``duration`` (s), linear between the samples as a `Record`, and integrated exactly from
+    rest. After the ``duration`` it is zero, and the velocity stays constant.
 
     ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
     the point x, y (m).
 
-    The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
-    and for their ``time_step`` and ``duration``.
+    The first two may instead return one number, the motion to the right. All three may raise an exception. The other
+    arguments are None.
     """
 
 def el_centro_1940() -> Record:
-    """The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
+    """The `Record` of El Centro 1940, north–south.
 
-def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
-    """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
-    (count,).
+    Peknold's version with a peak of 0.319 g: 31.18 s with a time step of 0.02 s.
     """
 
+def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
+    """``count`` numbers from ``first`` to ``last`` with equal ratios, such as periods: array of shape (count,)."""
+
 def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
-    """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-    same everywhere at once; a component is zero unless given.
+    """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the same everywhere; a
+    component is zero unless given.
     """
 
 def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
-    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
-    once, for a ground in plan; what is None rests.
+    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere, for a
+    ground in plan; a component is zero unless given.
     """
 
 def travelling_wave(
@@ -4053,14 +4121,15 @@ def travelling_wave(
     *,
     azimuth: float = 0.0,
 ) -> FreeField:
-    """A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
-    negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
-    from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
+    """A ``motion`` (`FreeField`) that travels along x with an ``apparent_velocity`` (m/s; to the left if negative) and
+    acts unchanged at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction of travel, along
+    which ``origin`` is measured, counter-clockwise from x as seen from above; the components of the motion turn with
+    it.
     """
 
 def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = False) -> FreeField:
-    """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
-    right or, if ``vertical`` (False by default), up.
+    """Ricker pulse of displacement to the right, or up if ``vertical`` (False by default): ``amplitude`` of the peak (m),
+    width ``sigma`` (s), time ``center`` (s).
     """
 
 @overload
@@ -4069,35 +4138,35 @@ def refine(
     time_step: float,
     scene: Callable[[int, float], Mapping[str, float]],
 ) -> Refinements:
-    """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+    """Runs a scene at six settings and estimates the error of each.
 
-    ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-    ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-    elements, and twice the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+    the elements with half the step.
 
-    A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
-    extrapolated by itself, so that units may differ.
+    If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+    extrapolated separately, so that units may differ.
 
-    An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
-    settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-    and may change between the settings; ``stages`` of `ElasticGround` keeps it.
+    A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
+    a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
+    change between the settings; ``stages`` of `ElasticGround` fixes it.
     """
 @overload
 def refine(elements: int, time_step: float, scene: Callable[[int, float], float | ArrayLike]) -> Refinement:
-    """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+    """Runs a scene at six settings and estimates the error of each.
 
-    ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
-    peaks, or a time series at times that all settings have (the times of the coarsest). Settings are
-    ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
-    elements, and twice the elements with half the step.
+    The estimate is Richardson's extrapolation. ``scene(elements, time_step)`` builds and runs, and returns a number or
+    an array: a peak, some peaks, or a time series at times that all settings have (the times of the coarsest). Settings
+    are ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the elements, and twice
+    the elements with half the step.
 
-    A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
-    extrapolated by itself, so that units may differ.
+    If it returns a dict of numbers by names, such as several peaks, the result is `Refinements`: each number is
+    extrapolated separately, so that units may differ.
 
-    An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
-    settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-    and may change between the settings; ``stages`` of `ElasticGround` keeps it.
+    A regular estimate may still be too low where the base slides or opens: by a factor of 2.4 at one of six settings of
+    a sliding block. On layers the number of stages of the convolution quadrature depends on the error at 15 Hz and may
+    change between the settings; ``stages`` of `ElasticGround` fixes it.
     """
 
 def sensitivity(
@@ -4108,9 +4177,9 @@ def sensitivity(
     """Runs a scene and three twins of it, and compares their peaks: with a time step shorter by 1 %, and on three quarters
     and half of the elements.
 
-    ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. A body that
-    rocks on its corners may lose the memory of its start; its peaks then belong to one motion out of many, and no
-    finer setting makes them converge. The twins tell how many digits of a peak can be quoted, and cost less than two
+    ``scene(elements, time_step)`` builds and runs for a duration, and returns a dict of peaks by their names. The
+    motion of a body that rocks on its corners may be chaotic: its peaks then belong to one motion out of many, and no
+    finer setting makes them converge. The twins show how many digits of a peak can be quoted, and cost less than two
     further runs.
     """
 
@@ -4119,8 +4188,9 @@ def _restored(kind: str, data: bytes) -> Any: ...
 def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     """Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
 
-    E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An `InputError` tells of
-    points that are not one closed cycle. `Run.equivalent_damping` takes it from a run.
+    E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An
+    `InputError` is raised if the points are not one closed cycle. `Run.equivalent_damping` computes the ratio from a
+    run.
 
     Args:
         rotation: rotations, array of shape (m,), rad.

@@ -9,15 +9,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::strip::{ContactMesh, grading};
-use super::superclass::{contact, history_options};
+use super::superclass::{history_options, strip_contact};
 use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole_numbers};
 use crate::error::{OrRaise, WithOption};
 use crate::profile::Profile;
 use crate::ticker::with_progress;
 
-/// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
-/// are built with the same object. A copy in another process begins empty; ``len()`` counts them.
+/// Convolution weights that grounds of equal soil and elements share.
+///
+/// They are computed once for all simulations that are built with the same object. A copy in another process is empty;
+/// ``len()`` is the number of stored sets.
 #[pyclass(name = "SharedKernels", module = "basemat", frozen)]
 #[derive(Default)]
 pub(crate) struct PySharedKernels(pub(super) SharedKernels);
@@ -29,7 +31,7 @@ impl PySharedKernels {
         Self::default()
     }
 
-    /// A copy in another process begins empty.
+    /// A pickle has no content: a copy in another process is empty.
     #[allow(clippy::unused_self, reason = "a method of Python")]
     fn __getnewargs__<'py>(&self, py: Python<'py>) -> Bound<'py, PyTuple> {
         PyTuple::empty(py)
@@ -40,17 +42,18 @@ impl PySharedKernels {
     }
 }
 
-/// Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
-/// elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
+/// Elastic ground, homogeneous or layered, with contact elements on its surface.
 ///
-/// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
-/// half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
-/// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (unless given, 1e-12 with "auto" and
-/// 1e-10 with "exponentials"); ``history_memory``: bytes that the history may take (1 GiB unless given).
-/// ``kernels``: `SharedKernels` of several simulations; not shared unless given.
-/// Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
-/// ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
-/// ``kernel_file``: path of a file that stores them (none unless given).
+/// ``soil``: a `Soil` (a half-plane) or a `SoilProfile` (layers). ``strips``: a `Strip` or a list of them, or a `Plan`
+/// in three dimensions.
+///
+/// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a half-plane
+/// under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
+/// ``history_tolerance``: permitted relative error of exponentials, 1e-12 to 1e-2 (unless given, 1e-12 with "auto" and
+/// 1e-10 with "exponentials"); ``history_memory``: largest memory of the history, bytes (1 GiB unless given).
+/// ``kernels``: `SharedKernels` of several simulations; not shared unless given. For layers and damping: ``stages``: 2
+/// or 3 Runge–Kutta stages (the rule's choice unless given); ``tolerance``: relative error of the element compliances,
+/// 1e-13 to 1e-4 (1e-10 unless given); ``kernel_file``: path of a file that stores them (none unless given).
 #[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyElasticGround {
     make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
@@ -79,11 +82,10 @@ impl PyElasticGround {
             ContactMesh::Strips(_) => None,
             ContactMesh::Plan(plan) => Some((soil.clone(), PyPlan(plan.clone()))),
         };
-        let profile = soil;
         let make = move || {
             let ground = match &strips {
-                ContactMesh::Strips(strips) => ElasticGround::new(profile.0.clone(), strips),
-                ContactMesh::Plan(plan) => ElasticGround::in_plan(profile.0.clone(), plan.clone()),
+                ContactMesh::Strips(strips) => ElasticGround::new(soil.0.clone(), strips),
+                ContactMesh::Plan(plan) => ElasticGround::in_plan(soil.0.clone(), plan.clone()),
             };
             ground
                 .and_then(|ground| ground.with_history(options))
@@ -92,14 +94,15 @@ impl PyElasticGround {
                 .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
                 .with(kernels.as_ref(), |ground, kernels| Ok(ground.with_shared_kernels(kernels)))
         };
-        let base = PyGround::new(make.clone())?;
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make), plan }))
+        let superclass = PyGround::new(make.clone())?;
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self { make: Box::new(make), plan }))
     }
 
-    /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-    /// structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
-    /// outline that is oblique to them.
-    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+    /// Ground with contact elements under the foundations of a ``structure``.
+    ///
+    /// It has a strip of ``count`` elements under each foundation, as wide as the foundation; under a structure in plan
+    /// a `Plan` with ``count`` cells along the shorter side of its base, cut at an outline that is oblique to them. A
+    /// flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
     /// ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
     ///
     /// ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
@@ -137,10 +140,10 @@ impl PyElasticGround {
             return plan.impedances(py, soil.clone(), frequencies, contact)?.into_py_any(py);
         }
         let ground = (self.make)().or_raise()?;
-        let contact = self::contact(contact)?;
-        let found = py.detach(move || {
+        let contact = strip_contact(contact)?;
+        let impedances = py.detach(move || {
             with_progress(None, |observer| ground.impedances(&frequencies.0, contact, observer))
         });
-        PyImpedances(found?).into_py_any(py)
+        PyImpedances(impedances?).into_py_any(py)
     }
 }

@@ -1,7 +1,6 @@
 //! Grounds.
 
 mod elastic;
-mod from_python;
 mod plan;
 mod spring;
 mod strip;
@@ -10,10 +9,9 @@ mod trench;
 mod trench_ground;
 
 pub(crate) use elastic::{PyElasticGround, PySharedKernels};
-pub(crate) use from_python::new_ground;
 pub(crate) use plan::PyPlan;
 pub(crate) use spring::PySpringGround;
-pub(crate) use strip::PyStrip;
+pub(crate) use strip::{PyStrip, new_ground};
 pub(crate) use superclass::{PyGround, PyImpedances};
-pub(crate) use trench::{PyTrench, PyTrenchElements};
+pub(crate) use trench::{PyTrench, PyTrenchElements, is_base_element};
 pub(crate) use trench_ground::{PyKinematicMotions, PyTrenchGround};

@@ -4,15 +4,17 @@ use basemat::bem::plan::{Plan, impedances_in_plan};
 use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
-use super::superclass::contact;
-use crate::array::{Count, Numbers, complex, whole_numbers};
+use super::superclass::strip_contact;
+use crate::array::{Count, Numbers, numpy_complex, whole_numbers};
 use crate::error::{OrRaise, input_error};
 use crate::profile::Profile;
 use crate::ticker::with_progress;
 
-/// Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
-/// cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it), with ``cells`` along the shorter side of them all.
-/// Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
+/// Square contact cells under a mat, for an `ElasticGround` in plan.
+///
+/// They are the cells that the ``faces`` of the mat cover, convex polygons by their corners (list of lists of x and y,
+/// m; a single one needs no list around it), with ``cells`` along the shorter side of all faces together. Oblique edges
+/// cut the cells; at straight edges along x and y the cells extend beyond the edge by 0.105 of their side.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
@@ -23,9 +25,9 @@ fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
         Ok(1.0) => Ok(true),
         Ok(0.0) => Ok(false),
         _ => {
-            let found = entry.repr()?;
+            let entry_text = entry.repr()?;
             Err(input_error(format!(
-                "mask has the entry {found}, but must be of True and False, or of 1 and 0"
+                "mask has the entry {entry_text}, but must be of True and False, or of 1 and 0"
             )))
         }
     }
@@ -39,13 +41,13 @@ impl PyPlan {
             polygons
         } else {
             // A single face needs no list around it.
-            let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
-            vec![faces.extract().map_err(|_: PyErr| input_error(needed))?]
+            let requirement = "faces: give a list of polygons, each a list of its corners (x, y)";
+            vec![faces.extract().map_err(|_: PyErr| input_error(requirement))?]
         };
         Ok(Self(Plan::on_faces(&polygons, cells.0).or_raise()?))
     }
 
-    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
+    /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` along its diameter.
     #[staticmethod]
     fn disc(center: (f64, f64), radius: f64, cells: Count) -> PyResult<Self> {
         Plan::disc(center.into(), radius, cells.0).or_raise().map(Self)
@@ -59,12 +61,14 @@ impl PyPlan {
         pitch: [f64; 2],
         mask: Vec<Vec<Bound<'_, PyAny>>>,
     ) -> PyResult<Self> {
-        let columns = mask.first().map_or(0, Vec::len);
-        if mask.iter().any(|row| row.len() != columns) {
-            return Err(input_error(format!("mask has a row that is not {columns} cells long")));
+        let column_count = mask.first().map_or(0, Vec::len);
+        if mask.iter().any(|row| row.len() != column_count) {
+            return Err(input_error(format!(
+                "mask has rows of different lengths, but each must have {column_count} cells"
+            )));
         }
-        let mask = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
-        Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
+        let cells = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
+        Plan::masked(corner, pitch, column_count, &cells).or_raise().map(Self)
     }
 
     /// Sides of a cell along x and y, m.
@@ -73,7 +77,7 @@ impl PyPlan {
         self.0.pitch()
     }
 
-    /// Middle of the bounding rectangle, x and y, m: what impedances refer to.
+    /// Middle of the bounding rectangle, x and y, m: the reference point of impedances.
     #[getter]
     fn middle(&self) -> [f64; 2] {
         self.0.middle()
@@ -85,8 +89,9 @@ impl PyPlan {
         self.0.area_error()
     }
 
-    /// The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
-    /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
+    /// The plan with contact elements that are rectangles of cells: the list ``along`` has the numbers of columns that
+    /// are united, ``across`` those of rows. Under a rigid mat, sixteen cells united by 1, 2, 2, 3, 3, 2, 2, 1 are as
+    /// accurate as separate cells.
     fn with_unions(
         &self,
         #[pyo3(from_py_with = whole_numbers)] along: Vec<usize>,
@@ -95,7 +100,8 @@ impl PyPlan {
         Ok(Self(self.0.clone().with_unions(&along, &across).or_raise()?))
     }
 
-    /// The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces.
+    /// The plan with cells that end at the edges of the faces: for springs, for prescribed pressures and for flexible
+    /// faces.
     fn without_overhang(&self) -> PyResult<Self> {
         Ok(Self(self.0.clone().without_overhang().or_raise()?))
     }
@@ -104,10 +110,12 @@ impl PyPlan {
         self.0.count()
     }
 
-    /// Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
-    /// e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
-    /// moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
-    /// "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
+    /// Dynamic stiffness of the mat as one rigid body on a ``soil``.
+    ///
+    /// It applies to a ``soil`` (`Soil` or `SoilProfile`) and motions e^(iωt) at ``frequencies`` (array of shape (m,),
+    /// Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and moments about them (N m) by displacements
+    /// (m) and rotations (rad) of the mat's middle. ``contact``: "bonded" (the default) or "relaxed" (vertical motions
+    /// without shear, horizontal ones without pressure).
     #[pyo3(signature = (soil, frequencies, *, contact="bonded"))]
     pub(super) fn impedances<'py>(
         &self,
@@ -117,15 +125,17 @@ impl PyPlan {
         contact: &str,
     ) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
         let plan = &self.0;
-        let contact = self::contact(contact)?;
-        let found = py.detach(move || {
+        let contact = strip_contact(contact)?;
+        let impedances = py.detach(move || {
             with_progress(None, |observer| {
                 impedances_in_plan(&soil.0, plan, &frequencies.0, contact, observer)
             })
         });
-        let matrices: Vec<Vec<Vec<_>>> = found?
+        let matrices: Vec<Vec<Vec<_>>> = impedances?
             .iter()
-            .map(|impedance| impedance.matrix.iter().map(|row| row.map(complex).to_vec()).collect())
+            .map(|impedance| {
+                impedance.matrix.iter().map(|row| row.map(numpy_complex).to_vec()).collect()
+            })
             .collect();
         Ok(PyArray3::from_vec3(py, &matrices)?)
     }

@@ -11,10 +11,10 @@ use crate::error::WithOption;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end with the mat.
-/// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
-/// given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
-/// given.
+/// ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end at the edge of the mat.
+/// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential
+/// one unless given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: θ of their time
+/// integration, ½ to 1; ½ unless given.
 #[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PySpringGround;
 
@@ -30,14 +30,14 @@ impl PySpringGround {
         dashpots: Option<[f64; 2]>,
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let base = PyGround::new(move || {
+        let superclass = PyGround::new(move || {
             let ground = match &strips {
                 ContactMesh::Strips(strips) => {
                     SpringGround::on_strips(strips, normal_stiffness, tangential_stiffness)
                 }
                 ContactMesh::Plan(plan) => {
-                    let across = across_stiffness.unwrap_or(tangential_stiffness);
-                    let stiffness = [normal_stiffness, tangential_stiffness, across];
+                    let stiffness_y = across_stiffness.unwrap_or(tangential_stiffness);
+                    let stiffness = [normal_stiffness, tangential_stiffness, stiffness_y];
                     SpringGround::in_plan(plan.clone(), stiffness)
                 }
             };
@@ -47,14 +47,16 @@ impl PySpringGround {
                 })
                 .with(theta, SpringGround::with_theta)
         })?;
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self))
     }
 
-    /// Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
-    /// the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
-    /// and ``theta`` are as in the class, the last three if given.
-    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
-    /// ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
+    /// Spring bed with contact elements under the foundations of a ``structure``.
+    ///
+    /// It has a strip of ``count`` equal elements under each foundation; under a structure in plan ``count`` cells
+    /// along the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``,
+    /// ``dashpots`` and ``theta`` are as in the class, the last three if given. A flexible base gets at least one
+    /// element for each of its segments, or as many cells as it has faces: then ``count`` is raised. The ground prints
+    /// its number of elements, and ``len(ground.elements)`` is that number.
     #[staticmethod]
     #[pyo3(
         signature = (structure, count, *stiffness, **options),

@@ -1,16 +1,17 @@
-//! Contact elements: strips of them in the plane, or those of a plan.
+//! Contact elements: strips of them in the plane, or those of a plan; the ground of a simulation on them.
 
 use basemat::Soil;
 use basemat::bem::plan::Plan;
-use basemat::bem::{Grading, Strip};
+use basemat::bem::{ContactElement, Grading, Ground, Strip};
 use basemat::structure::Base;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
-use super::PyPlan;
+use super::{PyGround, PyPlan, PyTrenchElements};
 use crate::array::{Numbers, whole_numbers};
 use crate::error::OrRaise;
-use crate::several::type_error;
+use crate::list_arguments::{reject_class, type_error};
+use crate::user::UserGround;
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
 /// "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
@@ -18,6 +19,7 @@ use crate::several::type_error;
 #[derive(Clone)]
 pub(crate) struct PyStrip(pub(crate) Strip);
 
+/// The grading of a name.
 pub(super) fn grading(name: &str) -> PyResult<Grading> {
     name.parse().or_raise()
 }
@@ -35,7 +37,7 @@ impl PyStrip {
         Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
     }
 
-    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
+    /// Strip of elements between ``nodes`` (array of shape (elements + 1,), m, ascending).
     #[staticmethod]
     fn from_nodes(nodes: Numbers) -> PyResult<Self> {
         Strip::from_nodes(nodes.0).or_raise().map(Self)
@@ -60,7 +62,9 @@ pub(super) enum ContactMesh {
 }
 
 impl ContactMesh {
-    /// Elements under the foundations of a structure, or under its faces in plan, on a soil if one is given.
+    /// Elements under the foundations or faces of a structure, as Python's object.
+    ///
+    /// In plan the elements depend on the soil, if there is one.
     pub(super) fn under(
         structure: &Bound<'_, PyAny>,
         count: usize,
@@ -88,7 +92,35 @@ extracts!(ContactMesh, object => {
     if let Ok(strip) = object.cast::<PyStrip>() {
         return Ok(Self::Strips(vec![strip.get().0.clone()]));
     }
-    let list: Vec<Bound<'_, PyStrip>> =
+    let strips: Vec<Bound<'_, PyStrip>> =
         object.extract().map_err(|_| type_error(&object, "a Strip, a list of them, or a Plan"))?;
-    Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
+    Ok(Self::Strips(strips.iter().map(|strip| strip.get().0.clone()).collect()))
 });
+
+/// A ground for one simulation, and its object of Python: a copy if the ground is written in Python.
+pub(crate) fn new_ground<'py>(
+    object: &Bound<'py, PyAny>,
+) -> PyResult<(Box<dyn Ground>, Bound<'py, PyAny>)> {
+    if let Ok(ground) = object.cast::<PyGround>() {
+        return Ok(((ground.get().make)().or_raise()?, object.clone()));
+    }
+    if !object.hasattr("step_compliance")? {
+        return Err(type_error(object, "a Ground, or an object with the methods of UserGround"));
+    }
+    reject_class(object)?;
+    let ground = UserGround::new(object, contact_elements)?;
+    let copy = ground.object(object.py());
+    Ok((Box::new(ground), copy))
+}
+
+/// Contact elements of strips, of a plan or of a trench.
+fn contact_elements(object: &Bound<'_, PyAny>) -> PyResult<Vec<ContactElement>> {
+    if let Ok(trench) = object.cast::<PyTrenchElements>() {
+        return Ok(trench.get().0.elements());
+    }
+    let requirement = "a Strip, a list of them, a Plan, or TrenchElements";
+    match object.extract().map_err(|_: PyErr| type_error(object, requirement))? {
+        ContactMesh::Strips(strips) => Ok(strips.iter().flat_map(Strip::elements).collect()),
+        ContactMesh::Plan(plan) => Ok(plan.elements()),
+    }
+}

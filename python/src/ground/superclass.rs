@@ -8,12 +8,12 @@ use basemat::history::{HistoryMethod, HistoryOptions};
 use numpy::Complex64;
 use pyo3::prelude::*;
 
-use crate::array::{Array, Rows, complex};
+use crate::array::{Array, Rows, numpy_complex};
 use crate::error::OrRaise;
 use crate::names::choice;
 use crate::recipe::Recipe;
 
-/// A ground: a description from which every simulation makes one of its own.
+/// A ground: a description from which each simulation builds a separate ground.
 #[pyclass(name = "Ground", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyGround {
     pub(crate) make: Recipe<dyn Ground>,
@@ -21,7 +21,7 @@ pub(crate) struct PyGround {
 }
 
 impl PyGround {
-    /// A ground from what makes it, which is tried once.
+    /// A ground that `make` builds for each simulation; it is called once for its errors.
     pub(crate) fn new<G: Ground + 'static>(
         make: impl Fn() -> basemat::Result<G> + Send + Sync + 'static,
     ) -> PyResult<Self> {
@@ -33,8 +33,8 @@ impl PyGround {
 
 #[pymethods]
 impl PyGround {
-    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both are the
-    /// same on a wall.
+    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both
+    /// ends are equal on a wall.
     #[getter]
     fn elements(&self) -> Rows {
         Rows(self.elements.iter().map(|element| vec![element.left(), element.right()]).collect())
@@ -54,24 +54,27 @@ impl PyGround {
     }
 }
 
-/// Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-/// arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
+/// Dynamic stiffness of a rigid base without mass, per metre of thickness.
+///
+/// It applies to motions e^(iωt). Complex arrays of shape (m,), one value per frequency; the imaginary part is
+/// radiation and damping.
 #[pyclass(name = "Impedances", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
 
-/// Options of a history by the words of a ground's arguments.
+/// Options of a history from the arguments of a ground.
 pub(super) fn history_options(
     method: &str,
     tolerance: Option<f64>,
-    memory: Option<usize>,
+    memory_bytes: Option<usize>,
 ) -> PyResult<HistoryOptions> {
     let method: HistoryMethod = method.parse().or_raise()?;
     let options = HistoryOptions { tolerance, ..method.into() };
-    Ok(HistoryOptions { memory: memory.unwrap_or(options.memory), ..options })
+    Ok(HistoryOptions { memory: memory_bytes.unwrap_or(options.memory), ..options })
 }
 
-pub(super) fn contact(name: &str) -> PyResult<StripContact> {
+/// The contact of a name, for impedances.
+pub(super) fn strip_contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])
 }
 
@@ -86,24 +89,24 @@ impl PyImpedances {
     /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
-        self.0.iter().map(|impedance| complex(impedance.horizontal)).collect()
+        self.0.iter().map(|impedance| numpy_complex(impedance.horizontal)).collect()
     }
 
     /// Vertical force by vertical translation: complex array of shape (m,), N/m².
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
-        self.0.iter().map(|impedance| complex(impedance.vertical)).collect()
+        self.0.iter().map(|impedance| numpy_complex(impedance.vertical)).collect()
     }
 
     /// Moment by rotation: complex array of shape (m,), N.
     #[getter]
     fn rocking(&self) -> Array<Complex64> {
-        self.0.iter().map(|impedance| complex(impedance.rocking)).collect()
+        self.0.iter().map(|impedance| numpy_complex(impedance.rocking)).collect()
     }
 
     /// Horizontal force by rotation: complex array of shape (m,), N/m.
     #[getter]
     fn coupling(&self) -> Array<Complex64> {
-        self.0.iter().map(|impedance| complex(impedance.coupling)).collect()
+        self.0.iter().map(|impedance| numpy_complex(impedance.coupling)).collect()
     }
 }

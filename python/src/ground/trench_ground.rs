@@ -12,11 +12,11 @@ use pyo3::prelude::*;
 
 use super::superclass::history_options;
 use super::{PyGround, PyImpedances, PySharedKernels, PyTrenchElements};
-use crate::array::{Array, Numbers, complex, whole_numbers};
+use crate::array::{Array, Numbers, numpy_complex, whole_numbers};
 use crate::error::{OrRaise, WithOption};
 use crate::interface::PyEarthPressure;
+use crate::list_arguments::{ListOf, type_error};
 use crate::profile::{Profile, PyDampingLaw, law_or_elastic};
-use crate::several::{ListOf, type_error};
 use crate::soil::{PySoil, PySoilStrength};
 use crate::ticker::with_progress;
 
@@ -46,32 +46,41 @@ impl Relaxation for SharedLaw {
     }
 }
 
-/// Width, m, soil and damping of a backfill.
-struct BackfillArguments(f64, PySoil, SharedLaw);
+/// Backfill of the walls of a trench, by the tuple that Python has for it.
+struct BackfillArguments {
+    /// Width beside each wall, m.
+    width: f64,
+    soil: PySoil,
+    damping: SharedLaw,
+}
 
 extracts!(BackfillArguments, object => {
     if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
-        return Ok(Self(width, PySoil(soil.get().0), SharedLaw(law_or_elastic(None))));
+        let damping = SharedLaw(law_or_elastic(None));
+        return Ok(Self { width, soil: PySoil(soil.get().0), damping });
     }
-    let needed = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
+    let requirement = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
     match object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>() {
         Ok((width, soil, damping)) => {
-            Ok(Self(width, PySoil(soil.get().0), SharedLaw(law_or_elastic(Some(damping.get())))))
+            let damping = SharedLaw(law_or_elastic(Some(damping.get())));
+            Ok(Self { width, soil: PySoil(soil.get().0), damping })
         }
-        Err(_) => Err(type_error(&object, needed)),
+        Err(_) => Err(type_error(&object, requirement)),
     }
 });
 
-/// Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
-/// ``elements`` (`TrenchElements`).
+/// Soil around a trench, in the plane.
+///
+/// It is a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base, ``elements``
+/// (`TrenchElements`).
 ///
 /// The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 ///
-/// ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
-/// unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,
-/// if it is damped, its `DampingLaw`; the profile unless given.
-/// ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
-/// `ElasticGround`, whose defaults they have unless given.
+/// ``pressure_at_rest``: K₀, the ratio of the pressure on the walls at rest to the vertical pressure of the soil; ν/(1
+/// − ν) of each soil unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its
+/// width (m), its `Soil` and, if it is damped, its `DampingLaw`; the soil of the profile unless given. ``history``,
+/// ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for `ElasticGround`,
+/// whose defaults they have unless given.
 #[pyclass(name = "TrenchGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyTrenchGround {
     pub(crate) make: Arc<dyn Fn() -> basemat::Result<TrenchGround> + Send + Sync>,
@@ -100,8 +109,8 @@ impl PyTrenchGround {
         let make = move || {
             TrenchGround::new(soil.0.clone(), elements.clone())
                 .with(pressure_at_rest, TrenchGround::with_pressure_at_rest)
-                .with(backfill.as_ref(), |ground, BackfillArguments(width, soil, damping)| {
-                    ground.with_backfill(*width, soil.0, damping.clone())
+                .with(backfill.as_ref(), |ground, backfill| {
+                    ground.with_backfill(backfill.width, backfill.soil.0, backfill.damping.clone())
                 })
                 .and_then(|ground| ground.with_history(options))
                 .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
@@ -110,19 +119,20 @@ impl PyTrenchGround {
         };
         let make = Arc::new(make);
         let make_ground = Arc::clone(&make);
-        let base = PyGround::new(move || make_ground())?;
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make }))
+        let superclass = PyGround::new(move || make_ground())?;
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self { make }))
     }
 
-    /// Dynamic stiffness of a rigid body welded to walls and base, `Impedances`, at ``frequencies`` (array of shape (m,), Hz).
+    /// Dynamic stiffness of a rigid body bonded to walls and base, `Impedances`, at ``frequencies`` (array of shape
+    /// (m,), Hz).
     ///
     /// It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
     fn impedances(&self, py: Python<'_>, frequencies: Numbers) -> PyResult<PyImpedances> {
         let ground = (self.make)().or_raise()?;
-        let found = py.detach(move || {
+        let result = py.detach(move || {
             with_progress(None, |observer| ground.impedances(&frequencies.0, observer))
         });
-        found.map(PyImpedances)
+        result.map(PyImpedances)
     }
 
     /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
@@ -142,38 +152,40 @@ impl PyTrenchGround {
         let strengths: Vec<_> = strengths.iter().map(|strength| strength.get().0).collect();
         let wall_laws = ground.wall_laws(&strengths, gravity).or_raise()?;
         let class = py.get_type::<PyEarthPressure>();
-        let mut wall: Vec<Py<PyAny>> = Vec::with_capacity(wall_laws.len());
+        let mut python_wall_laws: Vec<Py<PyAny>> = Vec::with_capacity(wall_laws.len());
         for law in &wall_laws {
             let [active, passive] = law.pressures();
-            wall.push(class.call1((active, passive, law.friction()))?.unbind());
+            python_wall_laws.push(class.call1((active, passive, law.friction()))?.unbind());
         }
         // Both walls have the same laws, from the surface down to the base.
-        let count = ground.trench_elements().elements().len();
-        let mut laws = Vec::with_capacity(count);
-        for element in 0..count {
-            let depth_index = element.min(count - 1 - element);
-            laws.push(wall.get(depth_index).unwrap_or(&base).clone_ref(py));
+        let element_count = ground.trench_elements().elements().len();
+        let mut laws = Vec::with_capacity(element_count);
+        for element in 0..element_count {
+            let depth_index = element.min(element_count - 1 - element);
+            laws.push(python_wall_laws.get(depth_index).unwrap_or(&base).clone_ref(py));
         }
         Ok(laws)
     }
 
     /// Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
     ///
-    /// Shear and pressure waves travel vertically. With backfill they do not, and the call raises an error.
+    /// Shear and pressure waves travel vertically. A ground with backfill raises an error, since its waves do not.
     fn kinematic_motions(
         &self,
         py: Python<'_>,
         frequencies: Numbers,
     ) -> PyResult<PyKinematicMotions> {
         let ground = (self.make)().or_raise()?;
-        let found = py.detach(move || {
+        let result = py.detach(move || {
             with_progress(None, |observer| ground.kinematic_motions(&frequencies.0, observer))
         });
-        found.map(PyKinematicMotions)
+        result.map(PyKinematicMotions)
     }
 }
 
-/// Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+/// Harmonic motion of a rigid body without mass in a trench.
+///
+/// It is relative to a unit motion e^(iωt) of the surface of the free field.
 ///
 /// It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
 /// Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
@@ -192,18 +204,18 @@ impl PyKinematicMotions {
     /// Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio.
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
-        self.0.iter().map(|motion| complex(motion.horizontal)).collect()
+        self.0.iter().map(|motion| numpy_complex(motion.horizontal)).collect()
     }
 
     /// Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m.
     #[getter]
     fn rotation(&self) -> Array<Complex64> {
-        self.0.iter().map(|motion| complex(motion.rotation)).collect()
+        self.0.iter().map(|motion| numpy_complex(motion.rotation)).collect()
     }
 
     /// Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio.
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
-        self.0.iter().map(|motion| complex(motion.vertical)).collect()
+        self.0.iter().map(|motion| numpy_complex(motion.vertical)).collect()
     }
 }

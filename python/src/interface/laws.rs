@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, CyclicYielding, EarthPressure, PreviousContact, ThinLayer, UnilateralCondition,
-    VariableFriction, Yielding,
+    Bonded, Cohesive, Coulomb, CyclicYielding, EarthPressure, PreviousContact, ThinLayer,
+    UnilateralCondition, VariableFriction, Yielding,
 };
 use pyo3::prelude::*;
 
@@ -14,7 +14,7 @@ use crate::error::{OrRaise, WithOption, call_user_code, input_error};
 use crate::soil::PySoil;
 use crate::user::PyPreviousContact;
 
-/// Base and ground never part.
+/// Base and ground are bonded: they neither separate nor slide.
 #[pyclass(name = "Bonded", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyBonded;
 
@@ -28,11 +28,10 @@ impl PyBonded {
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 ///
-/// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
-/// With 3 or more, steps in plan may have several solutions: compare the run with one of the mirror image.
-/// ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
-/// contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
-/// rule); on the gap unless given.
+/// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides. With 3 or more, steps in
+/// plan may have several solutions: compare the run with one of the mirror image. ``tensile_strength`` (Pa; 0 by
+/// default) acts on an element until it first opens. ``closed_below`` (m): contact conditions act on the change of the
+/// gap of elements whose gap is at most that (Moreau's rule); on the gap unless given.
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
@@ -61,8 +60,8 @@ impl PyCoulomb {
     }
 }
 
-/// A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
-/// (Pa) against opening and shear, ``friction`` the coefficient when it is broken.
+/// A bond that breaks permanently, and friction afterwards: ``tension`` and ``cohesion`` are its strengths (Pa) against
+/// opening and shear, ``friction`` the coefficient when it is broken.
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
@@ -75,7 +74,9 @@ impl PyCohesive {
     }
 }
 
-/// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
+/// Coulomb friction on soil that yields under its bearing pressure.
+///
+/// ``bearing_pressure``: Pa. ``friction``: coefficient.
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
@@ -88,13 +89,15 @@ impl PyYielding {
     }
 }
 
-/// Coulomb friction of a coefficient ``friction`` on soil that settles in every cycle of load, and bears at most its
-/// ``bearing_pressure`` (Pa).
+/// Coulomb friction on soil that settles in every cycle of load.
 ///
-/// Under virgin load half of that acts at the ``reference_settlement`` (m; 0 or more). ``elastic_range``: rise of pressure
-/// without yielding, relative to the bearing pressure, above 0 and at most 1; 1, soil that remembers its largest pressure,
-/// unless given. ``depth_gradient``: growth of the bearing pressure with the settlement, Pa/m; 0 unless given. State
-/// variables of an element: settlement (m), and pressure above which it yields (Pa).
+/// ``friction``: coefficient. ``bearing_pressure``: largest pressure of the soil, Pa.
+///
+/// Under virgin load half of the bearing pressure acts at the ``reference_settlement`` (m; 0 or more).
+/// ``elastic_range``: increase of pressure without yielding, relative to the bearing pressure, above 0 and at most 1; 1
+/// unless given, for soil that yields again only above its largest previous pressure. ``depth_gradient``: growth of the
+/// bearing pressure with the settlement, Pa/m; 0 unless given. State variables of an element: settlement (m), and
+/// pressure above which it yields (Pa).
 #[pyclass(name = "CyclicYielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCyclicYielding(CyclicYielding);
 
@@ -116,17 +119,19 @@ impl PyCyclicYielding {
         Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self(law)))
     }
 
-    /// Settlement (m) of soil that has borne nothing before under a ``pressure`` (Pa), without the elastic ground.
+    /// Settlement (m) of soil without earlier load under a ``pressure`` (Pa), without that of the elastic ground.
     fn virgin_settlement(&self, pressure: f64) -> f64 {
         self.0.virgin_settlement(pressure)
     }
 }
 
-/// Coulomb friction of a wall, of a coefficient ``friction``, on soil that follows a wall that moves away, at its
-/// ``active`` pressure (Pa), and yields to a wall that is pushed in, at its ``passive`` pressure (Pa).
+/// Coulomb friction between a wall and soil that yields.
 ///
-/// With an ``active`` pressure of 0 the soil stands by its cohesion, and the wall opens. `TrenchGround.interfaces` makes
-/// these laws from the strength of the soil.
+/// ``friction``: coefficient. The soil yields at its ``active`` pressure (Pa) towards a wall that moves away, at its
+/// ``passive`` pressure (Pa) under a wall that moves into it.
+///
+/// With an ``active`` pressure of 0 the soil is stable by its cohesion, and a gap opens at the wall.
+/// `TrenchGround.interfaces` creates these laws from the strength of the soil.
 #[pyclass(name = "EarthPressure", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyEarthPressure(EarthPressure);
 
@@ -145,7 +150,7 @@ impl PyEarthPressure {
     }
 }
 
-/// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
+/// Thin elastic layer between base and ground (Patel and Spyrakos).
 ///
 /// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
 /// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
@@ -160,6 +165,7 @@ pub(crate) struct PyThinLayer(ThinLayer);
 extends!(PyThinLayer, layer => PyInterfaceLaw::from_law(layer.0));
 
 impl PyThinLayer {
+    /// The layer with those options that are given.
     fn with_options(
         law: basemat::Result<ThinLayer>,
         debonded_ratio: Option<f64>,
@@ -221,9 +227,10 @@ impl PyThinLayer {
     }
 }
 
-/// Coulomb friction whose coefficient is a function of the start of the step:
-/// ``coefficient(start)`` returns a number for a `PreviousContact`. It may raise: the exception
-/// comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
+/// Coulomb friction with a coefficient by a function of Python.
+///
+/// ``coefficient(start)`` returns a number for a `PreviousContact`. An exception of the function ends the run and is
+/// raised there. ``tensile_strength`` (Pa; 0 by default) acts on an element until it first opens.
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
 
@@ -239,14 +246,15 @@ impl PyVariableFriction {
             return Err(input_error("the coefficient must be a function of the start of a step"));
         }
         let function = Arc::new(coefficient.unbind());
-        // An invalid strength raises now, and not when a simulation is built.
+        // An invalid strength raises here, not later when a simulation is built.
         VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
         let make = move || {
             let function = Arc::clone(&function);
             let law = VariableFriction::new(move |start: &PreviousContact<'_>| {
                 call_user_code(f64::NAN, |py| {
-                    let found = function.call1(py, (PyPreviousContact::from_core(py, start)?,))?;
-                    real_number("the coefficient's function", found.bind(py))
+                    let coefficient =
+                        function.call1(py, (PyPreviousContact::from_core(py, start)?,))?;
+                    real_number("the coefficient's function", coefficient.bind(py))
                 })
             });
             Ok(Box::new(law.with_tensile_strength(tensile_strength)?) as Box<_>)

@@ -1,4 +1,4 @@
-//! The superclass of laws, laws of this package, and laws written in Python.
+//! The superclass of interface laws, and recipes of laws of this package or written in Python.
 
 use std::sync::Arc;
 
@@ -6,9 +6,9 @@ use basemat::interface::InterfaceLaw;
 use pyo3::prelude::*;
 
 use crate::error::{OrRaise, input_error, raise_user_exceptions};
-use crate::names::{mode, mode_name};
+use crate::list_arguments::reject_class;
+use crate::names::{mode_name, parse_mode};
 use crate::recipe::Recipe;
-use crate::several::reject_class;
 use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground: the limits of an element's tractions, and in the plane its contact modes (see
@@ -33,8 +33,7 @@ impl PyInterfaceLaw {
         Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
     }
 
-    /// The two `Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
-    /// (`PreviousContact`) is.
+    /// The two `Condition` that ``mode`` imposes at the end of a step that begins with ``start`` (`PreviousContact`).
     fn conditions(
         &self,
         mode: &str,
@@ -42,14 +41,13 @@ impl PyInterfaceLaw {
     ) -> PyResult<(PyCondition, PyCondition)> {
         raise_user_exceptions(|| {
             let law = (self.make)().or_raise()?;
-            let conditions = law.conditions(self::mode(mode)?, &start.core());
+            let conditions = law.conditions(parse_mode(mode)?, &start.core());
             Ok(conditions.map(PyCondition).into())
         })
     }
 
-    /// The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step
-    /// that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
-    /// ``tolerance`` left aside.
+    /// The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step that begins with
+    /// ``start``; ``mode`` itself if the trial is admissible apart from differences below the ``tolerance``.
     fn next_mode(
         &self,
         mode: &str,
@@ -59,7 +57,7 @@ impl PyInterfaceLaw {
     ) -> PyResult<&'static str> {
         raise_user_exceptions(|| {
             let law = (self.make)().or_raise()?;
-            let mode = self::mode(mode)?;
+            let mode = parse_mode(mode)?;
             Ok(mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.0)))
         })
     }
@@ -89,15 +87,15 @@ fn law_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
     } else {
         "it has no method `limits`".into()
     };
-    let found = object.get_type().name()?;
-    Err(input_error(format!("{found} is no interface law: {hint}")))
+    let type_name = object.get_type().name()?;
+    Err(input_error(format!("{type_name} is no interface law: {hint}")))
 }
 
-/// One law for all elements, or a sequence of one each.
+/// Recipes of one law for all elements, or of one law for each.
 pub(crate) fn law_recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
     reject_class(object)?;
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
-        Ok(list) => list.iter().map(law_recipe).collect(),
+        Ok(laws) => laws.iter().map(law_recipe).collect(),
         Err(_) => Ok(vec![law_recipe(object)?]),
     }
 }

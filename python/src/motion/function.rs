@@ -1,4 +1,4 @@
-//! The superclass of free fields, and motions by functions.
+//! The superclass of free fields, and motions that functions of Python define.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -8,21 +8,22 @@ use pyo3::prelude::*;
 
 use crate::array::real_number;
 use crate::error::{self, OrRaise, has_stored_exception, input_error, raise_user_exceptions};
+use crate::list_arguments::reject_class;
 use crate::recipe::Recipe;
-use crate::several::reject_class;
 
-/// Motion of the ground's surface without the structure: a `Record`, a wave, or what
-/// `free_field` makes of a function. Until t = 0 the ground rests.
+/// Motion of the ground's surface without the structure: a `Record`, a wave, or a function by `free_field`. Until t = 0
+/// the ground is at rest.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
-    /// Time at which it ends (s), if that is known.
+    /// Time at which the motion ends (s); `None` for a motion without an end.
     pub(crate) duration: Option<f64>,
-    /// Makes the wave along the surface; `None` for a motion of another kind.
-    pub(super) wave: Option<Arc<MakeWave>>,
+    /// Builds the wave along the surface; `None` for a motion of another kind.
+    pub(super) wave: Option<Arc<WaveFactory>>,
 }
 
-pub(super) type MakeWave = dyn Fn() -> basemat::Result<TravellingWave> + Send + Sync;
+/// Builds a wave along the surface.
+pub(super) type WaveFactory = dyn Fn() -> basemat::Result<TravellingWave> + Send + Sync;
 
 #[pymethods]
 impl PyFreeField {
@@ -42,7 +43,7 @@ impl PyFreeField {
     }
 }
 
-/// A free field that `make` makes for each simulation; `make` is tried once.
+/// A free field that `make` builds for each simulation; it is called once for its errors.
 pub(super) fn new_free_field<F: FreeField + 'static>(
     make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
@@ -59,30 +60,32 @@ pub(crate) fn free_field_object<'a, 'py>(
     }
     reject_class(object)?;
     Err(input_error(if object.is_callable() {
-        "a function is no motion before it is said what it returns: \
+        "a function is no motion until free_field states what it returns: \
          free_field(displacement=function), or free_field(acceleration=function, time_step=…, \
          duration=…)"
             .into()
     } else {
-        format!("{} is no motion: no FreeField, Record or wave", object.get_type().name()?)
+        format!(
+            "{} is no motion: it must be a FreeField, a Record or a wave",
+            object.get_type().name()?
+        )
     }))
 }
 
-/// A motion of functions, named by what they return: give one of them.
+/// A motion that one function defines: give ``displacement``, ``acceleration`` or ``displacement_at``.
 ///
-/// ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
-/// (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
+/// ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x (m) and time (s,
+/// above 0). It should begin with zero: until t = 0 the ground is at rest.
 ///
-/// ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
-/// sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
-/// a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
-/// velocity stays what it is by then.
+/// ``acceleration``: a function ``(time) -> (right, up)`` in m/s², the same everywhere. It is sampled every
+/// ``time_step`` (s) from 0 to ``duration`` (s), linear between the samples as a `Record`, and integrated exactly from
+/// rest. After the ``duration`` it is zero, and the velocity stays constant.
 ///
 /// ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
 /// the point x, y (m).
 ///
-/// The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
-/// and for their ``time_step`` and ``duration``.
+/// The first two may instead return one number, the motion to the right. All three may raise an exception. The other
+/// arguments are None.
 #[pyfunction]
 #[pyo3(signature = (*, displacement=None, acceleration=None, time_step=None, duration=None, displacement_at=None))]
 pub(crate) fn free_field(
@@ -107,7 +110,7 @@ pub(crate) fn free_field(
         }
         (None, None, Some(function)) => {
             let function = Arc::new(checked_callable("displacement_at", &function)?);
-            new_free_field(move || Ok(InPlan(Arc::clone(&function))))
+            new_free_field(move || Ok(PlanMotionFunction(Arc::clone(&function))))
         }
         (None, Some(function), None) => {
             let function = checked_callable("acceleration", &function)?;
@@ -124,8 +127,8 @@ pub(crate) fn free_field(
             let motion = raise_user_exceptions(|| {
                 sampled_motion(&function, time_step, duration).or_raise()
             })?;
-            let end = motion.horizontal.as_ref().map(Record::duration);
-            Ok(PyFreeField { duration: end, ..new_free_field(move || Ok(motion.clone()))? })
+            let duration = motion.horizontal.as_ref().map(Record::duration);
+            Ok(PyFreeField { duration, ..new_free_field(move || Ok(motion.clone()))? })
         }
         _ => Err(input_error(
             "give the displacement, the acceleration or displacement_at as a function, one of them",
@@ -133,12 +136,13 @@ pub(crate) fn free_field(
     }
 }
 
+/// The function that the argument `name` is; an error unless it can be called.
 fn checked_callable(name: &str, function: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
     if function.is_callable() {
         return Ok(function.clone().unbind());
     }
-    let found = function.get_type().name()?;
-    Err(input_error(format!("{name} is of the type {found}, but must be a function")))
+    let type_name = function.get_type().name()?;
+    Err(input_error(format!("{name} is of the type {type_name}, but must be a function")))
 }
 
 /// Records of the accelerations to the right and up that a function returns.
@@ -147,70 +151,79 @@ fn sampled_motion(
     time_step: f64,
     duration: f64,
 ) -> basemat::Result<VerticalIncidence> {
-    let up = RefCell::new(Vec::new());
-    let right = Record::from_fn(time_step, duration, |time| {
+    let vertical_samples = RefCell::new(Vec::new());
+    let horizontal = Record::from_fn(time_step, duration, |time| {
         if has_stored_exception() {
             return f64::NAN;
         }
         let acceleration = call_motion_function("acceleration", |py| function.call1(py, (time,)));
-        up.borrow_mut().push(acceleration[1]);
+        vertical_samples.borrow_mut().push(acceleration[1]);
         acceleration[0]
     })?;
-    let up = Record::new(time_step, up.into_inner())?;
-    Ok(VerticalIncidence { horizontal: Some(right), vertical: Some(up) })
+    let vertical = Record::new(time_step, vertical_samples.into_inner())?;
+    Ok(VerticalIncidence { horizontal: Some(horizontal), vertical: Some(vertical) })
 }
 
 /// A function `(x, y, time)` of the displacement in plan.
-struct InPlan(Arc<Py<PyAny>>);
+struct PlanMotionFunction(Arc<Py<PyAny>>);
 
-impl FreeField for InPlan {
+impl FreeField for PlanMotionFunction {
     fn moves_across(&self) -> bool {
         true
     }
 
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        let [along, _, up] = self.displacement_at([x, 0.0], time);
-        [along, up]
+        let [displacement_x, _, displacement_up] = self.displacement_at([x, 0.0], time);
+        [displacement_x, displacement_up]
     }
 
     fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
         error::call_user_code([f64::NAN; 3], |py| {
-            let found = self.0.call1(py, (x, y, time))?;
-            let found = found.bind(py);
-            extract_numbers("displacement_at", found).ok_or_else(|| {
-                return_error("displacement_at", found, "three numbers (along x, along y, up)")
+            let returned_value = self.0.call1(py, (x, y, time))?;
+            let returned_value = returned_value.bind(py);
+            extract_numbers("displacement_at", returned_value).ok_or_else(|| {
+                return_error(
+                    "displacement_at",
+                    returned_value,
+                    "three numbers (along x, along y, up)",
+                )
             })
         })
     }
 }
 
-/// Value of a function: a pair, or a number to the right. NaN, which ends the step, if it raises.
+/// Motion (right, up) by a function that returns a pair, or one number to the right.
+///
+/// NaN, which ends the step, if the function raises.
 fn call_motion_function(
     name: &str,
     call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>,
 ) -> [f64; 2] {
     error::call_user_code([f64::NAN; 2], |py| {
-        let found = call(py)?;
-        let found = found.bind(py);
-        if let Ok(right) = real_number(name, found) {
+        let returned_value = call(py)?;
+        let returned_value = returned_value.bind(py);
+        if let Ok(right) = real_number(name, returned_value) {
             return Ok([right, 0.0]);
         }
-        let needed = "a pair of numbers (to the right, up) or a number (to the right)";
-        extract_numbers(name, found).ok_or_else(|| return_error(name, found, needed))
+        let requirement = "a pair of numbers (to the right, up) or a number (to the right)";
+        extract_numbers(name, returned_value)
+            .ok_or_else(|| return_error(name, returned_value, requirement))
     })
 }
 
-/// Extracts `N` numbers, if `found` has as many.
-fn extract_numbers<const N: usize>(name: &str, found: &Bound<'_, PyAny>) -> Option<[f64; N]> {
-    let entries: [Bound<'_, PyAny>; N] = found.extract().ok()?;
+/// Extracts `N` numbers, if the object has as many.
+fn extract_numbers<const N: usize>(name: &str, object: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    let entries: [Bound<'_, PyAny>; N] = object.extract().ok()?;
     let values: Result<Vec<f64>, _> =
         entries.iter().map(|entry| real_number(name, entry)).collect();
     values.ok()?.try_into().ok()
 }
 
-fn return_error(name: &str, found: &Bound<'_, PyAny>, needed: &str) -> PyErr {
-    let found = found.repr().map_or_else(|_| "something".into(), |text| text.to_string());
+/// Error for a function of the motion that returned something else.
+fn return_error(name: &str, returned_value: &Bound<'_, PyAny>, requirement: &str) -> PyErr {
+    let value_text =
+        returned_value.repr().map_or_else(|_| "something".into(), |text| text.to_string());
     input_error(format!(
-        "the function of the motion's {name} returned {found}, but must return {needed}"
+        "the function of the motion's {name} returned {value_text}, but must return {requirement}"
     ))
 }

@@ -1,4 +1,4 @@
-//! Ground motion.
+//! Ground motion: records, waves, spectra and motions by functions.
 
 mod function;
 mod record;
@@ -9,9 +9,9 @@ mod waves;
 
 pub(crate) use function::{PyFreeField, free_field, free_field_object};
 pub(crate) use record::{PyRecord, el_centro_1940};
-pub(crate) use spectrum::{PySpectrum, coarse, log_spaced};
+pub(crate) use spectrum::{PySpectrum, coarse_period_warnings, log_spaced};
 pub(crate) use trench::PyTrenchMotion;
 pub(crate) use waves::{
-    PyColumn, PyInclinedWave, PyPlaneWave, control, ricker, travelling_wave, triaxial,
+    PyColumn, PyInclinedWave, PyPlaneWave, control_point, ricker, travelling_wave, triaxial,
     vertical_incidence,
 };

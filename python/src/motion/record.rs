@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use super::PyFreeField;
 use super::record_file::{FileOptions, unit_of};
-use super::spectrum::{PySpectrum, coarse};
+use super::spectrum::{PySpectrum, coarse_period_warnings};
 use crate::array::{Array, Numbers, whole_numbers};
 use crate::error::{OrRaise, input_error};
 use crate::ticker::with_progress;
@@ -17,28 +17,30 @@ use crate::ticker::with_progress;
 /// Ground acceleration at equal time steps, linear between samples; velocity and displacement are
 /// its exact integrals from rest.
 ///
-/// ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``:
-/// "m/s²" (the default), "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it
-/// is horizontal, the same everywhere at once.
+/// ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``: "m/s²" (the default),
+/// "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it is horizontal and the same everywhere.
 #[pyclass(name = "Record", module = "basemat", extends = PyFreeField, frozen)]
 pub(crate) struct PyRecord(pub(crate) Arc<Record>);
 
 extends!(PyRecord, record => {
-    let samples = Arc::clone(&record.0);
+    let shared_record = Arc::clone(&record.0);
     PyFreeField {
-        duration: Some(samples.duration()),
-        make: Arc::new(move || Ok(Box::new(Record::clone(&samples)))),
+        duration: Some(shared_record.duration()),
+        make: Arc::new(move || Ok(Box::new(Record::clone(&shared_record)))),
         wave: None,
     }
 });
 
 impl PyRecord {
+    /// The object of Python for a record of the core.
     pub(crate) fn from_core(record: basemat::Result<Record>) -> PyResult<Self> {
         Ok(Self(Arc::new(record.or_raise()?)))
     }
 }
 
-/// The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
+/// The `Record` of El Centro 1940, north–south.
+///
+/// Peknold's version with a peak of 0.319 g: 31.18 s with a time step of 0.02 s.
 #[pyfunction]
 pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
     PyRecord::from_core(Ok(basemat::motion::el_centro_1940()))
@@ -57,14 +59,14 @@ impl PyRecord {
         acceleration: Numbers,
         unit: &str,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let samples = acceleration.0.len();
-        if samples < 2 {
+        let sample_count = acceleration.0.len();
+        if sample_count < 2 {
             return Err(input_error(format!(
-                "acceleration has {samples} samples, but must have 2 or more"
+                "acceleration has {sample_count} samples, but must have 2 or more"
             )));
         }
-        let unit = unit_of(unit)?.in_metres_per_second_squared();
-        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
+        let unit_factor = unit_of(unit)?.in_metres_per_second_squared();
+        let samples = acceleration.0.into_iter().map(|value| value * unit_factor).collect();
         Self::from_core(Record::new(time_step, samples))?.initializer()
     }
 
@@ -83,7 +85,7 @@ impl PyRecord {
     /// Times of the samples: array of shape (samples,), s.
     #[getter]
     fn times(&self) -> Array {
-        (0..self.0.len()).map(|k| k as f64 * self.0.time_step()).collect()
+        (0..self.0.len()).map(|sample| sample as f64 * self.0.time_step()).collect()
     }
 
     /// Acceleration at the samples: array of shape (samples,), m/s².
@@ -131,16 +133,15 @@ impl PyRecord {
     /// Reads a file at ``path``.
     ///
     /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
-    /// (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net"
-    /// (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet".
-    /// ``unit`` of the acceleration as for the class: needed for columns and values along lines, for files of
-    /// "cosmos" and "slist" that name none; other files have their own. Of columns: ``columns`` are the numbers of
-    /// time and acceleration from 1, (1, 2) unless given; with ``time_step`` (s) times do not count, and only one
-    /// column may be there unless ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the
-    /// Fortran format of their lines, such as "8F9.6", none unless given. Of both ``header_lines`` at the beginning
-    /// are passed over, and ``samples`` is the number of samples, if known: another number is an error.
-    /// ``channel`` is the number of the component from 1, for formats that hold several ("cosmos", "k_net_csv",
-    /// "afad", "geonet", "slist").
+    /// (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and
+    /// KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet". ``unit`` of the
+    /// acceleration as for the class: needed for columns and values along lines, for files of "cosmos" and "slist" that
+    /// name none; other files have their own. Of columns: ``columns`` are the numbers of time and acceleration from 1,
+    /// (1, 2) unless given; with ``time_step`` (s) times are ignored, and the file must have one column unless
+    /// ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the Fortran format of their lines,
+    /// such as "8F9.6", none unless given. Both skip ``header_lines`` at the beginning, and raise an error if the
+    /// number of samples is not ``samples``, if given. ``channel`` is the number of the component from 1, for formats
+    /// that hold several ("cosmos", "k_net_csv", "afad", "geonet", "slist").
     #[staticmethod]
     #[pyo3(signature = (
         path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None,
@@ -193,7 +194,7 @@ impl PyRecord {
         self.0.significant_times(start, end).or_raise()
     }
 
-    /// Record with all samples times a ``factor``.
+    /// Record with all samples multiplied by a ``factor``.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         Self::from_core(self.0.scaled(factor))
     }
@@ -203,7 +204,7 @@ impl PyRecord {
         Self::from_core(self.0.scaled_to_peak(peak))
     }
 
-    /// Record with samples every ``time_step`` (s), linear between the old ones.
+    /// Record with samples every ``time_step`` (s), linear between the present ones.
     fn resampled(&self, time_step: f64) -> PyResult<Self> {
         Self::from_core(self.0.resampled(time_step))
     }
@@ -223,9 +224,9 @@ impl PyRecord {
     /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
     /// 8; 4 by default), forwards and backwards, so without phase shift.
     ///
-    /// The record gets longer by quiet time of 1.5 ``order / corner`` s before and after it, 30 s each
-    /// for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
-    /// displacement do not return to zero.
+    /// Rest of 1.5 ``order / corner`` s is added before and after the record, 30 s each for a corner of 0.2 Hz, since
+    /// the filter changes the motion there. Do not remove it: without it velocity and displacement do not return to
+    /// zero.
     #[pyo3(signature = (corner, *, order=4))]
     fn high_pass(
         &self,
@@ -235,9 +236,9 @@ impl PyRecord {
         Self::from_core(self.0.high_pass(corner, order))
     }
 
-    /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
-    /// forwards and backwards, so without phase shift; longer as by `high_pass`. Deconvolution needs it
-    /// (`SoilColumn.from_surface`).
+    /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by
+    /// default), forwards and backwards, so without phase shift; rest is added as by `high_pass`. Use it before a
+    /// deconvolution (`SoilColumn.from_surface`).
     #[pyo3(signature = (corner, *, order=4))]
     fn low_pass(
         &self,
@@ -270,7 +271,7 @@ impl PyRecord {
         let spectrum = py.detach(|| {
             with_progress(None, |observer| record.response_spectrum(&periods.0, damping, observer))
         });
-        Ok(PySpectrum(spectrum?, coarse(record, &periods.0)))
+        Ok(PySpectrum(spectrum?, coarse_period_warnings(record, &periods.0)))
     }
 
     fn __len__(&self) -> usize {

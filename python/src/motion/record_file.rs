@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, input_error};
 
-/// Options of `Record.read` other than path and format; `None` for those that the caller left out.
+/// Options of `Record.read` other than path and format; `None` for options that are not given.
 #[derive(Default)]
 pub(super) struct FileOptions<'a> {
     pub(super) unit: Option<&'a str>,
@@ -21,13 +21,13 @@ pub(super) struct FileOptions<'a> {
 }
 
 impl FileOptions<'_> {
-    /// The reader of a format by its name, which must take the options.
+    /// The reader of a format by its name; an error for options that it does not have.
     pub(super) fn reader(&self, format: &str) -> PyResult<Box<dyn RecordFormat>> {
         use AccelerationUnit::{Gal, MillimetrePerSecondSquared, StandardGravity};
         let component = self.channel.unwrap_or(1);
         Ok(match format {
             "columns" => Box::new(self.column_format()?),
-            "along_lines" => Box::new(self.along_lines()?),
+            "along_lines" => Box::new(self.along_lines_format()?),
             "slist" => {
                 self.check(format, None, true)?;
                 let unit = self.unit.map(unit_of).transpose()?;
@@ -57,6 +57,7 @@ impl FileOptions<'_> {
         })
     }
 
+    /// Reader of a file of columns.
     fn column_format(&self) -> PyResult<ColumnFormat> {
         if self.channel.is_some() {
             return Err(input_error("a file of columns has no `channel`: give `columns`"));
@@ -74,36 +75,38 @@ impl FileOptions<'_> {
             ..ColumnFormat::new(unit_of(unit)?)
         };
         Ok(match (self.time_step, self.columns) {
-            (Some(step), columns) => ColumnFormat {
-                time_step: Some(step),
-                acceleration_column: columns.map(|[_, acceleration]| acceleration),
+            (Some(time_step), columns) => ColumnFormat {
+                time_step: Some(time_step),
+                acceleration_column: columns.map(|[_, acceleration_column]| acceleration_column),
                 ..format
             },
-            (None, Some([time, acceleration])) => ColumnFormat {
-                time_column: time,
-                acceleration_column: Some(acceleration),
+            (None, Some([time_column, acceleration_column])) => ColumnFormat {
+                time_column,
+                acceleration_column: Some(acceleration_column),
                 ..format
             },
             (None, None) => format,
         })
     }
 
-    fn along_lines(&self) -> PyResult<AlongLinesFormat> {
-        let presence = [("columns", self.columns.is_some()), ("channel", self.channel.is_some())];
-        if let Some((name, _)) = presence.iter().find(|(_, is_present)| *is_present) {
+    /// Reader of a file with several values on a line.
+    fn along_lines_format(&self) -> PyResult<AlongLinesFormat> {
+        let option_presence =
+            [("columns", self.columns.is_some()), ("channel", self.channel.is_some())];
+        if let Some((name, _)) = option_presence.iter().find(|(_, is_present)| *is_present) {
             return Err(input_error(format!("values along lines have no `{name}`")));
         }
         let unit = self
             .unit
             .ok_or_else(|| input_error("a file of values along lines has no unit: give `unit`"))?;
-        let step = self.time_step.ok_or_else(|| {
+        let time_step = self.time_step.ok_or_else(|| {
             input_error("a file of values along lines has no times: give `time_step`")
         })?;
         Ok(AlongLinesFormat {
             layout: self.layout.map(str::parse).transpose().or_raise()?,
             samples: self.samples,
             header_lines: self.header_lines.unwrap_or(0),
-            ..AlongLinesFormat::new(unit_of(unit)?, step)
+            ..AlongLinesFormat::new(unit_of(unit)?, time_step)
         })
     }
 
@@ -112,32 +115,32 @@ impl FileOptions<'_> {
         &self,
         format: &str,
         unit: AccelerationUnit,
-        several: bool,
+        has_components: bool,
         reader: impl RecordFormat + 'static,
     ) -> PyResult<Box<dyn RecordFormat>> {
-        self.check(format, Some(unit), several)?;
+        self.check(format, Some(unit), has_components)?;
         Ok(Box::new(reader))
     }
 
     /// Error for options that files of a format do not take.
     ///
-    /// `file_unit`: unit of all files of the format; `None` if files name it. `several`: whether a file holds several
-    /// components.
+    /// `file_unit`: unit of all files of the format; `None` if files name it. `has_components`: whether a file may
+    /// have several components.
     fn check(
         &self,
         format: &str,
         file_unit: Option<AccelerationUnit>,
-        several: bool,
+        has_components: bool,
     ) -> PyResult<()> {
-        let presence = [
+        let option_presence = [
             ("columns", self.columns.is_some()),
             ("time_step", self.time_step.is_some()),
             ("header_lines", self.header_lines.is_some()),
             ("samples", self.samples.is_some()),
             ("layout", self.layout.is_some()),
-            ("channel", self.channel.is_some_and(|channel| !several && channel != 1)),
+            ("channel", self.channel.is_some_and(|channel| !has_components && channel != 1)),
         ];
-        if let Some((name, _)) = presence.iter().find(|(_, is_present)| *is_present) {
+        if let Some((name, _)) = option_presence.iter().find(|(_, is_present)| *is_present) {
             return Err(input_error(format!("files of the format '{format}' take no `{name}`")));
         }
         match (self.unit, file_unit) {

@@ -11,13 +11,12 @@ use crate::error::OrRaise;
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>, pub(crate) Vec<String>);
 
-/// Warnings of a spectrum of the record at these periods.
-pub(crate) fn coarse(record: &Record, periods: &[f64]) -> Vec<String> {
+/// Warnings of periods that are too short for the time step of a record.
+pub(crate) fn coarse_period_warnings(record: &Record, periods: &[f64]) -> Vec<String> {
     record.coarse_spectrum(periods).iter().map(ToString::to_string).collect()
 }
 
-/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
-/// (count,).
+/// ``count`` numbers from ``first`` to ``last`` with equal ratios, such as periods: array of shape (count,).
 #[pyfunction]
 pub(crate) fn log_spaced(
     first: f64,
@@ -59,14 +58,14 @@ impl PySpectrum {
         self.0.iter().map(|ordinate| ordinate.acceleration).collect()
     }
 
-    /// Warnings, in words: of periods with fewer than ten time steps of the record, where the spectrum is not exact.
+    /// Texts of warnings of periods shorter than ten time steps of the record, where the spectrum is not exact.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.1.clone()
     }
 
-    /// Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
-    /// by default (U.S. NRC R.G. 1.122).
+    /// Spectrum with peaks broadened by the ``fraction`` of their frequency to both sides, 0.15 by default (U.S. NRC
+    /// R.G. 1.122).
     #[pyo3(signature = (fraction=0.15))]
     fn broadened(&self, fraction: f64) -> PyResult<Self> {
         let broadened = basemat::results::broadened(&self.0, fraction).or_raise()?;

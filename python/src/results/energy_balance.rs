@@ -25,7 +25,7 @@ impl PyEnergyBalance {
         self.0.strain
     }
 
-    /// Heat of hysteretic parts of the structure, J.
+    /// Energy dissipated in hysteretic parts of the structure, J.
     #[getter]
     fn hysteresis(&self) -> f64 {
         self.0.hysteresis
@@ -37,19 +37,19 @@ impl PyEnergyBalance {
         self.0.damping
     }
 
-    /// Energy that the time scheme removes, J; negative if it makes any.
+    /// Energy that the time scheme removes, J; negative if it adds energy.
     #[getter]
     fn algorithmic(&self) -> f64 {
         self.0.algorithmic
     }
 
-    /// Work done on the soil, radiated and stored, J.
+    /// Work done on the soil, which radiates and stores it, J.
     #[getter]
     fn soil(&self) -> f64 {
         self.0.soil
     }
 
-    /// Loss by friction and impact, J.
+    /// Energy lost by friction and impact, J.
     #[getter]
     fn contact(&self) -> f64 {
         self.0.contact

@@ -7,16 +7,16 @@ use pyo3::prelude::*;
 use super::PyRun;
 use crate::array::OrderedDict;
 use crate::error::OrRaise;
-use crate::html::preformatted;
+use crate::names::preformatted;
 
-/// Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19).
+/// Vibration mode on a fixed base and on the ground (ASCE 7, chapter 19).
 #[pyclass(name = "SystemMode", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySystemMode(SystemMode);
 
 #[pymethods]
 impl PySystemMode {
-    /// Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane.
+    /// Axis along which the mode has the most modal mass, "x" or "y" in plan; None in the plane.
     #[getter]
     fn axis(&self) -> Option<char> {
         self.0.axis
@@ -72,8 +72,8 @@ impl PySystemMode {
 #[pyclass(name = "Interaction", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyInteraction {
-    pub(crate) found: Interaction,
-    pub(crate) names: Option<Vec<String>>,
+    pub(crate) interaction: Interaction,
+    pub(crate) dof_names: Option<Vec<String>>,
 }
 
 #[pymethods]
@@ -81,42 +81,43 @@ impl PyInteraction {
     /// The `Run` on the ground, without time series.
     #[getter]
     fn on_ground(&self) -> PyRun {
-        PyRun::new(self.found.on_ground.clone(), None, self.names.clone())
+        PyRun::new(self.interaction.on_ground.clone(), None, self.dof_names.clone())
     }
 
     /// The `Run` on the fixed base, without time series.
     #[getter]
     fn on_fixed_base(&self) -> PyRun {
-        PyRun::new(self.found.on_fixed_base.clone(), None, self.names.clone())
+        PyRun::new(self.interaction.on_fixed_base.clone(), None, self.dof_names.clone())
     }
 
     /// The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
     /// that is rigid.
     #[getter]
     fn modes(&self) -> Vec<PySystemMode> {
-        self.found.modes.iter().copied().map(PySystemMode).collect()
+        self.interaction.modes.iter().copied().map(PySystemMode).collect()
     }
 
-    /// Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names.
+    /// Ratios of the largest magnitudes of the probes on the ground to those on the fixed base: dict of numbers by the
+    /// names of the probes.
     #[getter]
     fn probe_ratios(&self) -> PyResult<OrderedDict<String, f64>> {
-        let names = self.found.on_ground.probes.iter().map(|probe| probe.name.clone());
+        let names = self.interaction.on_ground.probes.iter().map(|probe| probe.name.clone());
         names
-            .map(|name| Ok((name.clone(), self.found.probe_ratio(&name).or_raise()?)))
+            .map(|name| Ok((name.clone(), self.interaction.probe_ratio(&name).or_raise()?)))
             .collect()
     }
 
     /// Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
     /// NaN where both are zero.
     fn ratio(&self, name: &str) -> PyResult<f64> {
-        Ok(self.found.ratio(name.parse::<Quantity>().or_raise()?))
+        Ok(self.interaction.ratio(name.parse::<Quantity>().or_raise()?))
     }
 
     fn _repr_html_(&self) -> String {
-        preformatted(&self.found.to_string())
+        preformatted(&self.interaction.to_string())
     }
 
     fn __str__(&self) -> String {
-        self.found.to_string()
+        self.interaction.to_string()
     }
 }

@@ -1,4 +1,4 @@
-//! Largest values with their times.
+//! Extreme values with their times.
 
 use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;

@@ -8,7 +8,7 @@ use crate::array::{Array, Numbers, OrderedDict, whole_numbers};
 use crate::error::OrRaise;
 
 impl PyRun {
-    /// Rocking of a foundation, in plan about y, or about x for `across`.
+    /// Rocking of a foundation; in plan about y, or about x if `across`.
     fn rocking_of(&self, foundation: usize, across: bool) -> PyResult<Rocking<'_>> {
         let time_series = self.recorded()?;
         if across {
@@ -57,8 +57,8 @@ impl PyRun {
 
     /// Equivalent viscous damping ratio E/(2π M θ) of the one cycle of rocking between the times ``start`` and ``end`` (s).
     ///
-    /// E is the work of the moment, M and θ are half the ranges of moment and rotation (Gajan and Kutter 2008). An `InputError` tells
-    /// of steps that are not one closed cycle. ``foundation`` and ``across`` as for `rocking`.
+    /// E is the work of the moment, M and θ are half the ranges of moment and rotation (Gajan and Kutter 2008). An
+    /// `InputError` is raised if the steps are not one closed cycle. ``foundation`` and ``across`` as for `rocking`.
     #[pyo3(signature = (start, end, foundation=0, *, across=false))]
     fn equivalent_damping(
         &self,
@@ -74,8 +74,9 @@ impl PyRun {
 
 /// Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
 ///
-/// E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An `InputError` tells of
-/// points that are not one closed cycle. `Run.equivalent_damping` takes it from a run.
+/// E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An
+/// `InputError` is raised if the points are not one closed cycle. `Run.equivalent_damping` computes the ratio from a
+/// run.
 ///
 /// Args:
 ///     rotation: rotations, array of shape (m,), rad.

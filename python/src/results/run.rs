@@ -11,11 +11,13 @@ use super::shape::shape;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
 use crate::array::{Array, Numbers, OrderedDict, Rows};
 use crate::error::{OrRaise, in_python_words, input_error, warn};
-use crate::html::preformatted;
-use crate::motion::{PyRecord, PySpectrum, coarse};
+use crate::motion::{PyRecord, PySpectrum, coarse_period_warnings};
+use crate::names::preformatted;
 use crate::ticker::with_progress;
 
-/// A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
+/// Results of a run: `Summary` of the whole base, energies and time series.
+///
+/// It also has envelopes and warnings.
 ///
 /// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
 /// printed, a run is a page for a report.
@@ -24,7 +26,7 @@ use crate::ticker::with_progress;
 pub(crate) struct PyRun {
     pub(super) run: Run,
     time_series: Option<TimeSeries>,
-    names: Option<Vec<String>>,
+    dof_names: Option<Vec<String>>,
 }
 
 extends!(PyRun, run => PySummary(run.run.whole.clone()));
@@ -33,19 +35,19 @@ impl PyRun {
     pub(crate) fn new(
         run: Run,
         time_series: Option<TimeSeries>,
-        names: Option<Vec<String>>,
+        dof_names: Option<Vec<String>>,
     ) -> Self {
-        Self { run, time_series, names }
+        Self { run, time_series, dof_names }
     }
 
     /// The time series; an error if the run recorded none.
     pub(super) fn recorded(&self) -> PyResult<&TimeSeries> {
         self.time_series
             .as_ref()
-            .ok_or_else(|| input_error("the run kept no time series (`series=False`)"))
+            .ok_or_else(|| input_error("the run recorded no time series (`series=False`)"))
     }
 
-    /// Peaks of all scalars of the base or of a foundation; None where there is none.
+    /// Peaks of all scalars of the base or of a foundation; `None` for a scalar without values.
     fn peaks(&self, summary: &Summary) -> impl Iterator<Item = (String, Option<f64>)> {
         Quantity::recorded(self.run.in_plan).map(|quantity| {
             let value = summary.peak(quantity).value;
@@ -53,15 +55,15 @@ impl PyRun {
         })
     }
 
-    /// The time series, of which the `probe` is one.
+    /// The time series; an error unless the `probe` is one of them.
     fn series_with_probe(&self, probe: &str) -> PyResult<&TimeSeries> {
         let time_series = self.recorded()?;
-        let names = series::probe_names(time_series);
-        if names.iter().any(|name| name == probe) {
+        let probe_names = series::probe_names(time_series);
+        if probe_names.iter().any(|name| name == probe) {
             return Ok(time_series);
         }
-        let names = if names.is_empty() { "none".into() } else { names.join(", ") };
-        Err(input_error(format!("there is no probe '{probe}', only {names}")))
+        let name_list = if probe_names.is_empty() { "none".into() } else { probe_names.join(", ") };
+        Err(input_error(format!("there is no probe '{probe}', only {name_list}")))
     }
 }
 
@@ -97,13 +99,18 @@ impl PyRun {
         self.run.time_step
     }
 
-    /// The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
-    /// record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
+    /// The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of
+    /// its record (s; None without one) and "passed", the fraction of the intensity of the record up to the end of the
+    /// run.
     #[getter]
     fn ground_motion(&self) -> OrderedDict<&'static str, Option<f64>> {
         let motion = self.run.ground_motion;
-        let numbers = [Some(motion.peak), motion.duration, motion.time_step, motion.passed];
-        ["peak", "duration", "time_step", "passed"].into_iter().zip(numbers).collect()
+        OrderedDict(vec![
+            ("peak", Some(motion.peak)),
+            ("duration", motion.duration),
+            ("time_step", motion.time_step),
+            ("passed", motion.passed),
+        ])
     }
 
     /// Whether the run ended because a base turned beyond the ``rotation_limit`` of the `Simulation`.
@@ -112,7 +119,7 @@ impl PyRun {
         self.run.is_overturned
     }
 
-    /// The ground motion in words, as on the page of the run.
+    /// The ground motion as a text, as in the report of the run.
     #[getter]
     fn _ground_motion(&self) -> String {
         self.run.ground_motion.to_string()
@@ -127,10 +134,10 @@ impl PyRun {
     /// Names of the structure's degrees of freedom: list of n texts; None without names.
     #[getter]
     fn dof_names(&self) -> Option<Vec<String>> {
-        self.names.clone()
+        self.dof_names.clone()
     }
 
-    /// Largest gap of any element, m: its `Peak`.
+    /// Largest gap of any element, m, a `Peak`.
     #[getter]
     fn largest_gap(&self) -> PyPeak {
         PyPeak(self.run.largest_gap())
@@ -148,13 +155,13 @@ impl PyRun {
         self.run.shear_coefficient()
     }
 
-    /// Each foundation by itself: list of `Summary`, from left to right.
+    /// Each foundation separately: list of `Summary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PySummary> {
         self.run.foundations.iter().cloned().map(PySummary).collect()
     }
 
-    /// A check of each limit of service that the simulation was given: list of `ServiceCheck`.
+    /// A check of each limit of service of the simulation: list of `ServiceCheck`.
     #[getter]
     fn serviceability(&self) -> Vec<PyServiceCheck> {
         self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
@@ -190,13 +197,13 @@ impl PyRun {
         self.run.trials
     }
 
-    /// Number of steps that the first search did not solve.
+    /// Number of steps that the first search method did not solve.
     #[getter]
     fn fallbacks(&self) -> usize {
         self.run.fallbacks.total()
     }
 
-    /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
+    /// List of the texts of warnings: violated assumptions, and steps and elements that are too coarse.
     #[getter]
     pub(crate) fn warnings(&self) -> Vec<String> {
         let warnings = self.run.warnings.iter();
@@ -298,7 +305,7 @@ impl PyRun {
     fn static_displacement(&self) -> PyResult<Array> {
         let time_series = self.recorded()?;
         if time_series.motion_frames().next().is_none() {
-            return Err(input_error("no motion was kept: give `motion_every` to `run`"));
+            return Err(input_error("no motion was recorded: give `motion_every` to `run`"));
         }
         Ok(Array::from(time_series.static_displacement()))
     }
@@ -312,10 +319,10 @@ impl PyRun {
         PyRecord::from_core(self.series_with_probe(probe)?.acceleration_record(probe))
     }
 
-    /// Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
-    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
-    /// vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
-    /// tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
+    /// Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at ``periods`` (array of
+    /// shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free vibration within one
+    /// period after the end of the run are included: run until the floor is at rest. A `BasematWarning` names periods
+    /// shorter than ten time steps, for which the spectrum needs a run with a shorter step.
     #[pyo3(signature = (probe, periods, damping=0.05))]
     fn floor_spectrum(
         &self,
@@ -328,7 +335,7 @@ impl PyRun {
         let spectrum = py.detach(|| {
             with_progress(None, |observer| record.response_spectrum(&periods.0, damping, observer))
         })?;
-        let warnings = coarse(&record, &periods.0);
+        let warnings = coarse_period_warnings(&record, &periods.0);
         for warning in &warnings {
             warn(py, warning.clone())?;
         }
@@ -339,9 +346,8 @@ impl PyRun {
     /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
-        let further = series::further_numbers(run).into_iter();
-        let further = further.map(|(name, value)| (name.to_owned(), value));
-        let numbers = self.peaks(&run.whole).chain(further).into_py_dict(py)?;
+        let scalars = series::scalar_results(run).map(|(name, value)| (name.to_owned(), value));
+        let numbers = self.peaks(&run.whole).chain(scalars).into_py_dict(py)?;
         if let Some(is_serviceable) = run.is_serviceable() {
             numbers.set_item("is_serviceable", is_serviceable)?;
         }
@@ -351,8 +357,8 @@ impl PyRun {
         Ok(numbers)
     }
 
-    /// Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
-    /// names with their units, such as "base_shear_n_per_m", in any version and without this package.
+    /// Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` returns
+    /// them by names with units, such as "base_shear_n_per_m", in any version and without this package.
     fn save_npz(&self, path: PathBuf) -> PyResult<()> {
         self.recorded()?.save_npz(path).or_raise()
     }
@@ -360,9 +366,9 @@ impl PyRun {
     /// Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
     /// contact. Returns the number of grids.
     ///
-    /// With the simulation's ``structure``, or its `DeformedShape`, there is also a grid of it for each snapshot of the
-    /// motion; none unless given. ``height`` (m): height of the box that stands for a rigid block or body, as for
-    /// `DeformedShape`; None for structures with a shape of their own.
+    /// With the ``structure`` of the simulation, or its `DeformedShape`, it also writes a grid of the structure for
+    /// each snapshot of the motion; none unless given. ``height`` (m): height of the box that represents a rigid block
+    /// or body, as for `DeformedShape`; None for structures with a shape.
     #[pyo3(signature = (folder, name, structure=None, *, height=None))]
     fn save_paraview(
         &self,

@@ -8,9 +8,10 @@ use pyo3::types::{PyDict, PyDictMethods};
 
 use crate::array::{Array, OrderedDict, filled_array};
 use crate::error::input_error;
+use crate::ground::is_base_element;
 use crate::names::TRENCH_FACES;
 
-/// A scalar, or a probe, by its name.
+/// Time series of a scalar or a probe by its name.
 pub(super) fn series_named(time_series: &TimeSeries, name: &str) -> PyResult<Array> {
     if name == "time" {
         return Ok(Array::from(time_series.times()));
@@ -24,9 +25,9 @@ pub(super) fn series_named(time_series: &TimeSeries, name: &str) -> PyResult<Arr
     {
         return Ok(Array::from(time_series.series(quantity)));
     }
-    let scalars: Vec<_> =
+    let scalar_names: Vec<_> =
         Quantity::recorded(in_plan).map(|quantity| quantity.to_string()).collect();
-    let scalars = scalars.join(", ");
+    let scalars = scalar_names.join(", ");
     let probes = probe_names(time_series).join(", ");
     let text = format!("'{name}' is neither a time series ({scalars}) nor a probe ({probes})");
     Err(pyo3::exceptions::PyKeyError::new_err(text))
@@ -64,14 +65,14 @@ pub(super) fn contact<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<ContactFrame<'_>> = time_series.contact_frames().collect();
     if frames.is_empty() {
-        return Err(input_error("no contact was kept: give `contact_every` to `run`"));
+        return Err(input_error("no contact was recorded: give `contact_every` to `run`"));
     }
     let shape = [frames.len(), time_series.elements().len()];
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let in_plan = time_series.in_plan();
-    for (name, _, only_in_plan, value) in ContactState::NUMBER_COLUMNS {
-        if in_plan || !only_in_plan {
+    for (name, _, is_plan_only, value) in ContactState::NUMBER_COLUMNS {
+        if in_plan || !is_plan_only {
             let values = frames.iter().flat_map(|frame| frame.states).map(value);
             columns.set_item(name, filled_array(py, shape, values)?)?;
         }
@@ -87,10 +88,10 @@ pub(super) fn faces(
 ) -> PyResult<OrderedDict<&'static str, OrderedDict<&'static str, Array>>> {
     let times: Vec<f64> = time_series.contact_frames().map(|frame| frame.time).collect();
     if times.is_empty() {
-        return Err(input_error("no contact was kept: give `contact_every` to `run`"));
+        return Err(input_error("no contact was recorded: give `contact_every` to `run`"));
     }
     let mut elements = time_series.elements().iter();
-    let has_walls = elements.any(|element| element.directions()[0][2] > -0.5);
+    let has_walls = elements.any(|element| !is_base_element(element));
     let faces = TRENCH_FACES.iter().filter(|(name, _)| has_walls || *name == "base");
     let columns = faces.map(|(name, face)| {
         let forces: Vec<FaceForces> = time_series.face(*face).collect();
@@ -112,10 +113,10 @@ pub(super) fn motion<'py>(
     time_series: &TimeSeries,
 ) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<_> = time_series.motion_frames().collect();
-    let Some(first) = frames.first() else {
-        return Err(input_error("no motion was kept: give `motion_every` to `run`"));
+    let Some(first_frame) = frames.first() else {
+        return Err(input_error("no motion was recorded: give `motion_every` to `run`"));
     };
-    let shape = [frames.len(), first.displacement.len()];
+    let shape = [frames.len(), first_frame.displacement.len()];
     let columns = PyDict::new(py);
     columns.set_item("time", frames.iter().map(|frame| frame.time).collect::<Array>())?;
     let displacements = frames.iter().flat_map(|frame| frame.displacement).copied();
@@ -125,8 +126,8 @@ pub(super) fn motion<'py>(
     let free_field = frames.iter().flat_map(|frame| frame.free_field);
     columns.set_item("free_field", filled_array(py, [frames.len(), 2], free_field)?)?;
     if time_series.in_plan() {
-        let across = frames.iter().map(|frame| frame.free_field_across);
-        columns.set_item("free_field_across", across.collect::<Array>())?;
+        let displacements_y = frames.iter().map(|frame| frame.free_field_across);
+        columns.set_item("free_field_across", displacements_y.collect::<Array>())?;
     }
     Ok(columns)
 }
@@ -143,8 +144,8 @@ pub(super) fn units(run: &Run) -> OrderedDict<String, &str> {
     time.chain(scalars).chain(probes).chain(terms).collect()
 }
 
-/// Numbers of a run for a table, beside the peaks of its scalars.
-pub(super) fn further_numbers(run: &Run) -> [(&'static str, Option<f64>); 10] {
+/// Results of a run for a table, in addition to the peaks of its scalars.
+pub(super) fn scalar_results(run: &Run) -> [(&'static str, Option<f64>); 10] {
     [
         ("end", Some(run.end)),
         ("shear_coefficient", run.shear_coefficient()),
@@ -161,7 +162,7 @@ pub(super) fn further_numbers(run: &Run) -> [(&'static str, Option<f64>); 10] {
 
 /// Envelopes of the elements, by their names.
 pub(super) fn envelope(run: &Run) -> OrderedDict<&'static str, Array> {
-    let columns = Run::ENVELOPE_COLUMNS.into_iter().filter(|column| column.2(run));
+    let columns = Run::ENVELOPE_COLUMNS.into_iter().filter(|(_, _, is_present, _)| is_present(run));
     columns
         .map(|(name, .., value)| (name, run.envelope.iter().map(value).collect()))
         .collect()

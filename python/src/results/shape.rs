@@ -15,12 +15,14 @@ use crate::structure::{
     PyWithModalDamping, PyWithSprings, PyWithWalls, structure_recipe,
 };
 
-/// Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
+/// Points and outlines of a ``structure`` for pictures and for ParaView.
 ///
-/// A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and
-/// columns; reduced, damped and grouped structures and those in the ground as the structures that they are made of. An object with a method
-/// ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
-/// box of this ``height`` (m) on its base; unless given, such a structure is an error.
+/// The degrees of freedom of the structure move the points.
+///
+/// A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and columns; reduced, damped,
+/// grouped and embedded structures by the structures that they consist of. An object with a method ``deformed_shape()``
+/// is drawn by the result, as the structures of `basemat.opensees.structure` are. Any other structure is drawn as a box
+/// of this ``height`` (m) on its base; it is an error unless ``height`` is given.
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
 pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
 
@@ -47,28 +49,35 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
     }
     if let Ok(with_walls) = object.cast::<PyWithWalls>() {
         let with_walls = with_walls.get();
-        let on_surface = shape(with_walls.structure.bind(py), height)?;
-        return mapped(&on_surface, [0.0, -with_walls.depth], Ok).and_then(new_shape);
+        let surface_shape = shape(with_walls.structure.bind(py), height)?;
+        return mapped_points(&surface_shape, [0.0, -with_walls.depth], Ok).and_then(new_shape);
     }
     if let Ok(model) = object.cast::<PyReducedModel>() {
         let recovery = model.get().reduced.recovery();
-        let full = shape(model.get().structure.bind(py), height)?;
-        return mapped(&full, [0.0; 2], |row| recovery.row(row)).and_then(new_shape);
+        let full_shape = shape(model.get().structure.bind(py), height)?;
+        return mapped_points(&full_shape, [0.0; 2], |row| recovery.row(row)).and_then(new_shape);
     }
     if let Ok(group) = object.cast::<PyStructureGroup>() {
         return group_shape(group.get(), py, height);
     }
     if let Some(method) = object.getattr_opt("deformed_shape")? {
-        let returned = method.call0()?;
-        let shape = returned.cast::<PyDeformedShape>().map_err(|_| {
+        let returned_object = method.call0()?;
+        let shape = returned_object.cast::<PyDeformedShape>().map_err(|_| {
             input_error("deformed_shape() of the structure must return a DeformedShape")
         })?;
         return Ok(shape.get().0.clone());
     }
-    let needed = "height: give that of the box that stands for the structure";
-    let height = height.ok_or_else(|| input_error(needed))?;
+    let requirement = "give the height of the box that represents the structure";
+    let height = height.ok_or_else(|| input_error(requirement))?;
     DeformedShape::of_block(structure_recipe(object)?().or_raise()?.as_ref(), height).or_raise()
 }
+
+/// Number of nodes of a triangle with midside nodes.
+const CURVED_TRIANGLE_NODES: usize = 6;
+/// Number of nodes of a quadrilateral with midside nodes.
+const CURVED_QUAD_NODES: usize = 8;
+/// Number of nodes of a quadrilateral with midside nodes and a node in the middle.
+const CURVED_QUAD_NODES_WITH_CENTER: usize = 9;
 
 /// Points, and cells by the indices of their points.
 type PointsAndCells = (Vec<ShapePoint>, Vec<Vec<usize>>);
@@ -77,14 +86,16 @@ fn new_shape((points, cells): PointsAndCells) -> PyResult<DeformedShape> {
     DeformedShape::new(points, cells).or_raise()
 }
 
-/// A shape moved to the right and up by `shift` (m), whose rows `map` converts to those of another structure.
-fn mapped(
+/// Points and cells of a shape moved by `shift` (right, up; m), for another structure.
+///
+/// `convert_row` converts the rows of its points to rows of that structure.
+fn mapped_points(
     shape: &DeformedShape,
     shift: [f64; 2],
-    map: impl Fn(DofCombination) -> basemat::Result<DofCombination>,
+    convert_row: impl Fn(DofCombination) -> basemat::Result<DofCombination>,
 ) -> PyResult<PointsAndCells> {
     let map_row = |row: &DofCombination| {
-        if row.is_empty() { Ok(DofCombination::default()) } else { map(row.clone()) }
+        if row.is_empty() { Ok(DofCombination::default()) } else { convert_row(row.clone()) }
     };
     let points = shape.points().iter().map(|point| {
         Ok(ShapePoint {
@@ -99,7 +110,7 @@ fn mapped(
     Ok((points, shape.cells().to_vec()))
 }
 
-/// Shapes of all members of a group.
+/// Shape of a group: the shapes of all its members.
 fn group_shape(
     group: &PyStructureGroup,
     py: Python<'_>,
@@ -109,24 +120,25 @@ fn group_shape(
     let mut points = Vec::new();
     let mut cells = Vec::new();
     for (member, (structure, shift)) in group.members.iter().enumerate() {
-        let shape = shape(structure.bind(py), height)?;
+        let member_shape = shape(structure.bind(py), height)?;
         let first_point = points.len();
-        let member_shape = mapped(&shape, [*shift, 0.0], |row| group_model.row(member, row))?;
-        points.extend(member_shape.0);
-        for cell in member_shape.1 {
+        let (member_points, member_cells) =
+            mapped_points(&member_shape, [*shift, 0.0], |row| group_model.row(member, row))?;
+        points.extend(member_points);
+        for cell in member_cells {
             cells.push(cell.into_iter().map(|point| first_point + point).collect());
         }
     }
     new_shape((points, cells))
 }
 
-/// A point at a `place` [x, y, z] with the rows of its displacements along `axis_count` axes.
+/// A point at a `place` [x, y, z] and the rows of its displacements; an error unless there is one per axis.
 fn shape_point(place: [f64; 3], rows: Vec<RowLike>, axis_count: usize) -> PyResult<ShapePoint> {
     let row_count = rows.len();
     let [x, y, z] = place;
     let mut rows = rows.into_iter().map(|row| row.0);
-    let row_list = [rows.next(), rows.next(), rows.next()];
-    match row_list {
+    let combinations = [rows.next(), rows.next(), rows.next()];
+    match combinations {
         [Some(horizontal), Some(vertical), None] if axis_count == 2 => {
             Ok(ShapePoint { position: [x, y], horizontal, vertical, ..ShapePoint::default() })
         }
@@ -145,8 +157,8 @@ impl PyDeformedShape {
         shape(structure, height).map(Self)
     }
 
-    /// Shape of ``points`` of your own: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space,
-    /// x, y and z, m; heights are above the ground.
+    /// Shape by its ``points``: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space, x,
+    /// y and z, m; heights are above the ground.
     ///
     /// ``rows``: for each point the rows of its displacements along these axes, two or three. ``cells``: list of the points
     /// of each line (2), triangle (3), quadrilateral (4) or polygon, by their numbers.
@@ -162,33 +174,34 @@ impl PyDeformedShape {
         if rows.len() != place_count {
             let row_count = rows.len();
             return Err(input_error(format!(
-                "rows are {row_count}, but must be {place_count}: those of a point each"
+                "rows has {row_count} entries, but must have {place_count}, one for each point"
             )));
         }
         let mut points = Vec::with_capacity(place_count);
-        for (place, rows) in places.into_iter().zip(rows) {
-            points.push(shape_point(place, rows, axis_count)?);
+        for (place, point_rows) in places.into_iter().zip(rows) {
+            points.push(shape_point(place, point_rows, axis_count)?);
         }
         new_shape((points, cells)).map(Self)
     }
 
-    /// Places at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height in space.
+    /// Coordinates of the points at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height
+    /// in space.
     #[getter]
     fn points(&self) -> Rows {
-        let places = self.0.points().iter().map(|point| {
+        let coordinates = self.0.points().iter().map(|point| {
             let [right, up] = point.position;
             self.axes([right, up, point.away])
         });
-        Rows(places.collect())
+        Rows(coordinates.collect())
     }
 
     /// Outlines: list of the points of each line or polygon, by their numbers.
     #[getter]
     fn cells(&self) -> Vec<Vec<usize>> {
-        // Of curved cells the corners come first.
+        // A curved cell has its corners first, then its midside nodes.
         let corners = self.0.cells().iter().map(|cell| match cell.len() {
-            6 => cell[..3].to_vec(),
-            8 | 9 => cell[..4].to_vec(),
+            CURVED_TRIANGLE_NODES => cell[..3].to_vec(),
+            CURVED_QUAD_NODES..=CURVED_QUAD_NODES_WITH_CENTER => cell[..4].to_vec(),
             _ => cell.clone(),
         });
         corners.collect()
@@ -205,8 +218,8 @@ impl PyDeformedShape {
     /// ``displacement``: all n degrees of freedom of the structure, array of shape (n,), m and rad: a row of
     /// ``run.motion["displacement"]``, a static displacement or a vibration mode.
     fn displacements(&self, displacement: Numbers) -> PyResult<Rows> {
-        let found = self.0.displacements(&displacement.0).or_raise()?;
-        Ok(Rows(found.into_iter().map(|displacement| self.axes(displacement)).collect()))
+        let displacements = self.0.displacements(&displacement.0).or_raise()?;
+        Ok(Rows(displacements.into_iter().map(|displacement| self.axes(displacement)).collect()))
     }
 
     /// Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``

@@ -94,7 +94,7 @@ impl PySummary {
         PyPeak(self.0.uplifted_fraction.highest)
     }
 
-    /// Time with uplift, s.
+    /// Duration of uplift, s.
     #[getter]
     fn uplift_duration(&self) -> f64 {
         self.0.uplift.duration
@@ -135,7 +135,7 @@ impl PySummary {
             .collect()
     }
 
-    /// Sliding distance: |slip| of it summed over time, m.
+    /// Sliding distance: sum of the |slip| increments over time, m.
     #[getter]
     fn slip_path(&self) -> f64 {
         self.0.sliding.path
@@ -144,28 +144,29 @@ impl PySummary {
     /// Lowest factor of safety against sliding, a `Peak`; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
-        let lowest = self.0.sliding_safety.lowest;
-        (!lowest.value.is_nan()).then_some(PyPeak(lowest))
+        let lowest_safety = self.0.sliding_safety.lowest;
+        (!lowest_safety.value.is_nan()).then_some(PyPeak(lowest_safety))
     }
 
-    /// Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the
-    /// left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
-    /// middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
+    /// Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the left
+    /// or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the middle
+    /// of elements: a base of few elements tips about its edge at a factor above 1, which a printed run states.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
-        let along = self.0.overturning_safety.lowest;
-        let across = self.0.overturning_safety_across.lowest;
-        PyPeak(if across.value < along.value { across } else { along })
+        let safety_along_x = self.0.overturning_safety.lowest;
+        let safety_along_y = self.0.overturning_safety_across.lowest;
+        let has_lower_y = safety_along_y.value < safety_along_x.value;
+        PyPeak(if has_lower_y { safety_along_y } else { safety_along_x })
     }
 
     /// The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
     /// "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
         let in_plan = self.0.depth != [0.0; 2];
-        let names: Vec<_> =
+        let quantity_names: Vec<_> =
             Quantity::recorded(in_plan).map(|quantity| quantity.to_string()).collect();
-        if !names.iter().any(|name| name == quantity) {
-            let names = names.join(", ");
+        if !quantity_names.iter().any(|name| name == quantity) {
+            let names = quantity_names.join(", ");
             return Err(input_error(format!(
                 "there is no quantity '{quantity}' in this run, only {names}"
             )));

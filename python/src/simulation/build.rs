@@ -12,7 +12,7 @@ use crate::error::{self, OrRaise, input_error};
 use crate::probe::PyProbe;
 use crate::ticker::{ProgressObserver, progress_function};
 
-/// Coordinates by their name, or reduced ones by their tolerance.
+/// Coordinates by their name; by a number, reduced coordinates of this tolerance.
 pub(super) fn coordinates(argument: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
     match argument.extract::<f64>() {
         Ok(tolerance) => Ok(Coordinates::Reduced { tolerance }),
@@ -22,19 +22,21 @@ pub(super) fn coordinates(argument: &Bound<'_, PyAny>) -> PyResult<Coordinates> 
 
 /// The probes of a structure with this number of degrees of freedom.
 ///
-/// An error if one has the name of another time series of a run.
+/// An error for a probe with the name of another time series of a run.
 pub(super) fn probes<'a, 'py: 'a>(
     python_probes: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
-    dofs: usize,
+    dof_count: usize,
 ) -> PyResult<Vec<Probe>> {
     let mut probes = Vec::new();
     for probe in python_probes {
         let PyProbe(probe, weight_count) = probe.get();
-        weight_count.check(&format!("the probe '{}'", probe.name), dofs)?;
+        weight_count.check(&format!("the probe '{}'", probe.name), dof_count)?;
         let name = probe.name.as_str();
-        if name == "time" || Quantity::ALL_QUANTITIES.iter().any(|quantity| quantity.to_string() == name) {
+        if name == "time"
+            || Quantity::ALL_QUANTITIES.iter().any(|quantity| quantity.to_string() == name)
+        {
             return Err(input_error(format!(
-                "a probe is called '{name}', but that is another time series of a run"
+                "a probe is called '{name}', but this is the name of another time series of a run"
             )));
         }
         probes.push(probe.clone());
@@ -42,35 +44,36 @@ pub(super) fn probes<'a, 'py: 'a>(
     Ok(probes)
 }
 
-/// Name of the parts of the work that a line of progress counts before the steps.
+/// Name of the items that a line of progress counts before the steps.
 pub(super) const COEFFICIENT_PARTS: &str = "parts of the ground's coefficients";
 
-/// Locks the observer of a build; a panic leaves it whole.
+/// Locks the observer of a build; it stays valid after a panic.
 fn lock(observer: &Mutex<ProgressObserver>) -> MutexGuard<'_, ProgressObserver> {
     observer.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Builds without the GIL.
+/// Builds a simulation without the GIL.
 pub(super) fn build(
     py: Python<'_>,
     builder: SimulationBuilder,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Simulation> {
-    let progress = progress_function(progress, COEFFICIENT_PARTS)?;
+    let report_progress = progress_function(progress, COEFFICIENT_PARTS)?;
     py.detach(move || {
-        let observer = Arc::new(Mutex::new(ProgressObserver::new(progress)));
-        let shared = Arc::clone(&observer);
-        let result = builder.observer(move |progress| lock(&shared).update(progress)).build();
+        let observer = Arc::new(Mutex::new(ProgressObserver::new(report_progress)));
+        let builder_observer = Arc::clone(&observer);
+        let result =
+            builder.observer(move |progress| lock(&builder_observer).update(progress)).build();
         lock(&observer).end(result)
     })
 }
 
-/// The checkpoint at the start of a simulation, or why there is none.
-pub(super) fn start(simulation: &Simulation) -> PyResult<Checkpoint> {
+/// Checkpoint at the start of a simulation, or the reason why it has none.
+pub(super) fn start_checkpoint(simulation: &Simulation) -> PyResult<Checkpoint> {
     step_result(simulation.checkpoint())
 }
 
-/// Number of steps that last so long, rounded up.
+/// Number of steps in a duration (s), rounded up.
 pub(super) fn steps_for(simulation: &Simulation, duration: f64) -> PyResult<usize> {
     if !duration.is_finite() || duration < 0.0 {
         return Err(input_error(format!(
@@ -80,7 +83,7 @@ pub(super) fn steps_for(simulation: &Simulation, duration: f64) -> PyResult<usiz
     Ok(simulation.steps_for(duration))
 }
 
-/// Recorder of the scalars of every `every`th step, and of the frames that are given.
+/// Recorder of scalars, and of those frames whose interval in steps is given.
 pub(super) fn recorder(
     every: usize,
     contact_every: Option<usize>,
@@ -97,7 +100,7 @@ pub(super) fn recorder(
     if foundations { recorder.foundations() } else { recorder }
 }
 
-/// Error unless the observer of a run is a function that is called every `observe_every` steps, one or more.
+/// Error unless the observer of a run is a function and its interval one step or more.
 pub(super) fn check_observer(
     py: Python<'_>,
     observe: Option<&Py<PyAny>>,
@@ -112,34 +115,37 @@ pub(super) fn check_observer(
     Ok(())
 }
 
-/// Number of steps of a run: the argument `steps`, or those of a duration, or those to the `end` of the motion.
-pub(super) fn count(
+/// Number of steps of a run: `steps`, or those of a duration, or those to the `motion_end` (s).
+pub(super) fn run_step_count(
     py: Python<'_>,
     simulation: &Simulation,
-    end: Option<f64>,
+    motion_end: Option<f64>,
     steps: Option<usize>,
     duration: Option<f64>,
 ) -> PyResult<usize> {
-    match (steps, duration, end) {
+    match (steps, duration, motion_end) {
         (Some(_), Some(_), _) => Err(input_error("give steps or a duration, not both")),
         (Some(steps), None, _) => Ok(steps),
         (None, Some(duration), _) => steps_for(simulation, duration),
-        (None, None, Some(end)) => {
-            let all = steps_for(simulation, end)?;
-            let done = simulation.state().step;
-            if done < all {
-                return Ok(all - done);
+        (None, None, Some(motion_end)) => {
+            let motion_steps = steps_for(simulation, motion_end)?;
+            let steps_made = simulation.state().step;
+            if steps_made < motion_steps {
+                return Ok(motion_steps - steps_made);
             }
             let text = format!(
-                "the motion ended at {end} s, before these {all} steps: the ground does not \
-                 accelerate in them; reset() goes back to the start, and steps or a duration \
-                 say that they are meant"
+                "the motion ended at {motion_end} s, before these {motion_steps} steps: the ground does not \
+                 accelerate in them. Call reset() to return to the start, or give steps or a \
+                 duration to avoid this warning"
             );
             error::warn(py, text)?;
-            Ok(all)
+            Ok(motion_steps)
         }
-        (None, None, None) => {
-            Err(input_error("give steps or a duration: no record says how long to run"))
-        }
+        (None, None, None) => Err(missing_end_error("steps or a duration")),
     }
+}
+
+/// Error for a motion without an end, for which the user must give these `arguments`.
+pub(super) fn missing_end_error(arguments: &str) -> PyErr {
+    input_error(format!("give {arguments}: the motion has no record with an end"))
 }

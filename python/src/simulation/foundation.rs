@@ -1,6 +1,6 @@
-//! A foundation at the end of a step.
+//! A foundation, and forces on a face of a structure in the ground, at the end of a step.
 
-use basemat::coupled::Foundation;
+use basemat::coupled::{FaceForces, Foundation};
 use pyo3::prelude::*;
 
 /// A foundation at the end of a step; forces act from the structure on the soil, per metre
@@ -11,7 +11,7 @@ pub(crate) struct PyFoundation(pub(super) Foundation);
 
 #[pymethods]
 impl PyFoundation {
-    /// Numbers of its first element and of the one after its last.
+    /// Number of the first element, and one more than the number of the last.
     #[getter]
     fn elements(&self) -> (usize, usize) {
         (self.0.elements.start, self.0.elements.end)
@@ -123,5 +123,40 @@ impl PyFoundation {
     #[getter]
     fn rotation_vector(&self) -> [f64; 3] {
         self.0.rotation_vector()
+    }
+}
+
+/// Forces on the soil at one face of a structure in the ground.
+///
+/// They are per metre of thickness. `State.face` returns them.
+#[pyclass(name = "FaceForces", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyFaceForces(pub(super) FaceForces);
+
+#[pymethods]
+impl PyFaceForces {
+    /// Total pressure, positive in compression, N/m.
+    #[getter]
+    fn thrust(&self) -> f64 {
+        self.0.thrust
+    }
+
+    /// Force on the soil along the outline, N/m: positive down the left wall, to the right along the base, up the right wall.
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.shear
+    }
+
+    /// Point of action of the thrust, m: of a wall its height above the base, of the base its distance to the right of
+    /// the middle. NaN without thrust.
+    #[getter]
+    fn place(&self) -> f64 {
+        self.0.place
+    }
+
+    /// Ratio of the length of open elements to the length of the face.
+    #[getter]
+    fn open_fraction(&self) -> f64 {
+        self.0.open_fraction
     }
 }

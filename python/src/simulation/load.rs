@@ -1,4 +1,4 @@
-//! Loads.
+//! External loads on a structure.
 
 use std::sync::Arc;
 
@@ -8,21 +8,22 @@ use pyo3::prelude::*;
 use crate::array::{Numbers, real_number};
 use crate::error::{OrRaise, call_user_code, input_error};
 use crate::motion::PyRecord;
-use crate::recipe::Make;
+use crate::recipe::Factory;
 use crate::row::{RowLike, WeightCount};
 
 /// A force that acts on a structure from outside.
 ///
-/// ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
-/// (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
-/// belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
+/// ``row``: where it acts, a `DofCombination` or its ``terms``. ``value``: a function of time (s) that returns the
+/// force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0 belongs to the static state: it is
+/// applied slowly after the weight, while the interface law acts.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
-    pub(super) make: Make<Load>,
+    pub(super) make: Factory<Load>,
     pub(super) weight_count: WeightCount,
 }
 
 impl PyLoad {
+    /// A load that `make` builds for each simulation.
     fn from_recipe(
         weight_count: WeightCount,
         make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static,
@@ -38,14 +39,15 @@ impl PyLoad {
         if !value.is_callable() {
             return Err(input_error("the value of a load must be a function of time"));
         }
-        let (RowLike(row, weight_count), value) = (row, Arc::new(value.unbind()));
+        let RowLike(row, weight_count) = row;
+        let function = Arc::new(value.unbind());
         Ok(Self::from_recipe(weight_count, move || {
-            let value = Arc::clone(&value);
+            let function = Arc::clone(&function);
             Ok(Load::new(row.clone(), move |time| {
                 call_user_code(f64::NAN, |py| {
                     real_number(
                         "the value of a load's function",
-                        value.call1(py, (time,))?.bind(py),
+                        function.call1(py, (time,))?.bind(py),
                     )
                 })
             }))
@@ -58,24 +60,25 @@ impl PyLoad {
         Self::from_recipe(row.1, move || Ok(Load::constant(row.0.clone(), force)))
     }
 
-    /// Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
-    /// whose mass the structure does not have.
+    /// Constant ``force`` (N/m) on the ``row`` that is applied with the weight, according to ``gravity_stage``: a dead
+    /// load whose mass is not in the structure.
     #[staticmethod]
     fn weight(row: RowLike, force: f64) -> Self {
         Self::from_recipe(row.1, move || Ok(Load::weight(row.0.clone(), force)))
     }
 
-    /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).
+    /// A ``force`` (N/m) on the ``row`` in the static state that is removed at the first step (snap-back).
     #[staticmethod]
     fn released(row: RowLike, force: f64) -> Self {
         Self::from_recipe(row.1, move || Ok(Load::released(row.0.clone(), force)))
     }
 
-    /// ``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
+    /// ``force`` (N/m) on the ``row`` multiplied by the accelerations of a ``record`` as numbers without unit, linear
     /// between its samples and zero beyond its ends.
     #[staticmethod]
     fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
-        let (RowLike(row, weight_count), record) = (row, Arc::clone(&record.0));
+        let RowLike(row, weight_count) = row;
+        let record = Arc::clone(&record.0);
         Self::from_recipe(weight_count, move || Ok(Load::record(row.clone(), &record, force)))
     }
 

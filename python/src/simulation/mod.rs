@@ -2,7 +2,6 @@
 
 mod build;
 mod class;
-mod face;
 mod foundation;
 mod load;
 mod options;
@@ -12,8 +11,7 @@ mod scheme;
 mod state;
 
 pub(crate) use class::PySimulation;
-pub(crate) use face::PyFaceForces;
-pub(crate) use foundation::PyFoundation;
+pub(crate) use foundation::{PyFaceForces, PyFoundation};
 pub(crate) use load::PyLoad;
 pub(crate) use options::{PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions};
 pub(crate) use scheme::PyTimeScheme;

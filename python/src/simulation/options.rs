@@ -15,21 +15,21 @@ use crate::error::OrRaise;
 /// Weight and motion at the start of a simulation.
 ///
 /// Args:
-///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
-///         state: the base begins without pressure, and nothing resists uplift and sliding.
-///     gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
-///         after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
-///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
-///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
-///         static state, weight and loads act from t = 0 on, as for a block that is released.
-///     displacement: of the n degrees of freedom at t = 0 against the static state, array of
-///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static state: the base
+///         begins without pressure, and nothing resists uplift and sliding.
+///     gravity_stage: friction while the weight of masses and `Load.weight` is applied; all other loads at t = 0 are
+///         applied slowly after it, while the interface law acts. "frictionless" (the default): neither friction nor
+///         cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
+///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is
+///         no static state, weight and loads act from t = 0 on, as for a block that is released.
+///     displacement: of the n degrees of freedom at t = 0 against the static state, array of shape (n,), m and rad;
+///         zero unless given. The base may move only if "unloaded".
 ///     velocity: the same for velocities, m/s and rad/s; zero unless given.
 #[pyclass(name = "InitialConditions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PyInitialConditions {
     gravity: Option<f64>,
-    stage: GravityStage,
+    gravity_stage: GravityStage,
     displacement: Option<Vec<f64>>,
     velocity: Option<Vec<f64>>,
 }
@@ -46,29 +46,28 @@ impl PyInitialConditions {
     ) -> PyResult<Self> {
         Ok(Self {
             gravity,
-            stage: gravity_stage.parse().or_raise()?,
+            gravity_stage: gravity_stage.parse().or_raise()?,
             displacement: displacement.map(|numbers| numbers.0),
             velocity: velocity.map(|numbers| numbers.0),
         })
     }
 }
 
-/// Method by which a simulation steps.
+/// Numerical methods of a simulation.
 ///
 /// Args:
 ///     scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
-///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
-///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
-///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
-///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-///     expected_steps: number of steps that will be made. Memory and the ground's weights are then
-///         ready before the first; unless given, the steps of the first run. More steps than fit into
-///         the memory of the ground's history raise an error.
-///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
-///         run goes on; infinite: runs end by their steps alone.
-///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-///         most this number of iterations a step, for comparison with their paper; the robust search unless
-///         given.
+///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less time; "physical":
+///         its degrees of freedom; "modes": its vibration modes; a number: reduced coordinates, 200 to 400 Ritz vectors
+///         for thousands of degrees of freedom, with this relative error of responses (above 0, below 1;
+///         "reduced(1e-6)" is the same as 1e-6).
+///     expected_steps: number of steps that will be made. Memory and convolution weights of the ground are then
+///         prepared before the first step; unless given, for the steps of the first run. An error is raised if the
+///         steps do not fit into the memory of the history of the ground.
+///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A
+///         further run continues; with ``math.inf`` the rotation ends no run.
+///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at most this number
+///         of iterations a step, for comparison with their paper; the robust search unless given.
 #[pyclass(name = "SolverOptions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PySolverOptions {
@@ -100,17 +99,16 @@ impl PySolverOptions {
     }
 }
 
-/// Quantities that a run evaluates; they change nothing in its motion.
+/// Quantities that a run evaluates; they do not change the motion.
 ///
 /// Args:
-///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
-///         unless given.
-///     energy_balance: whether energies are computed; True by default. Without them a step takes less
-///         time, and `Run.energy_error` is NaN.
-///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
-///         interface law unless given.
-///     label: text that checkpoints keep and `Simulation.resume` compares; it should name what is not compared otherwise:
-///         interface law, ground motion and loads. Empty unless given.
+///     moment_center: x of the reference point of the base moment, m; the middle of the base unless given.
+///     energy_balance: whether energies are computed; True by default. Without them steps are faster, and
+///         `Run.energy_error` is NaN.
+///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the interface
+///         law unless given.
+///     label: text that checkpoints store and `Simulation.resume` compares; it should name the parts that are not
+///         compared otherwise: interface law, ground motion and loads. Empty unless given.
 #[pyclass(name = "ResultOptions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PyResultOptions {
@@ -135,7 +133,7 @@ impl PyResultOptions {
     }
 }
 
-/// Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
+/// Limits of service for `Run.serviceability`; they do not change the motion.
 ///
 /// Args:
 ///     slip: limit of |mean slip|, m; none unless given.
@@ -171,7 +169,7 @@ pub(super) struct Options {
     pub(super) limits: PyServiceLimits,
 }
 
-/// Calls each method of a builder whose optional argument is there.
+/// Calls those methods of a builder whose optional argument is present.
 macro_rules! with_options {
     ($builder:ident, $($method:ident($option:expr)),+ $(,)?) => {
         $(if let Some(argument) = $option {
@@ -184,7 +182,7 @@ impl Options {
     /// The builder with these options.
     pub(super) fn set(&self, builder: SimulationBuilder) -> PyResult<SimulationBuilder> {
         let Self { initial, solver, results, limits } = self;
-        let mut builder = builder.gravity_stage(initial.stage).serviceability(limits.0);
+        let mut builder = builder.gravity_stage(initial.gravity_stage).serviceability(limits.0);
         let scheme = solver.scheme.as_ref().map(|scheme| (scheme.make)().or_raise());
         with_options!(
             builder,
@@ -231,8 +229,8 @@ const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
     ),
 ];
 
-/// A `TypeError` for an argument that a simulation does not have; of an option it names the group.
-pub(super) fn refuse_others(others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+/// `TypeError` for an unknown argument of a simulation; for an option it names the group.
+pub(super) fn reject_unknown_arguments(others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
     let Some((name, _)) = others.and_then(|others| others.iter().next()) else {
         return Ok(());
     };

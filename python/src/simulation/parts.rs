@@ -11,10 +11,10 @@ use super::options::{
     Options, PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions,
 };
 use super::{PyLoad, build};
-use crate::dof_names::DofNames;
 use crate::error::OrRaise;
 use crate::ground;
 use crate::motion::PyFreeField;
+use crate::names::DofNames;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::{interface, motion, structure, user};
@@ -42,6 +42,18 @@ pub(super) struct OptionGroups {
     pub(super) service_limits: Option<Py<PyServiceLimits>>,
 }
 
+impl OptionGroups {
+    /// Values of all groups; the defaults of those that are not given.
+    pub(super) fn options(&self) -> Options {
+        Options {
+            initial: cloned_or_default(self.initial.as_ref()),
+            solver: cloned_or_default(self.solver.as_ref()),
+            results: cloned_or_default(self.results.as_ref()),
+            limits: cloned_or_default(self.service_limits.as_ref()),
+        }
+    }
+}
+
 /// A builder, and the objects of Python that a simulation keeps.
 pub(super) struct BuilderParts {
     pub(super) builder: SimulationBuilder,
@@ -49,20 +61,20 @@ pub(super) struct BuilderParts {
     pub(super) ground: Py<PyAny>,
     /// Laws of the structure's springs that are written in Python.
     pub(super) hysteresis: Vec<Py<PyAny>>,
-    pub(super) names: Option<DofNames>,
-    /// Length of the motion, s.
-    pub(super) duration: Option<f64>,
+    pub(super) dof_names: Option<DofNames>,
+    /// Duration of the ground motion, s; `None` for a motion without an end.
+    pub(super) motion_duration: Option<f64>,
 }
 
 /// The value of a group of options, or its default.
-pub(super) fn cloned_or_default<T>(group: Option<&Py<T>>) -> T
+fn cloned_or_default<T>(group: Option<&Py<T>>) -> T
 where
     T: PyClass<Frozen = True> + Sync + Clone + Default,
 {
     group.map(|group| group.get().clone()).unwrap_or_default()
 }
 
-/// A part for one simulation.
+/// Builds a part for one simulation.
 fn make_part<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
 }
@@ -89,41 +101,42 @@ impl SimulationParts {
     /// A builder with new parts.
     pub(super) fn builder_parts(&self, py: Python<'_>) -> PyResult<BuilderParts> {
         let (ground, ground_object) = ground::new_ground(self.ground.bind(py))?;
-        let laws = interface::law_recipes(self.interface.bind(py))?;
-        let laws = laws.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
+        let law_recipes = interface::law_recipes(self.interface.bind(py))?;
+        let laws = law_recipes.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
         user::take_made_springs();
         let (structure, structure_object) = structure::new_structure(self.structure.bind(py))?;
         let hysteresis = user::take_made_springs();
-        let dofs = structure.dofs();
-        let names = DofNames::from_structure(&structure_object, dofs)?;
+        let dof_count = structure.dofs();
+        let dof_names = DofNames::from_structure(&structure_object, dof_count)?;
         let probes: Vec<_> = self.probes.iter().map(|probe| probe.bind(py).clone()).collect();
         let mut builder = Simulation::builder(self.time_step)
             .structure(structure)
             .ground(ground)
             .interfaces(laws)
-            .probes(build::probes(probes.iter(), dofs)?);
+            .probes(build::probes(probes.iter(), dof_count)?);
         builder = self.options.set(builder)?;
-        for load in &self.loads {
-            let load = load.bind(py).get();
-            load.weight_count.check("a load", dofs)?;
+        for load_object in &self.loads {
+            let load = load_object.bind(py).get();
+            load.weight_count.check("a load", dof_count)?;
             builder = builder.load((load.make)().or_raise()?);
         }
-        let motion = self.motion.as_ref().map(|motion| motion.bind(py));
-        if let Some(motion) = motion {
-            builder = builder.motion(make_part(&motion::free_field_object(motion)?.get().make)?);
+        let motion_object = self.motion.as_ref().map(|object| object.bind(py));
+        if let Some(motion_object) = motion_object {
+            builder =
+                builder.motion(make_part(&motion::free_field_object(motion_object)?.get().make)?);
         }
         if self.fixed_base {
             builder = builder.on_fixed_base();
         }
-        let motion = motion.and_then(|motion| motion.cast::<PyFreeField>().ok());
-        let duration = motion.and_then(|motion| motion.get().duration);
+        let free_field = motion_object.and_then(|object| object.cast::<PyFreeField>().ok());
+        let motion_duration = free_field.and_then(|field| field.get().duration);
         Ok(BuilderParts {
             builder,
             structure: structure_object.unbind(),
             ground: ground_object.unbind(),
             hysteresis,
-            names,
-            duration,
+            dof_names,
+            motion_duration,
         })
     }
 }

@@ -1,23 +1,22 @@
-//! What happens in Python after each step of a run: progress, the observer, time series.
+//! Work after each step of a run: time series, progress and the observer of the user.
 
 use std::ops::ControlFlow;
 
 use basemat::Simulation;
 use basemat::coupled::State;
-use basemat::results::Run;
-use basemat::results::TimeSeries;
+use basemat::results::{Run, TimeSeries};
 use pyo3::prelude::*;
 
 use super::PyState;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, extract_returned, has_stored_exception, take_exception, to_exception};
+use crate::names::DofNames;
 use crate::results::PyRun;
 use crate::ticker::{Ticker, with_progress};
 
 /// Records the steps of a run, reports its progress and calls the user's observer.
 pub(super) struct RunReporter {
     ticker: Ticker,
-    steps: usize,
+    step_count: usize,
     observe: Option<Py<PyAny>>,
     observe_every: usize,
     time_series: Option<TimeSeries>,
@@ -28,16 +27,16 @@ pub(super) struct RunReporter {
 
 impl RunReporter {
     pub(super) fn new(
-        progress: Option<Py<PyAny>>,
-        steps: usize,
+        report_progress: Option<Py<PyAny>>,
+        step_count: usize,
         observe: Option<Py<PyAny>>,
         observe_every: usize,
         time_series: Option<TimeSeries>,
     ) -> Self {
-        let ticker = Ticker::new(progress);
+        let ticker = Ticker::new(report_progress);
         Self {
             ticker,
-            steps,
+            step_count,
             observe,
             observe_every,
             time_series,
@@ -65,14 +64,14 @@ impl RunReporter {
         if has_stored_exception() {
             return Ok(ControlFlow::Break(()));
         }
-        self.ticker.tick(self.steps_done, self.steps)?;
+        self.ticker.tick(self.steps_done, self.step_count)?;
         let is_due = self.steps_done.is_multiple_of(self.observe_every);
         let Some(observe) = self.observe.as_ref().filter(|_| is_due) else {
             return Ok(ControlFlow::Continue(()));
         };
         let ends_run = Python::attach(|py| {
-            let found = observe.call1(py, (PyState(state.clone()),))?;
-            extract_returned::<Option<bool>>("observe", found.bind(py))
+            let returned_value = observe.call1(py, (PyState(state.clone()),))?;
+            extract_returned::<Option<bool>>("observe", returned_value.bind(py))
         })?;
         Ok(if ends_run == Some(true) {
             ControlFlow::Break(())
@@ -85,28 +84,28 @@ impl RunReporter {
     pub(super) fn end(
         mut self,
         result: basemat::Result<Run>,
-        names: Option<&DofNames>,
+        dof_names: Option<&DofNames>,
     ) -> PyResult<PyRun> {
         let exception = take_exception().or(self.exception.take());
         let last_report =
-            Python::attach(|py| self.ticker.call_python(py, self.steps_done, self.steps));
+            Python::attach(|py| self.ticker.call_python(py, self.steps_done, self.step_count));
         if let Some(exception) = exception {
             return Err(exception);
         }
         let run = result.map_err(to_exception)?;
         last_report?;
-        Ok(PyRun::new(run, self.time_series, names.map(DofNames::to_vec)))
+        Ok(PyRun::new(run, self.time_series, dof_names.map(DofNames::to_vec)))
     }
 }
 
-/// Lets the ground compute its weights for the next steps, at powers of two of steps; Ctrl-C may interrupt it.
+/// Prepares the convolution weights of the ground at powers of two of steps; Ctrl-C may interrupt it.
 pub(super) fn prepare_next_step(simulation: &mut Simulation) -> PyResult<()> {
-    let done = simulation.state().step;
-    if !done.is_power_of_two() {
+    let steps_made = simulation.state().step;
+    if !steps_made.is_power_of_two() {
         return Ok(());
     }
     with_progress(None, |observer| match simulation.prepare(1, observer) {
-        // A step that does not fit into the memory says so itself.
+        // The step itself raises the error if it does not fit into the memory.
         Err(basemat::Error::Memory(_)) => Ok(()),
         outcome => outcome,
     })

@@ -15,6 +15,7 @@ pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,
 }
 
+/// The object of Python for a time scheme of the core.
 fn new_scheme(
     scheme: basemat::Result<impl TimeScheme + Clone + Sync + 'static>,
 ) -> PyResult<PyTimeScheme> {
@@ -30,8 +31,8 @@ impl PyTimeScheme {
         new_scheme(Ok(Midpoint))
     }
 
-    /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
-    /// ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
+    /// The midpoint rule with damping of high frequencies: second order, adds no energy with the soil. ``gamma``: ½
+    /// (the midpoint rule) to 1; 0.8 by default.
     #[pyo3(signature = (gamma=0.8))]
     #[staticmethod]
     fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
@@ -44,16 +45,16 @@ impl PyTimeScheme {
         new_scheme(Theta::new(theta))
     }
 
-    /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
-    /// ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
+    /// Newmark's rule, for comparison with papers: its coupling with the soil may add energy. ``gamma`` and ``beta``:
+    /// Newmark's γ and β, by default ½ and ¼ (average acceleration).
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
     #[staticmethod]
     fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
         new_scheme(Newmark::new(gamma, beta))
     }
 
-    /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
-    /// make energy. ``alpha``: −⅓ (most damping) to 0 (none).
+    /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may add energy.
+    /// ``alpha``: −⅓ (most damping) to 0 (none).
     #[staticmethod]
     fn hht_alpha(alpha: f64) -> PyResult<Self> {
         new_scheme(HhtAlpha::new(alpha))

@@ -12,9 +12,9 @@ use crate::results::PyEnergyBalance;
 
 /// The simulation at the end of an accepted step.
 ///
-/// Displacements are changes against the static state, relative to the free field's translation
-/// unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
-/// It belongs to its simulation and does not pickle: a `Checkpoint` does.
+/// Displacements are changes against the static state, relative to the translation of the free field unless stated
+/// otherwise. Forces act from the structure on the soil, per metre of thickness. It belongs to its simulation and does
+/// not pickle: a `Checkpoint` does.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
@@ -146,7 +146,7 @@ impl PyState {
         PyEnergyBalance(self.0.energy_balance)
     }
 
-    /// Number of linear solves that the search for contact modes needed.
+    /// Number of linear solves of the search for contact modes.
     #[getter]
     fn trials(&self) -> usize {
         self.0.trials
@@ -192,13 +192,14 @@ impl PyState {
             .collect()
     }
 
-    /// Each foundation by itself: list of `FoundationState`, from left to right.
+    /// Each foundation separately: list of `FoundationState`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundation> {
         self.0.foundations.iter().cloned().map(PyFoundation).collect()
     }
 
-    /// Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal".
+    /// Search method of the modes in this step: "active_set", "gauss_seidel", "path", and in plan "newton" or
+    /// "proximal".
     #[getter]
     fn method(&self) -> String {
         self.0.method.to_string()
@@ -220,9 +221,11 @@ impl PyState {
     /// has none.
     fn state_variables(&self, element: Count) -> PyResult<Vec<f64>> {
         let Count(element) = element;
-        let elements = self.0.contact.len();
-        if element >= elements {
-            return Err(input_error(format!("element is {element}, but must be below {elements}")));
+        let element_count = self.0.contact.len();
+        if element >= element_count {
+            return Err(input_error(format!(
+                "element is {element}, but must be below {element_count}"
+            )));
         }
         Ok(self.0.state_variables(element).to_vec())
     }
@@ -232,9 +235,9 @@ impl PyState {
     }
 }
 
-/// Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
+/// Iterator over steps, which yields the `State` at the end of each.
 ///
-/// ``len()`` is the number of steps to come. `Simulation.steps` makes it.
+/// ``len()`` is the number of remaining steps. `Simulation.steps` creates it.
 #[pyclass(name = "Steps", module = "basemat")]
 pub(crate) struct PySteps {
     /// Simulation, which has a method `step`.
@@ -263,8 +266,8 @@ impl PySteps {
     }
 }
 
-/// A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
-/// on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
+/// State of a run between two steps: `Simulation.checkpoint` creates it, `Simulation.resume` continues from it with the
+/// same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
 #[pyclass(name = "Checkpoint", module = "basemat", frozen, eq)]
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
@@ -273,8 +276,12 @@ pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
 impl PyCheckpoint {
     #[new]
     fn new(data: &[u8]) -> PyResult<Self> {
-        let read = postcard::from_bytes(data);
-        Ok(Self(read.map_err(|error| input_error(format!("bytes of a checkpoint: {error}")))?))
+        let decoded = postcard::from_bytes(data);
+        Ok(Self(
+            decoded.map_err(|error| {
+                input_error(format!("these bytes are not a checkpoint: {error}"))
+            })?,
+        ))
     }
 
     /// Steps made before the checkpoint.
@@ -283,10 +290,10 @@ impl PyCheckpoint {
         self.0.steps()
     }
 
-    /// All of it as bytes, for a file.
+    /// The checkpoint as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let written = postcard::to_allocvec(&self.0);
-        let bytes = written.map_err(|error| input_error(format!("checkpoint: {error}")))?;
+        let encoded = postcard::to_allocvec(&self.0);
+        let bytes = encoded.map_err(|error| input_error(format!("checkpoint: {error}")))?;
         Ok(PyBytes::new(py, &bytes))
     }
 

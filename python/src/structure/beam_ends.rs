@@ -8,12 +8,13 @@ use crate::array::{Count, Rows};
 use crate::error::OrRaise;
 use crate::row::PySectionRows;
 
-/// Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
-/// `FemModel.beam_rows`.
+/// Rows of the forces and moments at the ends of a beam.
 ///
-/// They are those on a section whose outward normal is x, the axis of the beam, at both ends. A probe records changes
-/// from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the
-/// geometric stiffness, in the axes of the undeformed beam.
+/// They are rows of displacements for `Probe.section`. `FemModel.beam_rows` returns them.
+///
+/// At both ends they act on a section whose outward normal is x, the axis of the beam. A probe records changes from the
+/// static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the geometric
+/// stiffness, in the axes of the undeformed beam.
 #[pyclass(name = "BeamRows", module = "basemat", frozen)]
 pub(crate) struct PyBeamRows(BeamRows);
 

@@ -4,23 +4,26 @@ use basemat::structure::{RigidBlock, RigidBody};
 use pyo3::prelude::*;
 
 use super::PyStructure;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithOption};
+use crate::names::DofNames;
 use crate::row::{PyDofCombination, python_rows};
 
-/// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-/// the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
+/// A rigid block on a flat base, in the plane.
 ///
-/// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
-/// ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
+/// Its three degrees of freedom are at the middle of its base: displacement to the right, displacement up, rotation:
+/// "x", "y", "rotation" for `dof`.
+///
+/// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default. ``p_delta``: gravity
+/// (m/s²) of the P–Δ effect of its weight; none unless given.
 #[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBlock(RigidBlock);
 
 extends!(PyRigidBlock, block => {
-    let names = ["x", "y", "rotation"].map(String::from).to_vec();
-    PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(names, 3)?))
+    let dof_names = ["x", "y", "rotation"].map(String::from).to_vec();
+    PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 3)?))
 });
 
+/// The block at its place, with P–Δ if there is a gravity for it.
 fn positioned_block(
     block: basemat::Result<RigidBlock>,
     center: f64,
@@ -97,9 +100,11 @@ impl PyRigidBlock {
     }
 }
 
-/// A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
-/// x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on
-/// a ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` make one.
+/// A rigid body on a flat base, in space.
+///
+/// Its six degrees of freedom are at the middle of its base: displacements along x (to the right), y (away) and z (up),
+/// rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on a ground in plan:
+/// `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` create it.
 #[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
@@ -107,10 +112,11 @@ pub(crate) struct PyRigidBody(pub(super) RigidBody);
 pub(super) const BODY_DOF_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 extends!(PyRigidBody, body => {
-    let names = BODY_DOF_NAMES.map(String::from).to_vec();
-    PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(names, 6)?))
+    let dof_names = BODY_DOF_NAMES.map(String::from).to_vec();
+    PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(dof_names, 6)?))
 });
 
+/// The body at its place, with P–Δ if there is a gravity for it.
 fn positioned_body(
     body: basemat::Result<RigidBody>,
     center: (f64, f64),
@@ -123,8 +129,8 @@ fn positioned_body(
 #[pymethods]
 impl PyRigidBody {
     /// Homogeneous cuboid: its ``length`` along x, ``width`` along y and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) with which its
-    /// weight tips it once it leans; none unless given.
+    /// ``center``: x and y of the middle of its base, m; (0, 0) by default. ``p_delta``: gravity (m/s²) of the P–Δ
+    /// effect of its weight; none unless given.
     #[pyo3(
         signature = (length, width, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(length, width, height, density, *, center=(0.0, 0.0), p_delta=None)"
@@ -160,10 +166,10 @@ impl PyRigidBody {
 
     /// Any rigid body on a convex base, by its mass and inertia.
     ///
-    /// Places count from the point of the degrees of freedom. ``outline``: corners of the base, list of x and y, m. ``mass``:
-    /// kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of inertia off the
-    /// diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta`` act as in `cuboid`, if
-    /// given.
+    /// Coordinates are relative to the point of the degrees of freedom. ``outline``: corners of the base, list of x and
+    /// y, m. ``mass``: kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of
+    /// inertia off the diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta``
+    /// act as in `cuboid`, if given.
     #[pyo3(
         signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"

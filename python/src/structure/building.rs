@@ -13,12 +13,12 @@ use super::PyStructure;
 use super::block::{BODY_DOF_NAMES, PyRigidBody};
 use super::hysteresis::LawLike;
 use crate::array::Count;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithOption, input_error};
+use crate::list_arguments::ListOf;
+use crate::names::DofNames;
 use crate::names::choice;
-use crate::recipe::{Make, Recipe};
+use crate::recipe::{Factory, Recipe};
 use crate::row::{PyDofCombination, PySectionRows, python_rows, space_sections};
-use crate::several::ListOf;
 
 /// A storey of a `ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
 /// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
@@ -51,7 +51,7 @@ fn storey_laws(laws: LawsArgument) -> PyResult<StoreyLaws> {
     Ok(recipes)
 }
 
-/// Number of the storey of a law.
+/// Number of the storey of a law; an error if it is negative.
 fn storey_number(storey: i64) -> PyResult<usize> {
     usize::try_from(storey)
         .map_err(|_| input_error(format!("laws: storey is {storey}, but must be 0 or more")))
@@ -59,36 +59,40 @@ fn storey_number(storey: i64) -> PyResult<usize> {
 
 /// The building whose storeys follow these laws.
 fn with_laws(mut building: ShearBuilding, laws: &StoreyLaws) -> basemat::Result<ShearBuilding> {
-    for (storey, law) in laws {
-        building = building.with_law(*storey, law()?)?;
+    for (storey, make_law) in laws {
+        building = building.with_law(*storey, make_law()?)?;
     }
     Ok(building)
 }
 
-/// Rigid floors on columns that shear, on a rigid base.
+/// Rigid floors on columns that deform in shear, on a rigid base.
 ///
-/// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-/// horizontal displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation",
-/// "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
-/// ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the lowest first. ``damping``: ratio
-/// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
-/// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-/// effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis`, or your own:
-/// `UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
-/// unless given.
+/// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute horizontal
+/// displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation", "floor_0", "floor_1" and so
+/// on. ``width`` of the base: m. ``base_mass``: kg/m. ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the
+/// lowest first. ``damping``: ratio in the first mode on a fixed base, by damping proportional to stiffness; none
+/// unless given. ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
+/// effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis` or `UserHysteresis`) that replace
+/// the stiffness of storeys, storey 0 the lowest; none unless given.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyShearBuilding(Make<ShearBuilding>);
+pub(crate) struct PyShearBuilding(Factory<ShearBuilding>);
+
+/// Names of the degrees of freedom of the base of a shear building.
+const BASE_DOF_NAMES: [&str; 3] = ["base_x", "base_y", "base_rotation"];
 
 extends!(PyShearBuilding, building => {
     let make = Arc::clone(&building.0);
-    let floors = building.model()?.dofs() - 3;
-    let base = ["base_x", "base_y", "base_rotation"].map(String::from);
-    let names = base.into_iter().chain((0..floors).map(|storey| format!("floor_{storey}")));
-    let names = DofNames::new(names.collect(), 3 + floors)?;
-    PyStructure::new(move || make()).with_dof_names(Some(names))
+    let dof_count = building.model()?.dofs();
+    let mut dof_names = BASE_DOF_NAMES.map(String::from).to_vec();
+    for storey in 0..dof_count - BASE_DOF_NAMES.len() {
+        dof_names.push(format!("floor_{storey}"));
+    }
+    let dof_names = DofNames::new(dof_names, dof_count)?;
+    PyStructure::new(move || make()).with_dof_names(Some(dof_names))
 });
 
 impl PyShearBuilding {
+    /// A new building of the core.
     pub(crate) fn model(&self) -> PyResult<ShearBuilding> {
         (self.0)().or_raise()
     }
@@ -120,12 +124,12 @@ impl PyShearBuilding {
         Self(Arc::new(make)).initializer()
     }
 
-    /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-    /// (`Hysteresis` or `UserHysteresis`); they become storey 0, and the building's storeys count from 1.
+    /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law`` (`Hysteresis` or
+    /// `UserHysteresis`). The isolators become storey 0, and the storeys of the building count from 1.
     ///
-    /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
-    /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
-    /// class; none unless given. The building must have none.
+    /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default. ``damping`` beside
+    /// the bearings: N s/m; 0 by default. ``laws``: laws of further storeys, as for the class; none unless given. The
+    /// ``building`` must have no laws.
     #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
     #[staticmethod]
     fn isolated(
@@ -169,22 +173,22 @@ impl PyShearBuilding {
         self.model()?.floor(storey.0).or_raise()
     }
 
-    /// The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
-    /// displacement less what the base's rotation makes of it.
+    /// The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: relative displacement of its two floors,
+    /// without the part due to the rotation of the base.
     fn drift(&self, storey: Count) -> PyResult<PyDofCombination> {
         Ok(self.model()?.drift(storey.0).or_raise()?.into())
     }
 
-    /// The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
-    /// less the motion of the base, its rotation included, m.
+    /// The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest) minus the rigid motion
+    /// of the base (displacement and rotation), m.
     fn total_drift(&self, storey: Count) -> PyResult<PyDofCombination> {
         Ok(self.model()?.total_drift(storey.0).or_raise()?.into())
     }
 
     /// The `SectionRows` of the shear force (N/m) in the columns of a ``storey`` (0: the lowest).
     ///
-    /// The upper part of the building exerts it on the lower part. In a storey that follows a law it is computed from the
-    /// inertia of the floors above.
+    /// The upper part of the building exerts this force on the lower part. In a storey with a law the force is computed
+    /// from the inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<PySectionRows> {
         Ok(self.model()?.shear(storey.0).or_raise()?.into())
     }
@@ -222,7 +226,7 @@ impl PyPlanStorey {
     }
 }
 
-/// Directions of the laws of storeys in plan; none: a coupled law along x and y.
+/// Directions of the laws of storeys in plan; `None` for a coupled law along x and y.
 const LAW_DIRECTIONS: [(&str, Option<usize>); 4] = [
     ("x", Some(StoreyBuilding::DIRECTION_ALONG)),
     ("y", Some(StoreyBuilding::DIRECTION_ACROSS)),
@@ -233,34 +237,40 @@ const LAW_DIRECTIONS: [(&str, Option<usize>); 4] = [
 /// A law of a storey in plan.
 enum StoreyLaw {
     Uniaxial(usize, Recipe<dyn Hysteresis>),
-    Biaxial(Make<BiaxialSpring>),
+    Biaxial(Factory<BiaxialSpring>),
 }
 
-/// Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
-/// and twist, and tilt with the mat.
+/// Building with rigid floors on a rigid mat, in space.
 ///
-/// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-/// floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
-/// "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first. ``p_delta``:
-/// gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
-/// (`Hysteresis` or `UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-/// given. In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
-/// has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
-/// diagonal.
+/// Floors are on flexible columns and walls, these on the ``mat`` (`RigidBody`). Floors move along x and y and twist,
+/// and tilt with the mat.
+///
+/// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of
+/// every floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz",
+/// "floor_0_x", "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first.
+/// ``p_delta``: gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of
+/// laws (`Hysteresis` or `UserHysteresis`) that replace a stiffness, direction "x", "y" or "twist"; none unless given.
+/// In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force has
+/// the same limit in every direction. Two laws along x and y act independently: on the diagonal their resultant reaches
+/// √2 times the limit.
 #[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyStoreyBuilding(Make<StoreyBuilding>);
+pub(crate) struct PyStoreyBuilding(Factory<StoreyBuilding>);
+
+/// Names of the degrees of freedom of a floor in plan.
+const FLOOR_DOF_NAMES: [&str; 3] = ["x", "y", "rz"];
 
 extends!(PyStoreyBuilding, building => {
     let make = Arc::clone(&building.0);
-    let dofs = building.model()?.dofs();
-    let mut names = BODY_DOF_NAMES.map(String::from).to_vec();
-    for storey in 0..(dofs - 6) / 3 {
-        names.extend(["x", "y", "rz"].map(|name| format!("floor_{storey}_{name}")));
+    let dof_count = building.model()?.dofs();
+    let mut dof_names = BODY_DOF_NAMES.map(String::from).to_vec();
+    for storey in 0..(dof_count - BODY_DOF_NAMES.len()) / FLOOR_DOF_NAMES.len() {
+        dof_names.extend(FLOOR_DOF_NAMES.map(|name| format!("floor_{storey}_{name}")));
     }
-    PyStructure::new(move || make()).with_dof_names(Some(DofNames::new(names, dofs)?))
+    PyStructure::new(move || make()).with_dof_names(Some(DofNames::new(dof_names, dof_count)?))
 });
 
 impl PyStoreyBuilding {
+    /// A new building of the core.
     pub(crate) fn model(&self) -> PyResult<StoreyBuilding> {
         (self.0)().or_raise()
     }
@@ -291,10 +301,12 @@ impl PyStoreyBuilding {
             let mut building = building.with(p_delta, StoreyBuilding::with_p_delta)?;
             for (storey, law) in &laws {
                 building = match law {
-                    StoreyLaw::Uniaxial(direction, law) => {
-                        building.with_law(*storey, *direction, law()?)?
+                    StoreyLaw::Uniaxial(direction, make_law) => {
+                        building.with_law(*storey, *direction, make_law()?)?
                     }
-                    StoreyLaw::Biaxial(law) => building.with_biaxial_law(*storey, law()?)?,
+                    StoreyLaw::Biaxial(make_spring) => {
+                        building.with_biaxial_law(*storey, make_spring()?)?
+                    }
                 };
             }
             Ok(building)
@@ -319,11 +331,11 @@ impl PyStoreyBuilding {
     /// at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
     #[pyo3(signature = (storey, place=None))]
     fn drift(&self, storey: Count, place: Option<[f64; 2]>) -> PyResult<[PyDofCombination; 3]> {
-        let found = match place {
+        let rows = match place {
             Some(place) => self.model()?.drift_at(storey.0, place),
             None => self.model()?.drift(storey.0),
         };
-        Ok(python_rows(found.or_raise()?))
+        Ok(python_rows(rows.or_raise()?))
     }
 
     /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
@@ -333,15 +345,17 @@ impl PyStoreyBuilding {
         Ok(python_rows(self.model()?.total_drift(storey.0, place).or_raise()?))
     }
 
-    /// The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
-    /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
+    /// The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts
+    /// on the part below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors
+    /// above.
     fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
         Ok(self.model()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
     }
 
-    /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
-    /// and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
-    /// inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
+    /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m) and
+    /// torque about z (N·m) that the floors above exert on the part below the foot of a ``storey`` (0: the lowest),
+    /// from the inertia of these floors. Moments are about ``reference`` (x and y from the middle of the mat, m; the
+    /// middle by default) at the foot.
     #[pyo3(signature = (storey, reference=[0.0; 2]), text_signature = "($self, storey, reference=(0.0, 0.0))")]
     fn section(&self, storey: Count, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
         Ok(space_sections(self.model()?.section(storey.0, reference).or_raise()?))

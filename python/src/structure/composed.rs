@@ -9,13 +9,15 @@ use pyo3::prelude::*;
 
 use super::{PyStructure, structure_recipe};
 use crate::array::{Array, Count, Numbers, whole_numbers};
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::recipe::{Make, Recipe, Shared};
+use crate::list_arguments::PairList;
+use crate::names::DofNames;
+use crate::recipe::{Factory, Recipe, SharedStructure};
 use crate::row::{PyDofCombination, RowLike};
-use crate::several::PairList;
 
-/// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
+/// Rayleigh damping by a damping matrix a M + b K.
+///
+/// ``mass``: factor a of the mass matrix, 1/s. ``stiffness``: factor b of the stiffness matrix, s.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
@@ -26,7 +28,7 @@ impl PyRayleighDamping {
         Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
     }
 
-    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
+    /// Rayleigh damping with the damping ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
     #[staticmethod]
     fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
         RayleighDamping::from_ratios(frequencies, ratios).or_raise().map(Self)
@@ -50,9 +52,11 @@ impl PyRayleighDamping {
     }
 }
 
-/// A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in
-/// the list ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio``:
-/// of these modes, in place of the structure's damping, which stays unless given.
+/// A ``structure`` reduced by the method of Craig and Bampton.
+///
+/// The reduced degrees of freedom are those of the contact nodes, those in the list ``keep`` (none unless given) and
+/// the lowest ``modes`` modes of the remaining ones. ``damping_ratio`` of these modes replaces the damping of the
+/// structure, if given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel {
     pub(crate) reduced: Arc<ReducedModel>,
@@ -71,15 +75,20 @@ impl PyReducedModel {
         damping_ratio: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
-        let full = structure_recipe(&structure)?().or_raise()?;
+        let full_structure = structure_recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
         let reduced = py.detach(move || {
-            reduction.reduce(full).with(damping_ratio, ReducedModel::with_damping_ratio)
+            reduction
+                .reduce(full_structure)
+                .with(damping_ratio, ReducedModel::with_damping_ratio)
         });
         let reduced = Arc::new(reduced.or_raise()?);
-        let base = PyStructure::from_structure(Shared(Arc::clone(&reduced), None));
+        let superclass = PyStructure::from_structure(SharedStructure {
+            structure: Arc::clone(&reduced),
+            dof_names: None,
+        });
         let model = Self { reduced, structure: structure.unbind() };
-        Ok(PyClassInitializer::from(base).add_subclass(model))
+        Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }
 
     /// Frequencies of the modes: array of shape (modes,), Hz.
@@ -102,16 +111,17 @@ impl PyReducedModel {
     }
 }
 
-/// ListOf structures on one ground, coupled through the soil: ``members`` is a list of pairs
-/// ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
-/// each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
+/// Several structures on one ground, coupled through the soil.
+///
+/// ``members``: list of pairs ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in
+/// plan in any order, without overlap; their positions along y are unchanged (``center`` of `RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
-    pub(crate) make: Make<StructureGroup>,
+    pub(crate) make: Factory<StructureGroup>,
     /// Structures and their shifts, m.
     pub(crate) members: Vec<(Py<PyAny>, f64)>,
-    /// Degrees of freedom of each structure.
-    dofs: Vec<usize>,
+    /// Number of degrees of freedom of each structure.
+    dof_counts: Vec<usize>,
 }
 
 #[pymethods]
@@ -126,37 +136,40 @@ impl PyStructureGroup {
         if recipes.is_empty() {
             return Err(input_error("a group needs at least one structure"));
         }
-        let dofs = recipes.iter().map(|(structure, _)| Ok(structure()?.dofs()));
-        let dofs = dofs.collect::<basemat::Result<_>>().or_raise()?;
+        let dof_counts = recipes.iter().map(|(make_structure, _)| Ok(make_structure()?.dofs()));
+        let dof_counts = dof_counts.collect::<basemat::Result<_>>().or_raise()?;
         let make = Arc::new(move || {
             let mut group = StructureGroup::new();
-            for (structure, shift) in &recipes {
-                group = group.with(structure()?, *shift)?;
+            for (make_structure, shift) in &recipes {
+                group = group.with(make_structure()?, *shift)?;
             }
             Ok(group)
         });
         make().or_raise()?;
-        let make_structure = Arc::clone(&make);
-        let base = PyStructure::new(move || make_structure());
+        let make_group = Arc::clone(&make);
+        let superclass = PyStructure::new(move || make_group());
         let members = members.into_iter().map(|(structure, shift)| (structure.unbind(), shift));
-        let group = Self { make, members: members.collect(), dofs };
-        Ok(PyClassInitializer::from(base).add_subclass(group))
+        let group = Self { make, members: members.collect(), dof_counts };
+        Ok(PyClassInitializer::from(superclass).add_subclass(group))
     }
 
     /// A ``row`` of the structure ``member`` (0: the first) as a `DofCombination` of the group.
     fn row(&self, member: Count, row: RowLike) -> PyResult<PyDofCombination> {
-        if let Some(dofs) = self.dofs.get(member.0) {
-            row.1.check("the row", *dofs)?;
+        if let Some(dof_count) = self.dof_counts.get(member.0) {
+            row.1.check("the row", *dof_count)?;
         }
         Ok((self.make)().or_raise()?.row(member.0, row.0).or_raise()?.into())
     }
 }
 
-/// A ``structure`` with damping ``ratios`` (array of shape (m,)) of its modes beside its own damping: of the lowest
-/// mode first, the last of them for all further modes.
+/// A ``structure`` with additional damping of its modes.
 ///
-/// With ``fixed_base`` the modes are those on a fixed base, which codes and tests speak of. Without (the default) they
-/// are those of the structure by itself, far higher: of 5 %, the first mode of five storeys on a base then has 0.9 %.
+/// ``ratios``: damping ratios of the modes (array of shape (m,)), the lowest mode first; the last ratio is that of all
+/// further modes.
+///
+/// With ``fixed_base`` the modes are those on a fixed base, as in codes and tests. Without it (the default) they are
+/// those of the free structure, whose frequencies are far higher: with a ratio of 5 %, the first mode of five storeys
+/// on a base then has 0.9 %.
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping {
     frequencies: Vec<f64>,
@@ -176,7 +189,7 @@ impl PyWithModalDamping {
         let py = structure.py();
         let make_structure = structure_recipe(&structure)?;
         let undamped = make_structure().or_raise()?;
-        let names = DofNames::from_structure(&structure, undamped.dofs())?;
+        let dof_names = DofNames::from_structure(&structure, undamped.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
         let add_damping = move |undamped| {
             if fixed_base { damping.on_fixed_base(undamped) } else { damping.on(undamped) }
@@ -184,9 +197,10 @@ impl PyWithModalDamping {
         // Modes of a large structure take seconds.
         let damped = py.detach(|| add_damping(undamped)).or_raise()?;
         let frequencies = damped.frequencies().to_vec();
-        let base = PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(names);
+        let superclass =
+            PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(dof_names);
         let model = Self { frequencies, structure: structure.unbind() };
-        Ok(PyClassInitializer::from(base).add_subclass(model))
+        Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }
 
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
@@ -198,9 +212,9 @@ impl PyWithModalDamping {
 
 /// A ``structure`` in the ground: its rigid base lies at a ``depth`` (m) and has walls up to the surface.
 ///
-/// The structure is the same as on the surface: its heights count from the base. The ground is a `TrenchGround` of this
-/// width and depth. A structure whose base bends lists its nodes itself, down the left wall, along the base, up the right
-/// wall, with their heights ``z`` (`BaseNode`).
+/// The structure is the same as on the surface: its heights are relative to the base. The ground is a `TrenchGround` of
+/// this width and depth. A structure with a flexible base needs no `WithWalls`: its ``base`` lists the nodes down the
+/// left wall, along the base and up the right wall, with their heights ``z`` (`BaseNode`).
 #[pyclass(name = "WithWalls", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithWalls {
     /// The structure without walls.
@@ -215,11 +229,11 @@ impl PyWithWalls {
     fn new(structure: Bound<'_, PyAny>, depth: f64) -> PyResult<PyClassInitializer<Self>> {
         let make_structure = structure_recipe(&structure)?;
         let with_walls = WithWalls::new(make_structure().or_raise()?, depth).or_raise()?;
-        let names = DofNames::from_structure(&structure, with_walls.dofs())?;
-        let base = PyStructure::new(move || WithWalls::new(make_structure()?, depth))
-            .with_dof_names(names);
+        let dof_names = DofNames::from_structure(&structure, with_walls.dofs())?;
+        let superclass = PyStructure::new(move || WithWalls::new(make_structure()?, depth))
+            .with_dof_names(dof_names);
         let model = Self { structure: structure.unbind(), depth };
-        Ok(PyClassInitializer::from(base).add_subclass(model))
+        Ok(PyClassInitializer::from(superclass).add_subclass(model))
     }
 
     /// Depth of the base, m.

@@ -10,12 +10,12 @@ use crate::error::{OrRaise, input_error};
 use crate::row::{PyDofCombination, RowLike, python_rows};
 
 impl PyDofCombination {
-    /// The structure in the plane that this row is for.
-    fn in_plane(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
+    /// The structure of this row; an error unless it is in the plane.
+    fn plane_structure(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
         let structure = structure_recipe(structure)?().or_raise()?;
         if matches!(structure.base(), Base::Faces(_)) {
-            let needed = "in plan subtract a row of DofCombination.of_base";
-            return Err(input_error(format!("the structure is none of the plane: {needed}")));
+            let hint = "in plan subtract a row of DofCombination.of_base";
+            return Err(input_error(format!("the structure is not in the plane: {hint}")));
         }
         self.1.check("the row", structure.dofs())?;
         Ok(structure)
@@ -35,13 +35,13 @@ impl PyDofCombination {
         self.0.to_vec()
     }
 
-    /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
+    /// The sum for the values ``dofs`` of the degrees of freedom (array of shape (n,)), in their unit.
     fn value(&self, dofs: Numbers) -> PyResult<f64> {
         let Numbers(dofs) = dofs;
         self.1.check("the row", dofs.len())?;
-        if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= dofs.len()) {
+        if let Some((dof, _)) = self.0.iter().find(|(dof, _)| *dof >= dofs.len()) {
             return Err(input_error(format!(
-                "degree of freedom {index} of a row, of {} given",
+                "a row has the degree of freedom {dof}, but there are {}",
                 dofs.len()
             )));
         }
@@ -50,23 +50,25 @@ impl PyDofCombination {
 
     /// All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``.
     fn weights(&self, dofs: Count) -> PyResult<Array> {
-        let Count(dofs) = dofs;
-        self.1.check("the row", dofs)?;
+        let Count(dof_count) = dofs;
+        self.1.check("the row", dof_count)?;
         let mut weights = Vec::new();
-        weights.try_reserve_exact(dofs).map_err(|_| {
-            PyMemoryError::new_err(format!("an array of {dofs} weights does not fit"))
+        weights.try_reserve_exact(dof_count).map_err(|_| {
+            PyMemoryError::new_err(format!("an array of {dof_count} weights does not fit"))
         })?;
-        weights.resize(dofs, 0.0);
-        for &(index, weight) in &self.0 {
-            *weights.get_mut(index).ok_or_else(|| {
-                input_error(format!("degree of freedom {index} of a row, of {dofs}"))
+        weights.resize(dof_count, 0.0);
+        for &(dof, weight) in &self.0 {
+            *weights.get_mut(dof).ok_or_else(|| {
+                input_error(format!(
+                    "a row has the degree of freedom {dof}, but there are {dof_count}"
+                ))
             })? += weight;
         }
         Ok(weights.into())
     }
 
-    /// The three `DofCombination` of the displacements along x, along y and up of a point that the base of the
-    /// ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
+    /// The three `DofCombination` of the displacements along x, along y and up of a point that moves with the base of
+    /// the ``structure`` as one rigid body. ``place``: position from the middle of the base (x, y, height; m).
     #[staticmethod]
     fn of_base(structure: Bound<'_, PyAny>, place: [f64; 3]) -> PyResult<[Self; 3]> {
         let structure = structure_recipe(&structure)?().or_raise()?;
@@ -76,14 +78,14 @@ impl PyDofCombination {
     /// This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
     /// `of_base`.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
-        let structure = self.in_plane(&structure)?;
+        let structure = self.plane_structure(&structure)?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
-    /// This displacement to the right, relative to the base of the ``structure``, its rotation included,
-    /// which moves what is ``height`` (m) above it: the lateral deformation.
+    /// This displacement to the right minus the rigid motion of the base of the ``structure``, whose rotation acts at
+    /// ``height`` (m) above the base: the lateral deformation.
     fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
-        let structure = self.in_plane(&structure)?;
+        let structure = self.plane_structure(&structure)?;
         Ok(Self(self.0.total_drift(structure.as_ref(), height).or_raise()?, self.1))
     }
 

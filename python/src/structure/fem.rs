@@ -16,26 +16,25 @@ use super::material::{PyMaterial, formulation};
 use super::mesh::{PyMesh, direction};
 use crate::array::{Array, Count, whole_numbers};
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::recipe::Shared;
+use crate::recipe::SharedStructure;
 use crate::row::{PyDofCombination, PySectionRows, space_sections};
 
 /// A finite-element structure.
 ///
-/// ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
-/// a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
-/// corner nodes, shells with their underside; all faces at the lowest height unless given. ``in_trench``: whether
-/// ``contact`` is the outline of walls and base in a trench, down the left wall, along the base and up the right wall, in
-/// a mesh whose y counts from the surface; False by default. ``rayleigh``:
-/// `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
-/// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
-/// unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
-/// y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose forces at rest make P–Δ; none unless
-/// given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
-/// matrices of elements may be unsymmetric, an error by default.
+/// ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right; a list of such lists
+/// for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its corner nodes, shells
+/// with their underside; all faces at the lowest height unless given. ``in_trench``: whether ``contact`` is the outline
+/// of walls and base in a trench, down the left wall, along the base and up the right wall, in a mesh whose y counts
+/// from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
+/// "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
+/// body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
+/// along x, along y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
+/// forces at rest; none unless given. ``active_damping``: whether damping may add energy, an error by default.
+/// ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
-/// Nodes of the base, of each foundation, or of each face.
+/// Node numbers of the base, of each foundation, or of each face.
 enum Contact {
     Nodes(Vec<usize>),
     Lines(Vec<Vec<usize>>),
@@ -93,8 +92,11 @@ impl PyFemModel {
             model = model.with_active_stiffness();
         }
         let model = Arc::new(model);
-        let base = PyStructure::from_structure(Shared(Arc::clone(&model), None));
-        Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
+        let superclass = PyStructure::from_structure(SharedStructure {
+            structure: Arc::clone(&model),
+            dof_names: None,
+        });
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self(model)))
     }
 
     /// The `DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x".
@@ -102,14 +104,14 @@ impl PyFemModel {
         Ok(self.0.row(node.0, self::direction(direction)?).or_raise()?.into())
     }
 
-    /// Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if it has none of
-    /// its own.
+    /// Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if the node has
+    /// no separate one.
     fn dof_at(&self, node: Count, direction: &str) -> PyResult<Option<usize>> {
         Ok(self.0.dof(node.0, self::direction(direction)?))
     }
 
-    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the model's size.
-    /// ``z`` is 0 by default.
+    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
+    /// the model. ``z`` is 0 by default.
     #[pyo3(signature = (x, y, z=0.0))]
     fn node_at(&self, x: f64, y: f64, z: f64) -> PyResult<usize> {
         self.0.mesh().node_at_point([x, y, z]).or_raise()
@@ -142,8 +144,8 @@ impl PyFemModel {
     /// and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
     ///
     /// Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
-    /// element may cross the cut; elements that lie in it count as below. To include the weight above, add the
-    /// acceleration of gravity to the vertical accelerations.
+    /// element may cross the cut; elements in the plane of the cut belong to the part below. To include the weight
+    /// above, add the acceleration of gravity to the vertical accelerations.
     #[pyo3(signature = (height, reference=[0.0; 2]), text_signature = "($self, height, reference=(0.0, 0.0))")]
     fn section_in_space(&self, height: f64, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
         Ok(space_sections(self.0.section_in_space(height, reference).or_raise()?))
@@ -168,14 +170,16 @@ impl PyFemModel {
         Ok(self.0.resultant_row(&nodes, self::direction(direction)?).or_raise()?.into())
     }
 
-    /// Factor on the axial forces of its static state at which it buckles.
+    /// Factor of the axial forces of the static state at which the structure buckles.
     fn buckling_factor(&self) -> PyResult<f64> {
         self.0.buckling_factor().or_raise()
     }
 }
 
-/// A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes at the same
-/// place within ``merge_within`` (m) become one, none unless given.
+/// A mesh of quadrilaterals from a file of Gmsh.
+///
+/// ``path`` of the file: formats 4.1 and 2.2, text or binary. Nodes closer than ``merge_within`` (m) become one, no
+/// nodes unless given.
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 

@@ -7,16 +7,16 @@ use basemat::io::{GmshPart, GmshSpaceMesh};
 use pyo3::PyClass;
 use pyo3::prelude::*;
 
-use super::beam_section::PyBeamSection;
-use super::material::PyMaterial;
+use super::material::{PyBeamSection, PyMaterial};
 use super::mesh::PyMesh;
 use crate::array::{Count, Rows, real_number};
 use crate::error::OrRaise;
-use crate::several::type_error;
+use crate::list_arguments::type_error;
 
-/// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats
-/// 4.1 and 2.2, text or binary) at ``path``; nodes at the same place within ``merge_within`` (m) become one, none unless
-/// given.
+/// A mesh in space from a file of Gmsh.
+///
+/// It has lines, triangles, quadrilaterals and hexahedra; z points up. ``path`` of the file: formats 4.1 and 2.2, text
+/// or binary. Nodes closer than ``merge_within`` (m) become one, no nodes unless given.
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 
@@ -42,8 +42,8 @@ extracts!(GroupPart, object => {
             GmshPart::Beam(material.get().0, section.get().0, orientation.extract()?)
         }
         _ => {
-            let needed = "a Material, (material, thickness), (material, section, orientation) or None";
-            return Err(type_error(&object, needed));
+            let requirement = "a Material, (material, thickness), (material, section, orientation) or None";
+            return Err(type_error(&object, requirement));
         }
     };
     Ok(Self(part))
@@ -51,8 +51,8 @@ extracts!(GroupPart, object => {
 
 /// An entry of a part as an object of the class `T`.
 fn cast_entry<'a, 'py, T: PyClass>(entry: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, T>> {
-    let name = T::type_object(entry.py()).name()?;
-    entry.cast::<T>().map_err(|_| type_error(entry, &format!("a {name}")))
+    let class_name = T::type_object(entry.py()).name()?;
+    entry.cast::<T>().map_err(|_| type_error(entry, &format!("a {class_name}")))
 }
 
 #[pymethods]
@@ -67,10 +67,10 @@ impl PyGmshSpaceMesh {
         Ok(Self(mesh))
     }
 
-    /// Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers.
+    /// Coordinates of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers.
     #[getter]
     fn nodes(&self) -> Rows {
-        Rows(self.0.nodes().iter().map(|place| place.to_vec()).collect())
+        Rows(self.0.nodes().iter().map(|point| point.to_vec()).collect())
     }
 
     /// List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes.
@@ -88,9 +88,9 @@ impl PyGmshSpaceMesh {
     /// `Mesh.from_arrays`.
     ///
     /// The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-    /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
-    /// surfaces that are sides of other elements need no part. Triangles match the sides that they share with
-    /// quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
+    /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and surfaces
+    /// that are sides of other elements need no part. Triangles match the sides that they share with quadrilaterals. To
+    /// find the number of an element of `cells`, look up its nodes in `Mesh.elements`.
     fn mesh(&self, parts: BTreeMap<String, GroupPart>) -> PyResult<PyMesh> {
         let parts: Vec<(&str, GmshPart)> =
             parts.iter().map(|(name, part)| (name.as_str(), part.0)).collect();

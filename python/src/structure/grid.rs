@@ -15,12 +15,12 @@ pub(crate) struct PyGrid(Grid);
 impl PyGrid {
     /// Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node.
     fn row(&self, index: Count) -> PyResult<Vec<usize>> {
-        let rows = self.0.rows();
-        if index.0 < rows {
+        let row_count = self.0.rows();
+        if index.0 < row_count {
             return Ok(self.0.row(index.0).to_vec());
         }
         Err(input_error(format!(
-            "index is {}, but must be below {rows}, the number of rows",
+            "index is {}, but must be below {row_count}, the number of rows",
             index.0
         )))
     }
@@ -30,9 +30,9 @@ impl PyGrid {
         self.0.rows()
     }
 
-    /// Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
-    /// of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
-    /// upwards; of a wall that `Mesh.revolve` made, from outside.
+    /// Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers, of
+    /// three beside a pole, row after row. Corners are listed counter-clockwise, as seen with columns to the right and
+    /// rows upwards; of a wall by `Mesh.revolve`, as seen from outside.
     #[getter]
     fn cells(&self) -> Vec<Vec<usize>> {
         self.0.cells().map(|(_, cell)| cell).collect()
@@ -44,8 +44,9 @@ impl PyGrid {
         self.0.cells().map(|(row, _)| row as u64).collect()
     }
 
-    /// Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
-    /// above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
+    /// Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, whose cells
+    /// must be counter-clockwise seen from above. Returns the nodes of the bricks between the layers, a list for
+    /// `Mesh.add_bricks`.
     fn extrude(
         &self,
         mut mesh: PyRefMut<'_, PyMesh>,

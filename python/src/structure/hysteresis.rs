@@ -10,59 +10,61 @@ use basemat::structure::{
 use pyo3::prelude::*;
 
 use super::{PyStructure, structure_recipe};
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, input_error};
-use crate::recipe::{Make, Recipe};
+use crate::list_arguments::type_error;
+use crate::names::DofNames;
+use crate::recipe::{Factory, Recipe};
 use crate::row::RowLike;
-use crate::several::type_error;
 use crate::user;
 
-// Signatures show numbers only.
+// Signatures in Python contain these numbers, not the constants of the core.
 const _: () = assert!(
     FrictionPendulum::YIELD_DISPLACEMENT == 5e-4
         && LeadRubber::STIFFNESS_RATIO == 10.0
         && basemat::motion::STANDARD_GRAVITY == 9.80665
 );
 
-/// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
-/// Forces and stiffnesses are per metre of thickness.
+/// A spring whose force depends on its past deformation: a yield law of a storey, an isolator. Forces and stiffnesses
+/// are per metre of thickness.
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     make: Recipe<dyn Hysteresis>,
-    coupled: Make<BiaxialSpring>,
+    /// Builds the coupled spring in two directions.
+    make_coupled: Factory<BiaxialSpring>,
 }
 
 /// A law of this package, or one written in Python, and its coupled spring in two directions.
-pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>, Option<Make<BiaxialSpring>>);
+pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>, Option<Factory<BiaxialSpring>>);
 
 impl LawLike {
-    pub(super) fn coupled(self) -> PyResult<Make<BiaxialSpring>> {
-        let needed = "a hysteresis written in Python acts in one direction: give one for each";
-        self.1.ok_or_else(|| input_error(needed))
+    /// Builds the coupled spring; an error for a law written in Python.
+    pub(super) fn coupled(self) -> PyResult<Factory<BiaxialSpring>> {
+        let text =
+            "a hysteresis written in Python acts in one direction: give one for each direction";
+        self.1.ok_or_else(|| input_error(text))
     }
 }
 
 extracts!(LawLike, object => match object.cast::<PyHysteresis>() {
-    Ok(law) => Ok(Self(law.get().make.clone(), Some(law.get().coupled.clone()))),
-    Err(_) => Ok(Self(user::hysteresis(&object)?, None)),
+    Ok(law) => Ok(Self(law.get().make.clone(), Some(law.get().make_coupled.clone()))),
+    Err(_) => Ok(Self(user::hysteresis_recipe(&object)?, None)),
 });
 
 /// The superclass object of a law that can be cloned.
-fn superclass<L: Hysteresis + Clone + Sync + 'static>(
+fn new_superclass<L: Hysteresis + Clone + Sync + 'static>(
     law: L,
     coupled: fn(&L) -> Result<BiaxialSpring>,
 ) -> PyHysteresis {
-    let uniaxial = law.clone();
+    let uniaxial_law = law.clone();
     PyHysteresis {
-        make: Arc::new(move || Ok(Box::new(uniaxial.clone()))),
-        coupled: Arc::new(move || coupled(&law)),
+        make: Arc::new(move || Ok(Box::new(uniaxial_law.clone()))),
+        make_coupled: Arc::new(move || coupled(&law)),
     }
 }
 
 #[pymethods]
 impl PyHysteresis {
-    /// Forces (list of m numbers, N/m) at the ``deformations`` (array of shape (m,), m) of a path that a
-    /// new spring is led along.
+    /// Forces (list of m numbers, N/m) of a new spring at the ``deformations`` of a path (array of shape (m,), m).
     fn path(&self, deformations: crate::array::Numbers) -> PyResult<Vec<f64>> {
         let mut spring = (self.make)().or_raise()?;
         let mut forces = Vec::with_capacity(deformations.0.len());
@@ -74,8 +76,8 @@ impl PyHysteresis {
     }
 }
 
-/// Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
-/// the stiffness; unloading with the first stiffness.
+/// Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+/// stiffness; it unloads with the initial stiffness.
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
 
@@ -84,14 +86,14 @@ impl PyBilinear {
     #[new]
     fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Bilinear::new(stiffness, yield_force, hardening).or_raise()?;
-        let base = superclass(law, |law| Ok(law.coupled()));
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        let superclass = new_superclass(law, |law| Ok(law.coupled()));
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self))
     }
 }
 
-/// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
-/// the stiffness, with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops: both, or
-/// neither (then 2 and 0.5).
+/// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times the
+/// stiffness, with a smooth transition by ``exponent``, and ``beta`` for the shape of loops. Give both or neither (then
+/// 2 and 0.5).
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
@@ -112,7 +114,7 @@ impl PyBoucWen {
             (Some(exponent), Some(beta)) => law = law.with_shape(exponent, beta).or_raise()?,
             _ => return Err(input_error("give both exponent and beta, or neither")),
         }
-        Ok(PyClassInitializer::from(superclass(law, BoucWen::coupled)).add_subclass(Self))
+        Ok(PyClassInitializer::from(new_superclass(law, BoucWen::coupled)).add_subclass(Self))
     }
 }
 
@@ -121,7 +123,7 @@ impl PyBoucWen {
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
 
-extends!(PyFrictionPendulum, pendulum => superclass(pendulum.0.clone(), |law| Ok(law.coupled())));
+extends!(PyFrictionPendulum, pendulum => new_superclass(pendulum.0.clone(), |law| Ok(law.coupled())));
 
 #[pymethods]
 impl PyFrictionPendulum {
@@ -147,10 +149,11 @@ impl PyFrictionPendulum {
 
 /// Friction pendulum that carries the structure, in plan: its weight is the vertical force on it.
 ///
-/// ``weight`` (N; of its stiffness before it slides, and of its friction until the static state is known), ``radius`` of its
-/// dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5 mm by default) before
-/// it slides. `WithSprings` attaches it to three rows: it slides in any direction, climbs on its dish, and lifts off.
-/// Friction follows the vertical force one step later; moments of that force at the displaced bearing are left out.
+/// ``weight`` (N; for its stiffness before it slides, and for its friction until the static state is computed),
+/// ``radius`` of its dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5
+/// mm by default) before it slides. `WithSprings` attaches it to three rows: it slides in any direction, rises on its
+/// dish, and lifts off. Friction follows the vertical force one step later; moments of that force about the undisplaced
+/// bearing are neglected.
 #[pyclass(name = "PendulumBearing", module = "basemat", frozen, dict)]
 pub(crate) struct PyPendulumBearing(PendulumBearing);
 
@@ -183,9 +186,9 @@ impl PyPendulumBearing {
     }
 }
 
-/// Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
-/// of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
-/// after yielding, 10 by default.
+/// Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m) of its
+/// rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: ratio of the initial stiffness to the
+/// stiffness after yielding, 10 by default.
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
@@ -225,8 +228,9 @@ impl PyLeadRubber {
     }
 }
 
-extends!(PyLeadRubber, bearing => superclass(bearing.0.clone(), |law| Ok(law.coupled())));
+extends!(PyLeadRubber, bearing => new_superclass(bearing.0.clone(), |law| Ok(law.coupled())));
 
+/// The bearing with this ratio of its initial stiffness to that after yielding.
 fn with_stiffness_ratio(
     bearing: basemat::Result<LeadRubber>,
     stiffness_ratio: f64,
@@ -245,21 +249,23 @@ enum SpringLaw {
 }
 
 extracts!(SpringList, object => {
-    let needed = "a list of (row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
-    let entries = object.try_iter().map_err(|_| type_error(&object, needed))?;
+    let requirement = "a list of (row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
+    let entries = object.try_iter().map_err(|_| type_error(&object, requirement))?;
     entries.map(|entry| spring_entry(&entry?)).collect::<PyResult<_>>().map(Self)
 });
 
 /// The rows and the law of an entry of a list of springs.
 fn spring_entry(entry: &Bound<'_, PyAny>) -> PyResult<(Vec<RowLike>, SpringLaw)> {
-    let needed = "(row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
-    let length = entry.len().ok().filter(|length| [2, 3, 4].contains(length));
-    let row_count = length.ok_or_else(|| type_error(entry, needed))? - 1;
-    let law = entry.get_item(row_count)?;
-    let law = match law.cast::<PyPendulumBearing>() {
+    let requirement = "(row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
+    let entry_length = entry.len().ok().filter(|entry_length| [2, 3, 4].contains(entry_length));
+    let row_count = entry_length.ok_or_else(|| type_error(entry, requirement))? - 1;
+    let law_object = entry.get_item(row_count)?;
+    let law = match law_object.cast::<PyPendulumBearing>() {
         Ok(bearing) if row_count == 3 => SpringLaw::Bearing(bearing.get().0.clone()),
-        _ if row_count == 3 => return Err(type_error(&law, "a PendulumBearing for three rows")),
-        _ => SpringLaw::Law(law.extract()?),
+        _ if row_count == 3 => {
+            return Err(type_error(&law_object, "a PendulumBearing for three rows"));
+        }
+        _ => SpringLaw::Law(law_object.extract()?),
     };
     let rows = (0..row_count).map(|index| entry.get_item(index)?.extract::<RowLike>());
     Ok((rows.collect::<PyResult<_>>()?, law))
@@ -268,44 +274,44 @@ fn spring_entry(entry: &Bound<'_, PyAny>) -> PyResult<(Vec<RowLike>, SpringLaw)>
 /// A spring of a structure: a law along one row, a coupled law of two rows, or a bearing of three.
 enum SpringOrBearing {
     Uniaxial(DofCombination, Recipe<dyn Hysteresis>),
-    Biaxial([DofCombination; 2], Make<BiaxialSpring>),
+    Biaxial([DofCombination; 2], Factory<BiaxialSpring>),
     Bearing([DofCombination; 3], PendulumBearing),
 }
 
 impl SpringOrBearing {
-    /// The spring along these rows of a structure of `dofs` degrees of freedom.
-    fn new(rows: Vec<RowLike>, law: SpringLaw, dofs: usize) -> PyResult<Self> {
+    /// The spring along these rows of a structure with so many degrees of freedom.
+    fn new(rows: Vec<RowLike>, law: SpringLaw, dof_count: usize) -> PyResult<Self> {
         let mut combinations = Vec::with_capacity(rows.len());
         for RowLike(row, weight_count) in rows {
-            weight_count.check("the row of a spring", dofs)?;
+            weight_count.check("the row of a spring", dof_count)?;
             combinations.push(row);
         }
         match law {
-            SpringLaw::Bearing(law) => Ok(Self::Bearing(exactly(combinations)?, law)),
+            SpringLaw::Bearing(law) => Ok(Self::Bearing(row_array(combinations)?, law)),
             SpringLaw::Law(law) if combinations.len() == 2 => {
-                Ok(Self::Biaxial(exactly(combinations)?, law.coupled()?))
+                Ok(Self::Biaxial(row_array(combinations)?, law.coupled()?))
             }
             SpringLaw::Law(law) => {
-                let [row] = exactly(combinations)?;
+                let [row] = row_array(combinations)?;
                 Ok(Self::Uniaxial(row, law.0))
             }
         }
     }
 }
 
-/// The rows as an array of `N`.
-fn exactly<const N: usize>(rows: Vec<DofCombination>) -> PyResult<[DofCombination; N]> {
-    let found = rows.len();
+/// The rows as an array; an error unless there are `N`.
+fn row_array<const N: usize>(rows: Vec<DofCombination>) -> PyResult<[DofCombination; N]> {
+    let row_count = rows.len();
     rows.try_into()
-        .map_err(|_| input_error(format!("a spring has {found} rows, but must have {N}")))
+        .map_err(|_| input_error(format!("a spring has {row_count} rows, but must have {N}")))
 }
 
-/// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-/// freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
-/// In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
-/// (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
-/// along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
-/// y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
+/// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of freedom, which
+/// is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`. In plan also ``(row_x, row_y, law)`` with
+/// two deformations at a right angle and a `Hysteresis` (``BoucWen`` with an exponent of 2), whose force (N) has the
+/// same limit in every direction; two springs along x and y act independently: on the diagonal their resultant reaches
+/// √2 times the limit. With three deformations, along x, along y and up, ``(row_x, row_y, row_z, bearing)`` of a
+/// `PendulumBearing`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings(
     /// The structure without the springs.
@@ -317,28 +323,30 @@ impl PyWithSprings {
     #[new]
     fn new(structure: Bound<'_, PyAny>, springs: SpringList) -> PyResult<PyClassInitializer<Self>> {
         let make_structure = structure_recipe(&structure)?;
-        let dofs = make_structure().or_raise()?.dofs();
-        let names = DofNames::from_structure(&structure, dofs)?;
+        let dof_count = make_structure().or_raise()?.dofs();
+        let dof_names = DofNames::from_structure(&structure, dof_count)?;
         let springs =
-            springs.0.into_iter().map(|(rows, law)| SpringOrBearing::new(rows, law, dofs));
+            springs.0.into_iter().map(|(rows, law)| SpringOrBearing::new(rows, law, dof_count));
         let springs: Vec<SpringOrBearing> = springs.collect::<PyResult<_>>()?;
         let make = move || {
             let mut with_springs = WithSprings::new(make_structure()?);
             for spring in &springs {
                 with_springs = match spring {
-                    SpringOrBearing::Uniaxial(row, law) => with_springs.spring(row, law()?)?,
-                    SpringOrBearing::Biaxial(rows, law) => {
-                        with_springs.biaxial_spring(rows.each_ref(), law()?)?
+                    SpringOrBearing::Uniaxial(row, make_law) => {
+                        with_springs.spring(row, make_law()?)?
                     }
-                    SpringOrBearing::Bearing(rows, law) => {
-                        with_springs.pendulum(rows.each_ref(), law.clone())?
+                    SpringOrBearing::Biaxial(rows, make_spring) => {
+                        with_springs.biaxial_spring(rows.each_ref(), make_spring()?)?
+                    }
+                    SpringOrBearing::Bearing(rows, bearing) => {
+                        with_springs.pendulum(rows.each_ref(), bearing.clone())?
                     }
                 };
             }
             Ok(with_springs)
         };
         make().or_raise()?;
-        let base = PyStructure::new(make).with_dof_names(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self(structure.unbind())))
+        let superclass = PyStructure::new(make).with_dof_names(dof_names);
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self(structure.unbind())))
     }
 }

@@ -3,13 +3,12 @@
 use basemat::fem::{Hex8, Mesh, Shell, SpaceBeam};
 use pyo3::prelude::*;
 
-use super::beam_section::PyBeamSection;
 use super::connectivity::{Cells, Connectivity, PerElement, Vectors, one_of};
-use super::material::PyMaterial;
+use super::material::{PyBeamSection, PyMaterial};
 use super::mesh::{PyMesh, direction};
 use crate::array::Points;
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::several::ListOf;
+use crate::list_arguments::ListOf;
 
 #[pymethods]
 impl PyMesh {
@@ -36,11 +35,11 @@ impl PyMesh {
         material: ListOf<'_, PyMaterial>,
         thickness: PerElement,
     ) -> PyResult<Vec<usize>> {
-        let count = nodes.0.len();
-        let mut shells = Vec::with_capacity(count);
-        for (index, shell_nodes) in nodes.0.iter().enumerate() {
-            let shell_material = one_of(&material, "material", index, count)?.get().0;
-            let shell_thickness = thickness.at("thickness", index, count)?;
+        let shell_count = nodes.0.len();
+        let mut shells = Vec::with_capacity(shell_count);
+        for (shell, shell_nodes) in nodes.0.iter().enumerate() {
+            let shell_material = one_of(&material, "material", shell, shell_count)?.get().0;
+            let shell_thickness = thickness.at("thickness", shell, shell_count)?;
             shells.push(Shell::new(shell_nodes, shell_material, shell_thickness).or_raise()?);
         }
         Shell::match_sides(&mut shells);
@@ -58,9 +57,9 @@ impl PyMesh {
     /// ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
     /// vector, or an array of shape (beams, 3)).
     ///
-    /// ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of
-    /// shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which nothing
-    /// holds its first and its second end, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
+    /// ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array
+    /// of shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which
+    /// its first and its second end are free, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
     /// ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
     /// array of one per beam): axial force of P–Δ, none unless given.
     #[pyo3(signature = (nodes, material, section, orientation, *, offsets=None, releases=None, rotary_inertia=false, compression=None))]
@@ -77,22 +76,22 @@ impl PyMesh {
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
         let offsets = offsets.map(two_arms).transpose()?;
-        let mut released = Vec::new();
+        let mut end_releases = Vec::new();
         for (end, names) in releases.iter().flatten().enumerate() {
             let directions = names.iter().map(|name| direction(name));
-            released.push((end, directions.collect::<PyResult<Vec<_>>>()?));
+            end_releases.push((end, directions.collect::<PyResult<Vec<_>>>()?));
         }
-        let count = ends.len();
-        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
-            let beam_orientation = *one_of(&orientation.0, "orientation", index, count)?;
-            let force = match &compression {
-                Some(force) => Some(force.at("compression", index, count)?),
+        let beam_count = ends.len();
+        self.add_all(ends.iter().enumerate().map(|(beam_index, &beam_nodes)| {
+            let beam_orientation = *one_of(&orientation.0, "orientation", beam_index, beam_count)?;
+            let axial_force = match &compression {
+                Some(compression) => Some(compression.at("compression", beam_index, beam_count)?),
                 None => None,
             };
-            let mut beam = SpaceBeam::new(nodes, material.0, section.0, beam_orientation)
+            let mut beam = SpaceBeam::new(beam_nodes, material.0, section.0, beam_orientation)
                 .with(offsets, SpaceBeam::with_offsets)
-                .with(force, SpaceBeam::with_compression);
-            for (end, directions) in &released {
+                .with(axial_force, SpaceBeam::with_compression);
+            for (end, directions) in &end_releases {
                 beam = beam.and_then(|beam| beam.with_releases(*end, directions));
             }
             let beam = beam.or_raise()?;
@@ -101,10 +100,10 @@ impl PyMesh {
     }
 }
 
-/// Arms from two nodes to the ends of a beam.
+/// Rigid arms from the two nodes to the ends of a beam.
 fn two_arms(points: Points) -> PyResult<[[f64; 3]; 2]> {
     let arms = points.in_space()?;
-    let found = arms.len();
+    let arm_count = arms.len();
     arms.try_into()
-        .map_err(|_| input_error(format!("offsets has {found} rows, but must have 2")))
+        .map_err(|_| input_error(format!("offsets has {arm_count} rows, but must have 2")))
 }

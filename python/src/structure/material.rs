@@ -1,16 +1,19 @@
-//! Materials of solids and shells, layers of a block.
+//! Materials, cross-sections of beams in space, and layers of a block.
 
-use basemat::fem::{Layer, Material, QuadFormulation};
+use basemat::fem::{BeamSection, Layer, Material, QuadFormulation};
 use pyo3::prelude::*;
 
 use crate::array::whole_numbers;
-use crate::error::{OrRaise, input_error};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::names::choice;
 
 /// Integration of four-node quadrilaterals by its name.
-pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulation> {
-    let percent = u8::try_from(percent).map_err(|_| {
-        input_error(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
+pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<QuadFormulation> {
+    let percent = u8::try_from(hourglass_percent).map_err(|_| {
+        input_error(format!(
+            "hourglass_percent is {hourglass_percent}, but must be {} or less",
+            u8::MAX
+        ))
     })?;
     let choices = [
         ("full", QuadFormulation::Full),
@@ -56,5 +59,29 @@ impl PyLayer {
     ) -> PyResult<Self> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))
+    }
+}
+
+/// Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
+/// m⁴) and ``torsion_constant`` (m⁴).
+///
+/// y and z are the principal axes: y along the orientation of the beam, z perpendicular to it. ``shear_areas`` along y
+/// and along z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle
+/// is 5/6 of its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+#[pyclass(name = "BeamSection", module = "basemat", frozen, dict)]
+pub(crate) struct PyBeamSection(pub(super) BeamSection);
+
+#[pymethods]
+impl PyBeamSection {
+    #[pyo3(signature = (area, second_moments, torsion_constant, *, shear_areas=None))]
+    #[new]
+    fn new(
+        area: f64,
+        second_moments: [f64; 2],
+        torsion_constant: f64,
+        shear_areas: Option<[f64; 2]>,
+    ) -> PyResult<Self> {
+        let section = BeamSection::new(area, second_moments, torsion_constant);
+        Ok(Self(section.with(shear_areas, BeamSection::with_shear_areas).or_raise()?))
     }
 }

@@ -9,19 +9,21 @@ use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use crate::array::Matrix;
 use crate::base_node::BaseLike;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithOption, input_error};
-use crate::recipe::Shared;
+use crate::names::DofNames;
+use crate::recipe::SharedStructure;
 
-/// A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
+/// A structure by its mass, stiffness and damping matrices.
 ///
-/// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-/// (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-/// `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
-/// in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
-/// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-/// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-/// list of n different names, for `dof`, frames and errors; none unless given.
+/// Matrices are dense or of ``scipy.sparse``.
+///
+/// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements (m, rad). The
+/// structure has no supports; only the ground supports it. ``base``: its nodes, a list of `BaseNode` from left to
+/// right; a list of such lists for several foundations; `BaseFaces` for a ground in plan, where matrices refer to the
+/// whole body. ``damping`` (n × n, N s/m per metre; none unless given) must be symmetric and positive semi-definite
+/// unless ``active_damping`` (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by
+/// default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``: list of n different names, for
+/// `dof`, frames and errors; none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
@@ -39,8 +41,8 @@ impl PyMatrixModel {
         rayleigh: Option<&PyRayleighDamping>,
         dof_names: Option<Vec<String>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let dofs = mass.0.order();
-        let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
+        let dof_count = mass.0.order();
+        let dof_names = dof_names.map(|names| DofNames::new(names, dof_count)).transpose()?;
         if damping.is_some() && rayleigh.is_some() {
             return Err(input_error("give a damping matrix or Rayleigh damping, not both"));
         }
@@ -49,13 +51,16 @@ impl PyMatrixModel {
         } else {
             MatrixModel::with_damping
         };
-        let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dofs)?)
+        let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dof_count)?)
             .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .with(damping, |model, matrix| with_damping(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
             .or_raise()?;
-        let base = PyStructure::from_structure(Shared(Arc::new(model), names.clone()))
-            .with_dof_names(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        let superclass = PyStructure::from_structure(SharedStructure {
+            structure: Arc::new(model),
+            dof_names: dof_names.clone(),
+        })
+        .with_dof_names(dof_names);
+        Ok(PyClassInitializer::from(superclass).add_subclass(Self))
     }
 }

@@ -9,8 +9,8 @@ use super::connectivity::{Connectivity, PerElement};
 use super::material::{PyLayer, PyMaterial, formulation};
 use crate::array::{Count, Numbers, Pairs, Points, Rows, whole_numbers};
 use crate::error::{OrRaise, WithOption, input_error};
+use crate::list_arguments::ListOf;
 use crate::names::choice;
-use crate::several::ListOf;
 
 /// A direction by its name: "x", "y" or "rotation" in the plane, one of six in space.
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
@@ -26,9 +26,10 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
     choice("direction", name, &choices)
 }
 
-/// Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
-/// `in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
-/// elements' numbers.
+/// Nodes and finite elements in the plane, or by `in_space` in space.
+///
+/// ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add elements and return their numbers; after
+/// an error they have added none.
 ///
 /// In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
 /// of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
@@ -36,8 +37,8 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
 #[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
-/// Makes a link along the line between two nodes.
-type NewAxial<E> = fn([usize; 2], f64) -> basemat::Result<E>;
+/// Constructor of a link along the line between two nodes.
+type AxialConstructor<E> = fn([usize; 2], f64) -> basemat::Result<E>;
 
 impl PyMesh {
     /// Whether the mesh lies in space.
@@ -45,18 +46,18 @@ impl PyMesh {
         self.0.directions().contains(&Direction::Z)
     }
 
-    /// Changes the mesh, or leaves it as it is if there is an error.
+    /// Changes the mesh; after an error the mesh is unchanged.
     pub(super) fn change<T>(
         &mut self,
         change: impl FnOnce(&mut Mesh) -> basemat::Result<T>,
     ) -> PyResult<T> {
         let mut mesh = self.0.clone();
-        let found = change(&mut mesh).or_raise()?;
+        let result = change(&mut mesh).or_raise()?;
         self.0 = mesh;
-        Ok(found)
+        Ok(result)
     }
 
-    /// Adds all elements, or none if one of them is an error; returns their numbers.
+    /// Adds elements, none after an error; returns their numbers.
     pub(super) fn add_all<E: Element + 'static>(
         &mut self,
         elements: impl Iterator<Item = PyResult<E>>,
@@ -69,22 +70,22 @@ impl PyMesh {
         self.change(|mesh| elements.into_iter().map(|element| mesh.add(element)).collect())
     }
 
-    /// Adds links between nodes in a direction.
+    /// Adds links between nodes in a direction; axial ones by the constructor in the plane or in space.
     fn add_links<E: Element + 'static>(
         &mut self,
         nodes: &Connectivity,
         direction: &str,
-        (name, values): (&str, &PerElement),
-        axial: [NewAxial<E>; 2],
-        along: fn([usize; 2], Direction, f64) -> basemat::Result<E>,
+        (property_name, values): (&str, &PerElement),
+        axial_constructors: [AxialConstructor<E>; 2],
+        new_in_direction: fn([usize; 2], Direction, f64) -> basemat::Result<E>,
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
-        let axial = axial[usize::from(self.has_depth())];
-        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
-            let value = values.at(name, index, ends.len())?;
+        let new_axial = axial_constructors[usize::from(self.has_depth())];
+        self.add_all(ends.iter().enumerate().map(|(link, &link_nodes)| {
+            let value = values.at(property_name, link, ends.len())?;
             match direction {
-                "axial" => axial(nodes, value).or_raise(),
-                _ => along(nodes, self::direction(direction)?, value).or_raise(),
+                "axial" => new_axial(link_nodes, value).or_raise(),
+                _ => new_in_direction(link_nodes, self::direction(direction)?, value).or_raise(),
             }
         }))
     }
@@ -140,9 +141,10 @@ impl PyMesh {
     }
 
     /// Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
-    /// number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
+    /// number of removed nodes, and the list of the new numbers of all former nodes. Elements keep their numbers.
     ///
-    /// An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
+    /// If an element would have the same node twice, or two elements the same nodes, it raises an error and the mesh is
+    /// unchanged.
     fn merge_nodes(&mut self, tolerance: f64) -> PyResult<(usize, Vec<usize>)> {
         let merged = self.0.merge_nodes(tolerance).or_raise()?;
         Ok((merged.count, merged.indices))
@@ -151,8 +153,8 @@ impl PyMesh {
     /// Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m.
     #[getter]
     fn nodes(&self) -> Rows {
-        let axes = if self.has_depth() { 3 } else { 2 };
-        Rows(self.0.nodes().iter().map(|node| node[..axes].to_vec()).collect())
+        let axis_count = if self.has_depth() { 3 } else { 2 };
+        Rows(self.0.nodes().iter().map(|node| node[..axis_count].to_vec()).collect())
     }
 
     /// Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default.
@@ -185,23 +187,25 @@ impl PyMesh {
         compression: Option<PerElement>,
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
-        let count = ends.len();
-        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
-            let beam_modulus = young_modulus.at("young_modulus", index, count)?;
-            let beam_area = area.at("area", index, count)?;
-            let beam_moment = second_moment.at("second_moment", index, count)?;
-            let beam_density = density.at("density", index, count)?;
-            let stiffness = match &shear_stiffness {
-                Some(stiffness) => Some(stiffness.at("shear_stiffness", index, count)?),
+        let beam_count = ends.len();
+        self.add_all(ends.iter().enumerate().map(|(beam_index, &beam_nodes)| {
+            let beam_modulus = young_modulus.at("young_modulus", beam_index, beam_count)?;
+            let beam_area = area.at("area", beam_index, beam_count)?;
+            let beam_moment = second_moment.at("second_moment", beam_index, beam_count)?;
+            let beam_density = density.at("density", beam_index, beam_count)?;
+            let beam_shear_stiffness = match &shear_stiffness {
+                Some(shear_stiffness) => {
+                    Some(shear_stiffness.at("shear_stiffness", beam_index, beam_count)?)
+                }
                 None => None,
             };
-            let force = match &compression {
-                Some(force) => Some(force.at("compression", index, count)?),
+            let axial_force = match &compression {
+                Some(compression) => Some(compression.at("compression", beam_index, beam_count)?),
                 None => None,
             };
-            let beam = Beam::new(nodes, beam_modulus, beam_area, beam_moment, beam_density)
-                .with(stiffness, Beam::with_shear_stiffness)
-                .with(force, Beam::with_compression)
+            let beam = Beam::new(beam_nodes, beam_modulus, beam_area, beam_moment, beam_density)
+                .with(beam_shear_stiffness, Beam::with_shear_stiffness)
+                .with(axial_force, Beam::with_compression)
                 .or_raise()?;
             Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
         }))
@@ -217,12 +221,18 @@ impl PyMesh {
         density: PerElement,
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
-        let count = ends.len();
-        let new = if self.has_depth() { Truss::in_space } else { Truss::new };
-        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
-            let truss_modulus = young_modulus.at("young_modulus", index, count)?;
-            let truss_area = area.at("area", index, count)?;
-            new(nodes, truss_modulus, truss_area, density.at("density", index, count)?).or_raise()
+        let truss_count = ends.len();
+        let new_truss = if self.has_depth() { Truss::in_space } else { Truss::new };
+        self.add_all(ends.iter().enumerate().map(|(truss, &truss_nodes)| {
+            let truss_modulus = young_modulus.at("young_modulus", truss, truss_count)?;
+            let truss_area = area.at("area", truss, truss_count)?;
+            new_truss(
+                truss_nodes,
+                truss_modulus,
+                truss_area,
+                density.at("density", truss, truss_count)?,
+            )
+            .or_raise()
         }))
     }
 
@@ -234,8 +244,14 @@ impl PyMesh {
         direction: &str,
         stiffness: PerElement,
     ) -> PyResult<Vec<usize>> {
-        let axial = [Spring::axial, Spring::axial_in_space];
-        self.add_links(&nodes, direction, ("stiffness", &stiffness), axial, Spring::new)
+        let axial_constructors = [Spring::axial, Spring::axial_in_space];
+        self.add_links(
+            &nodes,
+            direction,
+            ("stiffness", &stiffness),
+            axial_constructors,
+            Spring::new,
+        )
     }
 
     /// Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` of the mesh, such as "x", or
@@ -246,8 +262,14 @@ impl PyMesh {
         direction: &str,
         coefficient: PerElement,
     ) -> PyResult<Vec<usize>> {
-        let axial = [Dashpot::axial, Dashpot::axial_in_space];
-        self.add_links(&nodes, direction, ("coefficient", &coefficient), axial, Dashpot::new)
+        let axial_constructors = [Dashpot::axial, Dashpot::axial_in_space];
+        self.add_links(
+            &nodes,
+            direction,
+            ("coefficient", &coefficient),
+            axial_constructors,
+            Dashpot::new,
+        )
     }
 
     /// Adds a ``mass`` (kg/m, in space kg) at a ``node``, with a ``rotary_inertia`` (kg m²/m; in space three numbers
@@ -271,9 +293,9 @@ impl PyMesh {
                 LumpedMass::new(node, mass).with(Some(inertia), LumpedMass::with_rotary_inertia)
             }
             Some(_) => {
-                let needed =
+                let requirement =
                     if has_depth { "three numbers in space" } else { "one number in the plane" };
-                return Err(input_error(format!("rotary_inertia must be {needed}")));
+                return Err(input_error(format!("rotary_inertia must be {requirement}")));
             }
         };
         self.0.add(element.or_raise()?).or_raise()
@@ -306,8 +328,8 @@ impl PyMesh {
         self.0.elements().map(Element::nodes).collect()
     }
 
-    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
-    /// ``z`` is 0 by default.
+    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, within a millionth of the extent of
+    /// the mesh. ``z`` is 0 by default.
     #[pyo3(signature = (x, y, z=0.0))]
     fn node_at(&self, x: f64, y: f64, z: f64) -> PyResult<usize> {
         self.0.node_at_point([x, y, z]).or_raise()

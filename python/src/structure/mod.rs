@@ -1,7 +1,6 @@
 //! Structures.
 
 mod beam_ends;
-mod beam_section;
 mod block;
 mod building;
 mod composed;
@@ -19,7 +18,6 @@ mod shells;
 mod superclass;
 
 pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
-pub(crate) use beam_section::PyBeamSection;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
@@ -32,7 +30,7 @@ pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyPendulumBearing,
     PyWithSprings,
 };
-pub(crate) use material::{PyLayer, PyMaterial};
+pub(crate) use material::{PyBeamSection, PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::PyMesh;
 pub(crate) use shells::{PyShellResultants, PyShellRows};

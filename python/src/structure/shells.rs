@@ -12,8 +12,9 @@ use crate::array::{Array, Count, Numbers, Rows, whole_numbers};
 use crate::error::{OrRaise, call_user_code, extract_returned, input_error, raise_user_exceptions};
 use crate::row::PySectionRows;
 
-/// Forces and moments of a shell at a point, per metre of width, in its `axes`: from
-/// `FemModel.shell_resultants` and `ShellRows.value`.
+/// Forces and moments of a shell at a point, per metre of width.
+///
+/// They refer to the `axes`. `FemModel.shell_resultants` and `ShellRows.value` return them.
 #[pyclass(name = "ShellResultants", module = "basemat", frozen)]
 pub(crate) struct PyShellResultants(ShellResultants);
 
@@ -56,10 +57,11 @@ impl PyShellResultants {
     }
 }
 
-/// Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
-/// `FemModel.shell_rows`.
+/// Rows of the forces and moments of shells at a node, for `Probe.section`.
 ///
-/// A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
+/// They are rows of displacements, per metre of width. `FemModel.shell_rows` returns them.
+///
+/// A probe records changes from the static state; the static part is the `value` for the ``static_displacement`` of the
 /// simulation. The rows contain the elastic forces, without damping.
 #[pyclass(name = "ShellRows", module = "basemat", frozen)]
 pub(crate) struct PyShellRows(ShellRows);
@@ -101,12 +103,12 @@ impl PyShellRows {
         let Numbers(dofs) = displacement;
         let resultants = self.0.membrane.iter().chain(&self.0.moments).chain(&self.0.shears);
         let rows = resultants.flat_map(|resultant| resultant.displacement.iter());
-        let last_dof = rows.map(|(dof, _)| *dof).max();
-        match last_dof {
+        let max_dof = rows.map(|(dof, _)| *dof).max();
+        match max_dof {
             Some(dof) if dof >= dofs.len() => {
-                let found = dofs.len();
+                let dof_count = dofs.len();
                 Err(input_error(format!(
-                    "displacement has {found} entries, but must have over {dof}"
+                    "displacement has {dof_count} entries, but must have over {dof}"
                 )))
             }
             _ => Ok(PyShellResultants(self.0.value(&dofs))),
@@ -138,12 +140,12 @@ impl PyFemModel {
         element: Count,
         displacement: Numbers,
     ) -> PyResult<Vec<PyShellResultants>> {
-        let found = self.0.shell_resultants(element.0, &displacement.0).or_raise()?;
-        Ok(found.into_iter().map(PyShellResultants).collect())
+        let resultants = self.0.shell_resultants(element.0, &displacement.0).or_raise()?;
+        Ok(resultants.into_iter().map(PyShellResultants).collect())
     }
 
-    /// The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
-    /// nodes: means over these shells. Give the shells of one mat or one wall.
+    /// The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of nodes:
+    /// means over these shells, which should be those of one mat or one wall.
     ///
     /// ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
     /// part of the first in the plane of a shell, and the normal n is on the side of the second.
@@ -152,8 +154,8 @@ impl PyFemModel {
         #[pyo3(from_py_with = whole_numbers)] elements: Vec<usize>,
         axes: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<PyShellRows>> {
-        let found = if axes.is_callable() {
-            // The axes at each place: the function is called once for a node that several shells share.
+        let shell_rows = if axes.is_callable() {
+            // The function is called once for a node that several shells share.
             let axes_by_place: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
             raise_user_exceptions(|| {
                 let rows = self.0.shell_rows(&elements, |place: [f64; 3]| {
@@ -167,6 +169,6 @@ impl PyFemModel {
             let directions: Directions = axes.extract()?;
             self.0.shell_rows(&elements, |_| directions).or_raise()?
         };
-        Ok(found.into_iter().map(PyShellRows).collect())
+        Ok(shell_rows.into_iter().map(PyShellRows).collect())
     }
 }

@@ -7,19 +7,20 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::base_node::python_base;
-use crate::dof_names::DofNames;
 use crate::error::{OrRaise, input_error, user_code_error};
+use crate::list_arguments::reject_class;
+use crate::names::DofNames;
 use crate::recipe::Recipe;
 use crate::row::PyDofCombination;
-use crate::several::reject_class;
 use crate::user::UserStructure;
 
-/// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
-/// description from which every simulation makes one of its own.
+/// A structure with n degrees of freedom, which only the ground supports.
+///
+/// Degrees of freedom are in m and rad. It is a description from which each simulation builds a separate structure.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
-    names: Option<DofNames>,
+    dof_names: Option<DofNames>,
 }
 
 impl PyStructure {
@@ -28,16 +29,16 @@ impl PyStructure {
         Self::new(move || Ok(structure.clone()))
     }
 
-    /// The superclass object of a structure that `make` makes for each simulation.
+    /// The superclass object of a structure that `make` builds for each simulation.
     pub(crate) fn new<S: Structure + 'static>(
         make: impl Fn() -> basemat::Result<S> + Send + Sync + 'static,
     ) -> Self {
-        Self { make: Arc::new(move || Ok(Box::new(make()?))), names: None }
+        Self { make: Arc::new(move || Ok(Box::new(make()?))), dof_names: None }
     }
 
     /// Replaces the names of the structure's degrees of freedom.
-    pub(crate) fn with_dof_names(self, names: Option<DofNames>) -> Self {
-        Self { names, ..self }
+    pub(crate) fn with_dof_names(self, dof_names: Option<DofNames>) -> Self {
+        Self { dof_names, ..self }
     }
 }
 
@@ -50,8 +51,8 @@ pub(crate) fn structure_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn
     if has_base(object)? {
         let object = object.clone().unbind();
         return Ok(Arc::new(move || {
-            let made = Python::attach(|py| UserStructure::new(object.bind(py)));
-            Ok(Box::new(made.map_err(|error| user_code_error("structure", error))?))
+            let structure = Python::attach(|py| UserStructure::new(object.bind(py)));
+            Ok(Box::new(structure.map_err(|error| user_code_error("structure", error))?))
         }));
     }
     Err(input_error(format!(
@@ -82,8 +83,8 @@ pub(crate) fn new_structure<'py>(
 /// Largest number of degrees of freedom of a structure whose matrices become arrays: one takes 3.2 GB.
 const MAX_ARRAY_DOFS: usize = 20_000;
 
-/// An n × n array of what `fill` adds up.
-fn array<'py>(
+/// Dense n × n array of the matrix that `fill` adds up.
+fn matrix_array<'py>(
     py: Python<'py>,
     structure: &dyn Structure,
     fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
@@ -107,7 +108,7 @@ fn array<'py>(
                 Some(entry) => *entry += value,
                 None => {
                     return Err(input_error(format!(
-                        "entry ({row}, {column}) of a matrix of order {order}"
+                        "entry ({row}, {column}) is outside a matrix of order {order}"
                     )));
                 }
             }
@@ -127,17 +128,17 @@ impl PyStructure {
     /// Names of the degrees of freedom: list of n texts; None without names.
     #[getter]
     fn dof_names(&self) -> Option<Vec<String>> {
-        self.names.as_ref().map(DofNames::to_vec)
+        self.dof_names.as_ref().map(DofNames::to_vec)
     }
 
     /// The `DofCombination` of the degree of freedom called ``name``, one of `dof_names`.
     fn dof(&self, name: &str) -> PyResult<PyDofCombination> {
-        let names = self.names.as_ref().ok_or_else(|| {
+        let names = self.dof_names.as_ref().ok_or_else(|| {
             input_error(format!(
                 "there is no degree of freedom '{name}': the structure has no dof_names"
             ))
         })?;
-        Ok(DofCombination::from(names.number(name)?).into())
+        Ok(DofCombination::from(names.dof_index(name)?).into())
     }
 
     /// Base of the structure: a list for each foundation, of its `BaseNode` from left to right; in plan
@@ -146,18 +147,18 @@ impl PyStructure {
         python_base(py, (self.make)().or_raise()?.base())
     }
 
-    /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom.
+    /// Mass matrix (n × n array, kg/m); matrices become arrays up to 20 000 degrees of freedom.
     fn mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
+        matrix_array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
     }
 
     /// Stiffness matrix (n × n array, N/m per metre).
     fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), Structure::stiffness)
+        matrix_array(py, (self.make)().or_raise()?.as_ref(), Structure::stiffness)
     }
 
     /// Viscous damping matrix (n × n array, N s/m per metre).
     fn damping<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), Structure::damping)
+        matrix_array(py, (self.make)().or_raise()?.as_ref(), Structure::damping)
     }
 }

@@ -19,11 +19,11 @@ const PART_NAME: &str = "ground";
 pub(crate) struct UserGround {
     object: UserObject,
     elements: Vec<ContactElement>,
-    /// Length of a contact vector.
-    size: usize,
+    /// Length of a contact vector: the number of directions of all elements.
+    vector_length: usize,
     shear_wave_speed: Option<f64>,
     /// Step compliance; empty before `prepare`.
-    step: Vec<f64>,
+    step_compliance: Vec<f64>,
     /// Time step of the simulation: the first for which the ground was prepared, s.
     time_step: Option<f64>,
     /// Displacement at the end of the next step by all tractions so far; `None` after an exception of `advance`.
@@ -44,21 +44,23 @@ impl UserGround {
         let elements = contact_elements(&elements).map_err(|reason| {
             input_error(format!("elements of the ground: {}", reason.value(copy.py())))
         })?;
-        let size = elements.iter().map(|element| element.directions().len()).sum();
-        let speed = copy.getattr_opt("shear_wave_speed")?.filter(|speed| !speed.is_none());
-        let name = "shear_wave_speed of the ground";
+        let vector_length = elements.iter().map(|element| element.directions().len()).sum();
+        let wave_speed = copy.getattr_opt("shear_wave_speed")?.filter(|speed| !speed.is_none());
+        let attribute_name = "shear_wave_speed of the ground";
         Ok(Self {
             object: UserObject::new(&copy, PART_NAME, &["save"])?,
             elements,
-            size,
-            shear_wave_speed: speed.map(|speed| extract_returned(name, &speed)).transpose()?,
-            step: Vec::new(),
+            vector_length,
+            shear_wave_speed: wave_speed
+                .map(|speed| extract_returned(attribute_name, &speed))
+                .transpose()?,
+            step_compliance: Vec::new(),
             time_step: None,
-            history: Some(vec![0.0; size]),
+            history: Some(vec![0.0; vector_length]),
         })
     }
 
-    /// The object that is called.
+    /// The object whose methods are called.
     pub(crate) fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         self.object.bind(py).clone()
     }
@@ -66,13 +68,18 @@ impl UserGround {
     /// Square matrix that a method returns, row by row.
     fn matrix(&self, method: &str, arguments: impl for<'py> PyCallArgs<'py>) -> Result<Vec<f64>> {
         self.object.try_call(|py| {
-            let found = self.object.bind(py).call_method1(method, arguments)?;
-            let Table { columns, rows } = Table::read(&found, "(n, n)")?;
-            let shape = format!("({}, {columns})", rows.len());
-            let needed = format!("({0}, {0})", self.size);
-            let values =
-                self.object.checked_shape(method, "an array", rows.concat(), [shape, needed])?;
-            finite(method, values)
+            let returned_matrix = self.object.bind(py).call_method1(method, arguments)?;
+            let Table { column_count, rows } = Table::read(&returned_matrix, "(n, n)")?;
+            let shape = format!("({}, {column_count})", rows.len());
+            let expected_shape = format!("({0}, {0})", self.vector_length);
+            let values = self.object.checked_shape(
+                method,
+                "an array",
+                rows.concat(),
+                &shape,
+                &expected_shape,
+            )?;
+            check_finite(method, values)
         })
     }
 
@@ -80,14 +87,22 @@ impl UserGround {
     fn advanced(&self, traction: &[f64]) -> PyResult<Vec<f64>> {
         Python::attach(|py| {
             let Numbers(values) = self.object.call(py, "advance", (Array::from(traction),))?;
-            let shapes = [values.len(), self.size].map(|count| format!("({count},)"));
-            finite("advance", self.object.checked_shape("advance", "an array", values, shapes)?)
+            let shape = format!("({},)", values.len());
+            let expected_shape = format!("({},)", self.vector_length);
+            let values = self.object.checked_shape(
+                "advance",
+                "an array",
+                values,
+                &shape,
+                &expected_shape,
+            )?;
+            check_finite("advance", values)
         })
     }
 }
 
-/// The values that a method returned, if they are finite.
-fn finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
+/// The values that a method returned; an error unless all are finite.
+fn check_finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(values),
         Some(value) => Err(input_error(format!(
@@ -96,12 +111,13 @@ fn finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
     }
 }
 
-/// `values` into a slice of the core, if it is as long.
-fn copy(values: &[f64], to: &mut [f64]) -> Result<()> {
-    if values.len() != to.len() {
-        return Err(Error::part(PART_NAME, format!("{} numbers for {}", values.len(), to.len())));
+/// Copies `values` to a slice of the core; an error unless it is as long.
+fn copy_values(values: &[f64], target: &mut [f64]) -> Result<()> {
+    if values.len() != target.len() {
+        let text = format!("{} numbers, but must be {}", values.len(), target.len());
+        return Err(Error::part(PART_NAME, text));
     }
-    to.copy_from_slice(values);
+    target.copy_from_slice(values);
     Ok(())
 }
 
@@ -117,22 +133,26 @@ impl Ground for UserGround {
         _observer: &mut Observer<'_>,
     ) -> Result<()> {
         if *self.time_step.get_or_insert(time_step) == time_step {
-            self.step = self.matrix("step_compliance", (time_step,))?;
+            self.step_compliance = self.matrix("step_compliance", (time_step,))?;
         } else {
-            // A trial of `build` with a shorter step, which the ground need not have: its exception is not the run's.
-            self.step = discard_exceptions(|| self.matrix("step_compliance", (time_step,)))?;
+            // The core tries a shorter step, which the ground may reject: an exception does not end the run.
+            self.step_compliance =
+                discard_exceptions(|| self.matrix("step_compliance", (time_step,)))?;
         }
-        self.history = Some(vec![0.0; self.size]);
+        self.history = Some(vec![0.0; self.vector_length]);
         Ok(())
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        copy(&self.step, matrix)
+        copy_values(&self.step_compliance, matrix)
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let lost = "`advance` failed after the last step: resume an earlier checkpoint";
-        copy(self.history.as_ref().ok_or_else(|| Error::part(PART_NAME, lost))?, displacement)
+        let Some(history) = &self.history else {
+            let text = "`advance` failed after the last step: resume an earlier checkpoint";
+            return Err(Error::part(PART_NAME, text));
+        };
+        copy_values(history, displacement)
     }
 
     fn commit(&mut self, traction: &[f64]) {
@@ -141,7 +161,7 @@ impl Ground for UserGround {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        copy(&self.matrix("static_compliance", ())?, matrix)
+        copy_values(&self.matrix("static_compliance", ())?, matrix)
     }
 
     fn description(&self) -> GroundDescription {
@@ -157,7 +177,7 @@ impl Ground for UserGround {
     }
 
     fn restore(&mut self, _steps: usize, values: &[f64]) -> Result<()> {
-        let Some((history, variables)) = values.split_at_checked(self.size) else {
+        let Some((history, variables)) = values.split_at_checked(self.vector_length) else {
             return Err(CheckpointError::Corrupt { quantity: "state of the ground" }.into());
         };
         let arguments = (Array::from(variables),);

@@ -18,10 +18,10 @@ use crate::recipe::Recipe;
 /// Name of this kind of part in errors.
 const PART_NAME: &str = "hysteresis";
 
-/// Deformation that a difference quotient steps over, relative to the deformation.
+/// Step of a difference quotient, relative to the deformation: about the cube root of the rounding unit.
 const RELATIVE_STEP: f64 = 1e-6;
 
-/// Smallest deformation from which that step is taken, m.
+/// Smallest deformation to which that step is relative, m: the step is then 1 nm.
 const MIN_STEP_DEFORMATION: f64 = 1e-3;
 
 thread_local! {
@@ -35,7 +35,7 @@ pub(crate) fn take_made_springs() -> Vec<Py<PyAny>> {
 }
 
 /// The recipe of springs that are copies of `object`, if it has `force(deformation)`.
-pub(crate) fn hysteresis(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hysteresis>> {
+pub(crate) fn hysteresis_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hysteresis>> {
     if object.is_instance_of::<PyType>() || !object.hasattr("force")? {
         return Err(input_error(format!(
             "{} is no hysteresis: it must be a Hysteresis or an object with a method `force`",
@@ -44,8 +44,8 @@ pub(crate) fn hysteresis(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hyste
     }
     let object = object.clone().unbind();
     Ok(Arc::new(move || {
-        let made = Python::attach(|py| UserHysteresis::new(object.bind(py)));
-        Ok(Box::new(made.map_err(|error| user_code_error(PART_NAME, error))?))
+        let spring = Python::attach(|py| UserHysteresis::new(object.bind(py)));
+        Ok(Box::new(spring.map_err(|error| user_code_error(PART_NAME, error))?))
     }))
 }
 
@@ -55,12 +55,22 @@ pub(crate) fn hysteresis(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Hyste
 /// After an exception the methods return NaN, which ends the step.
 struct UserHysteresis {
     object: UserObject,
-    /// Deformation (m) and force (N/m) of the last committed step, and the work done until then (J/m).
-    committed: [f64; 3],
+    committed: CommittedState,
     /// Initial stiffness, N/m: that of unloading, if the object does not return its energy.
     stiffness: f64,
     /// The deformation of the last call of `response`, and its result.
-    last: Cell<Option<(f64, SpringResponse)>>,
+    last_response: Cell<Option<(f64, SpringResponse)>>,
+}
+
+/// A spring at the end of the last committed step.
+#[derive(Clone, Copy, Default)]
+struct CommittedState {
+    /// Deformation, m.
+    deformation: f64,
+    /// Force, N/m.
+    force: f64,
+    /// Work done since the start, J/m.
+    work: f64,
 }
 
 impl UserHysteresis {
@@ -68,75 +78,85 @@ impl UserHysteresis {
         let copy = deep_copy(object)?;
         let optional = ["tangent", "energy", "commit", "save"];
         let object = UserObject::new(&copy, PART_NAME, &optional)?;
-        let last = Cell::new(None);
-        let mut spring = Self { object, committed: [0.0; 3], stiffness: 0.0, last };
-        let initial = spring.respond(copy.py(), 0.0)?;
-        spring.committed[1] = initial.force;
-        spring.stiffness = initial.tangent;
-        spring.last.set(Some((0.0, initial)));
+        let mut spring = Self {
+            object,
+            committed: CommittedState::default(),
+            stiffness: 0.0,
+            last_response: Cell::new(None),
+        };
+        let initial_response = spring.new_response(copy.py(), 0.0)?;
+        spring.committed.force = initial_response.force;
+        spring.stiffness = initial_response.tangent;
+        spring.last_response.set(Some((0.0, initial_response)));
         MADE_SPRINGS.with_borrow_mut(|springs| springs.push(copy.unbind()));
         Ok(spring)
     }
 
     /// The number that a method returns for a deformation.
-    fn number(&self, py: Python<'_>, method: &str, deformation: f64) -> PyResult<f64> {
-        let found = self.object.bind(py).call_method1(method, (deformation,))?;
-        real_number(&format!("{method} of the hysteresis"), &found)
+    fn call_number(&self, py: Python<'_>, method: &str, deformation: f64) -> PyResult<f64> {
+        let returned_value = self.object.bind(py).call_method1(method, (deformation,))?;
+        real_number(&format!("{method} of the hysteresis"), &returned_value)
     }
 
-    fn respond(&self, py: Python<'_>, deformation: f64) -> PyResult<SpringResponse> {
-        let force = self.number(py, "force", deformation)?;
+    /// Force and tangent at a deformation; without `tangent` by a central difference.
+    fn new_response(&self, py: Python<'_>, deformation: f64) -> PyResult<SpringResponse> {
+        let force = self.call_number(py, "force", deformation)?;
         let tangent = if self.object.has("tangent") {
-            self.number(py, "tangent", deformation)?
+            self.call_number(py, "tangent", deformation)?
         } else {
-            let step = RELATIVE_STEP * deformation.abs().max(MIN_STEP_DEFORMATION);
-            let low = deformation - step;
-            let high = deformation + step;
-            (self.number(py, "force", high)? - self.number(py, "force", low)?) / (high - low)
+            let deformation_step = RELATIVE_STEP * deformation.abs().max(MIN_STEP_DEFORMATION);
+            let lower_deformation = deformation - deformation_step;
+            let upper_deformation = deformation + deformation_step;
+            (self.call_number(py, "force", upper_deformation)?
+                - self.call_number(py, "force", lower_deformation)?)
+                / (upper_deformation - lower_deformation)
         };
         Ok(SpringResponse { force, tangent })
     }
 
     /// Work done until `deformation`, by the trapezoidal rule over steps.
-    fn work(&self, deformation: f64) -> f64 {
-        let [start, start_force, start_work] = self.committed;
-        start_work + 0.5 * (start_force + self.response(deformation).force) * (deformation - start)
+    fn work_until(&self, deformation: f64) -> f64 {
+        let start = self.committed;
+        let mean_force = 0.5 * (start.force + self.response(deformation).force);
+        start.work + mean_force * (deformation - start.deformation)
     }
 }
 
 impl Hysteresis for UserHysteresis {
     fn response(&self, deformation: f64) -> SpringResponse {
-        if let Some((at, response)) = self.last.get()
-            && at.to_bits() == deformation.to_bits()
+        if let Some((last_deformation, response)) = self.last_response.get()
+            && last_deformation.to_bits() == deformation.to_bits()
         {
             return response;
         }
-        let undefined = SpringResponse { force: f64::NAN, tangent: f64::NAN };
-        let response = call_unless_raised(undefined, |py| self.respond(py, deformation));
-        self.last.set(Some((deformation, response)));
+        let undefined_response = SpringResponse { force: f64::NAN, tangent: f64::NAN };
+        let response =
+            call_unless_raised(undefined_response, |py| self.new_response(py, deformation));
+        self.last_response.set(Some((deformation, response)));
         response
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
         self.object.energy((deformation,)).unwrap_or_else(|| {
-            let work = self.work(deformation);
+            let work = self.work_until(deformation);
             let force = self.response(deformation).force;
-            let elastic = 0.5 * force * force / self.stiffness;
+            let elastic_energy = 0.5 * force * force / self.stiffness;
             let is_elastic = !self.object.has("commit") || self.stiffness <= 0.0;
-            let stored = if is_elastic { work } else { elastic.min(work) };
+            let stored = if is_elastic { work } else { elastic_energy.min(work) };
             InternalEnergy { stored, dissipated: work - stored }
         })
     }
 
     fn commit(&mut self, deformation: f64) {
-        let work = self.work(deformation);
-        self.committed = [deformation, self.response(deformation).force, work];
+        let work = self.work_until(deformation);
+        let force = self.response(deformation).force;
+        self.committed = CommittedState { deformation, force, work };
         if self.object.has("commit") {
             // The step is already accepted: the exception ends the run after it.
             call_unless_raised((), |py| {
                 self.object.bind(py).call_method1("commit", (deformation,)).map(|_| ())
             });
-            self.last.set(None);
+            self.last_response.set(None);
         }
     }
 
@@ -145,11 +165,12 @@ impl Hysteresis for UserHysteresis {
             store_exception(to_exception(error));
             Vec::new()
         });
-        [&self.committed[..], &variables].concat()
+        let CommittedState { deformation, force, work } = self.committed;
+        [&[deformation, force, work], &variables[..]].concat()
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let Some((committed, variables)) = values.split_first_chunk() else {
+        let Some((&[deformation, force, work], variables)) = values.split_first_chunk() else {
             return Err(
                 CheckpointError::Corrupt { quantity: "state of a hysteretic spring" }.into()
             );
@@ -160,16 +181,16 @@ impl Hysteresis for UserHysteresis {
                 self.object.bind(py).call_method1("restore", (variables,)).map(|_| ())
             })?;
         }
-        self.committed = *committed;
-        self.last.set(None);
+        self.committed = CommittedState { deformation, force, work };
+        self.last_response.set(None);
         Ok(())
     }
 
     fn clone_box(&self) -> Box<dyn Hysteresis> {
-        // An object that cannot be copied is shared, and its error ends the step.
+        // If the copy fails, both springs have the same object, and the stored exception ends the step.
         let object = call_unless_raised(self.object.clone(), |py| {
-            Ok(self.object.with(deep_copy(self.object.bind(py))?))
+            Ok(self.object.with_object(deep_copy(self.object.bind(py))?))
         });
-        Box::new(Self { object, last: Cell::new(None), ..*self })
+        Box::new(Self { object, last_response: Cell::new(None), ..*self })
     }
 }

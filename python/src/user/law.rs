@@ -11,7 +11,7 @@ use super::object::{UserObject, call_unless_raised};
 use super::{PyContactState, PyLimits, PyPreviousContact};
 use crate::array::{Count, Numbers};
 use crate::error::{extract_returned, has_stored_exception, input_error};
-use crate::names::{mode, mode_name};
+use crate::names::{mode_name, parse_mode};
 
 /// One linear condition on an element at the end of a step:
 /// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
@@ -76,15 +76,15 @@ impl PyCondition {
         self.0.shear
     }
 
-    /// Right-hand side: m or Pa where the coefficient is a number.
+    /// Right-hand side; in m or Pa if the coefficients have no unit.
     #[getter]
     fn value(&self) -> f64 {
         self.0.value
     }
 }
 
-/// Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
-/// pressure and shear (Pa).
+/// Differences below which a law treats numbers as equal: ``length`` of gaps and slips (m), ``traction`` of pressure
+/// and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyTolerance(pub(crate) Tolerance);
@@ -125,9 +125,9 @@ pub(crate) struct UserLaw {
 }
 
 /// The limits of a law; modes and conditions in the plane follow from them, by the defaults of the trait.
-struct LimitsOf<'a>(&'a UserLaw);
+struct LimitLaw<'a>(&'a UserLaw);
 
-impl InterfaceLaw for LimitsOf<'_> {
+impl InterfaceLaw for LimitLaw<'_> {
     fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
         self.0.limits(start)
     }
@@ -167,7 +167,7 @@ impl UserLaw {
         };
         for method in ["initial_state_variables", "commit"] {
             if state_variables == 0 && object.has(method) {
-                let text = "but no `state_variables`, the count of numbers that it returns";
+                let text = "but no `state_variables`, the number of values that it returns";
                 return Err(input_error(format!("the law has `{method}`, {text}")));
             }
         }
@@ -177,30 +177,32 @@ impl UserLaw {
             let names =
                 law.getattr_opt("modes")?.ok_or_else(|| input_error("the law has no `modes`"))?;
             let names: Vec<String> = extract_returned("modes of the interface law", &names)?;
-            names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?
+            names.iter().map(|name| parse_mode(name)).collect::<PyResult<_>>()?
         } else {
-            LimitsOf(&user_law).modes().to_vec()
+            LimitLaw(&user_law).modes().to_vec()
         };
         Ok(user_law)
     }
 
-    /// Replaces the state variables by what a method returns, if it is as long.
+    /// Replaces the state variables by the numbers that a method returns, which must be as many.
     fn update_state_variables<A: for<'py> PyCallArgs<'py>>(
         &self,
         method: &str,
         arguments: impl FnOnce(Python<'_>) -> PyResult<A>,
         state_variables: &mut [f64],
     ) {
-        let count = state_variables.len();
-        let found = call_unless_raised(None, |py| {
+        let variable_count = state_variables.len();
+        let returned_values = call_unless_raised(None, |py| {
             let Numbers(values) = self.object.call(py, method, arguments(py)?)?;
-            if values.len() == count {
+            if values.len() == variable_count {
                 return Ok(Some(values));
             }
-            let text = format!("the law remembers {count} numbers, but returned {}", values.len());
-            Err(input_error(text))
+            let value_count = values.len();
+            Err(input_error(format!(
+                "the law has {variable_count} state variables, but returned {value_count} numbers"
+            )))
         });
-        match found {
+        match returned_values {
             Some(values) => state_variables.copy_from_slice(&values),
             None => state_variables.fill(f64::NAN),
         }
@@ -219,7 +221,7 @@ impl InterfaceLaw for UserLaw {
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
         if !self.object.has("conditions") {
-            return LimitsOf(self).conditions(mode, start);
+            return LimitLaw(self).conditions(mode, start);
         }
         call_unless_raised([UNDEFINED_CONDITION; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
@@ -237,14 +239,14 @@ impl InterfaceLaw for UserLaw {
         tolerance: Tolerance,
     ) -> Mode {
         if !self.object.has("conditions") {
-            return LimitsOf(self).next_mode(mode, start, trial, tolerance);
+            return LimitLaw(self).next_mode(mode, start, trial, tolerance);
         }
         call_unless_raised(mode, |py| {
             let start = PyPreviousContact::from_core(py, start)?;
             let arguments =
                 (mode_name(mode), start, PyContactState(*trial), PyTolerance(tolerance));
-            let next: String = self.object.call(py, "next_mode", arguments)?;
-            crate::names::mode(&next)
+            let next_name: String = self.object.call(py, "next_mode", arguments)?;
+            parse_mode(&next_name)
         })
     }
 
@@ -252,7 +254,7 @@ impl InterfaceLaw for UserLaw {
         if self.object.has("conditions") {
             Ok(())
         } else {
-            LimitsOf(self).check_start(start)
+            LimitLaw(self).check_start(start)
         }
     }
 
@@ -302,18 +304,18 @@ impl InterfaceLaw for UserLaw {
 
     fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
         if !self.object.has("limits") {
-            // No exception of user code: the core also calls this for laws of the plane, which may have none.
+            // This stores no exception: the core also calls it for laws of the plane, which need no `limits`.
             let name = Python::attach(|py| {
                 let name = self.object.bind(py).get_type().name();
                 name.map_or_else(|_| "interface law".into(), |name| name.to_string())
             });
-            let reason = "it has no method `limits`, to act on a ground in plan";
+            let reason = "it has no method `limits`, which a ground in plan needs";
             return Err(basemat::Error::part(name, reason));
         }
         self.object.try_call(|py| {
             let start = (PyPreviousContact::from_core(py, start)?,);
-            let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
-            Ok(found.get().0)
+            let limits: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
+            Ok(limits.get().0)
         })
     }
 
@@ -325,8 +327,8 @@ impl InterfaceLaw for UserLaw {
         if !self.object.has("check") {
             return Ok(());
         }
-        let numbers = (scene.gravity, scene.time_step);
+        let arguments = (scene.gravity, scene.time_step);
         self.object
-            .try_call(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
+            .try_call(|py| self.object.bind(py).call_method1("check", arguments).map(|_| ()))
     }
 }

@@ -1,4 +1,4 @@
-//! Parts that users write in Python. The core calls them without the GIL, which is taken here.
+//! Parts that users write in Python. The core calls them without the GIL; these wrappers acquire it.
 
 mod ground;
 mod hysteresis;
@@ -8,7 +8,7 @@ mod previous_contact;
 mod structure;
 
 pub(crate) use ground::UserGround;
-pub(crate) use hysteresis::{hysteresis, take_made_springs};
+pub(crate) use hysteresis::{hysteresis_recipe, take_made_springs};
 pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
 pub(crate) use previous_contact::{PyContactState, PyLimits, PyPreviousContact};
 pub(crate) use structure::UserStructure;

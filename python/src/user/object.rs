@@ -38,7 +38,7 @@ impl UserObject {
     }
 
     /// Replaces the object by another one of the same class.
-    pub(super) fn with(&self, object: Bound<'_, PyAny>) -> Self {
+    pub(super) fn with_object(&self, object: Bound<'_, PyAny>) -> Self {
         Self { object: Arc::new(object.unbind()), ..self.clone() }
     }
 
@@ -46,6 +46,7 @@ impl UserObject {
         self.object.bind(py)
     }
 
+    /// Whether the object has this optional method.
     pub(super) fn has(&self, method: &str) -> bool {
         self.methods.contains(&method)
     }
@@ -60,24 +61,29 @@ impl UserObject {
     where
         T: for<'a> FromPyObject<'a, 'py>,
     {
-        let found = self.bind(py).call_method1(method, arguments)?;
-        found
-            .extract()
-            .or_else(|_| extract_returned(&format!("{method} of the {}", self.part), &found))
+        let returned_value = self.bind(py).call_method1(method, arguments)?;
+        returned_value.extract().or_else(|_| {
+            extract_returned(&format!("{method} of the {}", self.part), &returned_value)
+        })
     }
 
-    /// Value returned by a method, if its shape is the one that is needed.
+    /// Value that a method returned; an error unless its shape is the expected one.
+    ///
+    /// `value_kind`: "an array" or "a matrix", for the error.
     pub(super) fn checked_shape<T>(
         &self,
         method: &str,
-        kind: &str,
+        value_kind: &str,
         value: T,
-        [shape, needed]: [String; 2],
+        shape: &str,
+        expected_shape: &str,
     ) -> PyResult<T> {
-        if shape == needed {
+        if shape == expected_shape {
             return Ok(value);
         }
-        let text = format!("returned {kind} of shape {shape}, but must return one of {needed}");
+        let text = format!(
+            "returned {value_kind} of shape {shape}, but must return one of {expected_shape}"
+        );
         Err(input_error(format!("{method} of the {} {text}", self.part)))
     }
 
@@ -94,7 +100,7 @@ impl UserObject {
         Some(InternalEnergy { stored: energies.0, dissipated: energies.1 })
     }
 
-    /// Internal variables by the method `save`; an error for an object that has some and no such method.
+    /// Internal variables by the method `save`; an error for an object with `commit` but no `save`.
     pub(super) fn saved_variables(&self) -> basemat::Result<Vec<f64>> {
         if self.has("save") {
             return self.try_call(|py| Ok(self.call::<Numbers>(py, "save", ())?.0));

@@ -63,11 +63,11 @@ impl PyContactState {
     }
 }
 
-/// An element at the start of a step: its `ContactState`, and the rest of its past.
+/// An element at the start of a step: its `ContactState` and its history.
 ///
-/// A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
-/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by
-/// default) and the law's ``state_variables`` (array of shape (m,); none unless given).
+/// To try a law without a simulation, create one from a ``state`` (`ContactState`), its ``mode``, the ``time_step``
+/// (s), the ``slip_rate`` (m/s; 0 by default), the ``trial_settlement`` (m; 0 by default) and the law's
+/// ``state_variables`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
     /// Previous contact, without the law's state variables.
@@ -76,6 +76,7 @@ pub(crate) struct PyPreviousContact {
 }
 
 impl PyPreviousContact {
+    /// The object of Python for a previous contact of the core.
     pub(crate) fn from_core(py: Python<'_>, start: &PreviousContact<'_>) -> PyResult<Py<Self>> {
         let mut previous = PreviousContact::new(start.state, start.mode, start.time_step);
         previous.has_opened = start.has_opened;
@@ -83,11 +84,11 @@ impl PyPreviousContact {
         previous.static_pressure = start.static_pressure;
         previous.trial_settlement = start.trial_settlement;
         let state_variables = start.state_variables.to_vec();
-        let base = PyClassInitializer::from(PyContactState(start.state));
-        Py::new(py, base.add_subclass(Self { previous, state_variables }))
+        let superclass = PyClassInitializer::from(PyContactState(start.state));
+        Py::new(py, superclass.add_subclass(Self { previous, state_variables }))
     }
 
-    /// Previous contact as a law of the core takes it.
+    /// Previous contact as an argument of a law of the core.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
         let mut start = self.previous;
         start.state_variables = &self.state_variables;
@@ -107,12 +108,13 @@ impl PyPreviousContact {
         trial_settlement: f64,
         state_variables: Option<Numbers>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mut previous = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        let mut previous =
+            PreviousContact::new(state.0, crate::names::parse_mode(mode)?, time_step);
         previous.slip_rate = slip_rate;
         previous.trial_settlement = trial_settlement;
         let state_variables = state_variables.map_or_else(Vec::new, |numbers| numbers.0);
-        let base = PyClassInitializer::from(PyContactState(state.0));
-        Ok(base.add_subclass(Self { previous, state_variables }))
+        let superclass = PyClassInitializer::from(PyContactState(state.0));
+        Ok(superclass.add_subclass(Self { previous, state_variables }))
     }
 
     /// Mode of the step before, as in `basemat.MODES`.
@@ -121,7 +123,7 @@ impl PyPreviousContact {
         mode_name(self.previous.mode)
     }
 
-    /// Whether the element has been open.
+    /// Whether the element was open at any time before.
     #[getter]
     fn has_opened(&self) -> bool {
         self.previous.has_opened
@@ -147,8 +149,8 @@ impl PyPreviousContact {
 
     /// Settlement of the yielding soil in the present trial of the step, m; 0 in its first trial.
     ///
-    /// A law whose pressure is a curve over the settlement returns the curve's tangent there, as ``pressure_cap`` and
-    /// ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
+    /// A law whose pressure is a curve over the settlement returns the tangent of the curve at this settlement, as
+    /// ``pressure_cap`` and ``hardening`` of its `Limits`; the step is solved again until the pressure is on the curve.
     #[getter]
     fn trial_settlement(&self) -> f64 {
         self.previous.trial_settlement

@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use super::object::{UserObject, deep_copy};
 use crate::array::{Array, Count, Matrix, Numbers};
 use crate::base_node::BaseLike;
-use crate::dof_names::DofNames;
 use crate::error::{extract_returned, store_exception};
+use crate::names::DofNames;
 
 /// Name of this kind of part in errors.
 const PART_NAME: &str = "structure";
@@ -22,10 +22,10 @@ pub(crate) struct UserStructure {
     object: UserObject,
     dofs: usize,
     base: Base,
-    names: Option<DofNames>,
-    active_damping: bool,
-    active_stiffness: bool,
-    nonlinear: bool,
+    dof_names: Option<DofNames>,
+    has_active_damping: bool,
+    has_active_stiffness: bool,
+    is_nonlinear: bool,
 }
 
 impl UserStructure {
@@ -33,8 +33,8 @@ impl UserStructure {
     /// simulations do not share its internal variables.
     pub(crate) fn new(structure: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = structure.py();
-        let nonlinear = structure.hasattr("force")?;
-        let copy = if nonlinear { deep_copy(structure)? } else { structure.clone() };
+        let is_nonlinear = structure.hasattr("force")?;
+        let copy = if is_nonlinear { deep_copy(structure)? } else { structure.clone() };
         let object = UserObject::new(&copy, PART_NAME, &OPTIONAL_METHODS)?;
         let dofs = copy.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
@@ -42,11 +42,11 @@ impl UserStructure {
         let base: BaseLike = object.call(py, "base", ())?;
         Ok(Self {
             dofs,
-            names: DofNames::from_structure(&copy, dofs)?,
+            dof_names: DofNames::from_structure(&copy, dofs)?,
             base: base.of_structure(dofs)?,
-            active_damping: is_set(&copy, "active_damping")?,
-            active_stiffness: is_set(&copy, "active_stiffness")?,
-            nonlinear,
+            has_active_damping: is_set(&copy, "active_damping")?,
+            has_active_stiffness: is_set(&copy, "active_stiffness")?,
+            is_nonlinear,
             object,
         })
     }
@@ -63,12 +63,13 @@ impl UserStructure {
         arguments: impl for<'py> PyCallArgs<'py>,
         matrix: &mut Triplets,
     ) -> Result<()> {
-        let found = self.object.try_call(|py| {
-            let Matrix(found) = self.object.call(py, method, arguments)?;
-            let shapes = [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
-            self.object.checked_shape(method, "a matrix", found, shapes)
+        let triplets = self.object.try_call(|py| {
+            let Matrix(triplets) = self.object.call(py, method, arguments)?;
+            let shape = format!("({0}, {0})", triplets.order());
+            let expected_shape = format!("({0}, {0})", self.dofs);
+            self.object.checked_shape(method, "a matrix", triplets, &shape, &expected_shape)
         });
-        for &(row, column, value) in found?.entries() {
+        for &(row, column, value) in triplets?.entries() {
             matrix.add(row, column, value);
         }
         Ok(())
@@ -81,12 +82,13 @@ impl UserStructure {
         arguments: impl for<'py> PyCallArgs<'py>,
         sum: &mut [f64],
     ) -> Result<()> {
-        let found = self.object.try_call(|py| {
-            let Numbers(found) = self.object.call(py, method, arguments)?;
-            let shapes = [found.len(), sum.len()].map(|count| format!("({count},)"));
-            self.object.checked_shape(method, "an array", found, shapes)
+        let terms = self.object.try_call(|py| {
+            let Numbers(terms) = self.object.call(py, method, arguments)?;
+            let shape = format!("({},)", terms.len());
+            let expected_shape = format!("({},)", sum.len());
+            self.object.checked_shape(method, "an array", terms, &shape, &expected_shape)
         });
-        sum.iter_mut().zip(found?).for_each(|(sum, value)| *sum += value);
+        sum.iter_mut().zip(terms?).for_each(|(sum, term)| *sum += term);
         Ok(())
     }
 }
@@ -121,15 +123,15 @@ impl Structure for UserStructure {
     }
 
     fn has_active_damping(&self) -> bool {
-        self.active_damping
+        self.has_active_damping
     }
 
     fn has_active_stiffness(&self) -> bool {
-        self.active_stiffness
+        self.has_active_stiffness
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        self.names.as_ref()?.describe(dofs)
+        self.dof_names.as_ref()?.describe(dofs)
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
@@ -140,11 +142,11 @@ impl Structure for UserStructure {
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
-        self.nonlinear.then_some(self)
+        self.is_nonlinear.then_some(self)
     }
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
-        if self.nonlinear { Some(self) } else { None }
+        if self.is_nonlinear { Some(self) } else { None }
     }
 }
 
@@ -165,11 +167,11 @@ impl NonlinearForce for UserStructure {
     fn commit(&mut self, displacement: &[f64]) {
         if self.object.has("commit") {
             let argument = (Array::from(displacement),);
-            let done = Python::attach(|py| {
+            let result = Python::attach(|py| {
                 self.object.bind(py).call_method1("commit", argument).map(|_| ())
             });
             // The step is already accepted: the exception ends the run after it.
-            done.unwrap_or_else(store_exception);
+            result.unwrap_or_else(store_exception);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Results and small values as bytes, for pickles and files.
+//! Pickling of results and small values as bytes.
 
 use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
@@ -21,47 +21,49 @@ use crate::simulation::{PyFaceForces, PyFoundation};
 use crate::soil::PySoil;
 use crate::user::{PyCondition, PyLimits, PyTolerance};
 
-/// The function that makes a result again, the name of its class, and its bytes.
-type Reduced<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
+/// The function that restores an object, the name of its class, and its bytes.
+type ReducedObject<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
 
-fn reduced<'py, T>(object: &Bound<'py, T>) -> PyResult<Reduced<'py>>
+/// What a pickle stores of an object.
+fn reduced_object<'py, T>(object: &Bound<'py, T>) -> PyResult<ReducedObject<'py>>
 where
     T: PyClass<Frozen = True> + Serialize + Sync,
 {
     let py = object.py();
-    let written = postcard::to_allocvec(object.get());
-    let written = written.map_err(|error| input_error(format!("{}: {error}", T::NAME)))?;
-    let restored = py.import("basemat._core")?.getattr("_restored")?;
-    Ok((restored, (T::NAME, PyBytes::new(py, &written))))
+    let encoded = postcard::to_allocvec(object.get());
+    let bytes = encoded.map_err(|error| input_error(format!("{}: {error}", T::NAME)))?;
+    let restore = py.import("basemat._core")?.getattr("_restored")?;
+    Ok((restore, (T::NAME, PyBytes::new(py, &bytes))))
 }
 
-fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
-    let read = postcard::from_bytes(data);
-    read.map_err(|error| input_error(format!("these bytes are no {}: {error}", T::NAME)))
+/// The object of a class from its bytes.
+fn decode<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
+    let decoded = postcard::from_bytes(data);
+    decoded.map_err(|error| input_error(format!("these bytes are not a {}: {error}", T::NAME)))
 }
 
 /// Classes that pickle.
-macro_rules! results {
+macro_rules! pickled_classes {
     ($($class:ident)+) => {
         $(#[pymethods]
         impl $class {
-            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-                reduced(slf)
+            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<ReducedObject<'py>> {
+                reduced_object(slf)
             }
         })+
 
-        /// The result of the class ``kind`` from the bytes ``data`` that its pickle holds.
+        /// The object of the class ``kind`` from the bytes ``data`` of its pickle.
         #[pyfunction(name = "_restored")]
         pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<PyAny>> {
             match kind {
-                $(<$class as PyClass>::NAME => read::<$class>(data)?.into_py_any(py),)+
-                _ => Err(input_error(format!("kind is '{kind}', which is not kept as bytes"))),
+                $(<$class as PyClass>::NAME => decode::<$class>(data)?.into_py_any(py),)+
+                _ => Err(input_error(format!("kind is '{kind}', but must be a class that pickles"))),
             }
         }
     };
 }
 
-results! {
+pickled_classes! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
     PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode PyFaceForces PyKinematicMotions
     PySoil PyBaseNode PyBaseFaces PyDofCombination PyCondition PyLimits PyTolerance

@@ -1,4 +1,4 @@
-//! Arguments that are lists of objects of a class or lists of pairs, with errors that name the type found.
+//! Arguments that are lists of objects of a class or lists of pairs, with errors that name the type of the argument.
 
 use std::ops::Deref;
 
@@ -34,16 +34,19 @@ impl<'py, T: PyClass> FromPyObject<'_, 'py> for ListOf<'py, T> {
         if let Ok(entry) = object.cast::<T>() {
             return Ok(Self(vec![entry.to_owned()]));
         }
-        let name = <T as PyTypeInfo>::type_object(object.py()).name()?;
-        let needed = format!("a list of {name}");
+        let class_name = <T as PyTypeInfo>::type_object(object.py()).name()?;
+        let requirement = format!("a list of {class_name}");
         if object.is_instance_of::<PyDict>() {
-            return Err(type_error(&object, &format!("{needed} without keys: list(….values())")));
+            return Err(type_error(
+                &object,
+                &format!("{requirement} without keys: list(….values())"),
+            ));
         }
-        let entries = object.try_iter().map_err(|_| type_error(&object, &needed))?;
+        let entries = object.try_iter().map_err(|_| type_error(&object, &requirement))?;
         let mut objects = Vec::new();
         for entry in entries {
             let entry = entry?;
-            objects.push(entry.cast::<T>().map_err(|_| type_error(&entry, &needed))?.clone());
+            objects.push(entry.cast::<T>().map_err(|_| type_error(&entry, &requirement))?.clone());
         }
         Ok(Self(objects))
     }
@@ -58,35 +61,39 @@ impl<'py, A: FromPyObjectOwned<'py>, B: FromPyObjectOwned<'py>> FromPyObject<'_,
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let needed = "a list of pairs (a, b)";
-        let entries = object.try_iter().map_err(|_| type_error(&object, needed))?;
+        let requirement = "a list of pairs (a, b)";
+        let entries = object.try_iter().map_err(|_| type_error(&object, requirement))?;
         let mut pairs = Vec::new();
         for entry in entries {
             let entry = entry?;
-            let is_pair = entry.len().is_ok_and(|length| length == 2);
+            let is_pair = entry.len().is_ok_and(|item_count| item_count == 2);
             let items = is_pair.then(|| (entry.get_item(0), entry.get_item(1)));
-            let Some((Ok(first), Ok(second))) = items else {
+            let Some((Ok(first_item), Ok(second_item))) = items else {
                 return Err(type_error(&entry, "a pair (a, b) of a list of pairs"));
             };
-            let first = first.extract().map_err(Into::into)?;
-            pairs.push((first, second.extract().map_err(Into::into)?));
+            let first_value = first_item.extract().map_err(Into::into)?;
+            let second_value = second_item.extract().map_err(Into::into)?;
+            pairs.push((first_value, second_value));
         }
         Ok(Self(pairs))
     }
 }
 
-/// The error of an argument of another type than `needed`.
-pub(crate) fn type_error(object: &Bound<'_, PyAny>, needed: &str) -> PyErr {
+/// Error for an argument whose type is not the required one.
+pub(crate) fn type_error(object: &Bound<'_, PyAny>, requirement: &str) -> PyErr {
     if let Err(error) = reject_class(object) {
         return error;
     }
-    let found = object.get_type().name().map_or_else(|_| "object".into(), |name| name.to_string());
-    PyTypeError::new_err(format!("of the type {found}, but must be {needed}"))
+    let type_name =
+        object.get_type().name().map_or_else(|_| "object".into(), |name| name.to_string());
+    PyTypeError::new_err(format!("of the type {type_name}, but must be {requirement}"))
 }
 
 /// Error for a class in place of one of its objects.
 pub(crate) fn reject_class(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let Ok(class) = object.cast::<PyType>() else { return Ok(()) };
-    let name = class.name()?;
-    Err(input_error(format!("the class {name} itself, but must be an object of it: {name}(…)")))
+    let class_name = class.name()?;
+    Err(input_error(format!(
+        "the class {class_name} itself, but must be an object of it: {class_name}(…)"
+    )))
 }
