@@ -30,6 +30,15 @@ const MAX_PANEL_COUNT: f64 = 65_536.0;
 /// Largest number of panels required by short elements.
 const MAX_PANELS_FOR_SHORT: f64 = 100.0;
 
+/// Lengths of a patch that determine the surrogate of its compliances, m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SurrogateLengths {
+    /// Length of the shortest element.
+    pub(crate) min_element_length: f64,
+    /// Length of the patch.
+    pub(crate) span: f64,
+}
+
 /// Element compliances F(s) of classes of pairs, with several kinds for each class.
 pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
     /// Workspace of one thread.
@@ -63,6 +72,15 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
         values: &mut [[Complex; STRIP_KINDS]],
     ) -> Result<()>;
 
+    /// Lengths of the patch for which [`append_surrogate`](Self::append_surrogate) computes waves.
+    fn surrogate_lengths(&self) -> SurrogateLengths;
+
+    /// Surface compliance in the workspace.
+    fn surface_compliance(workspace: &mut Self::Workspace) -> &mut LayeredCompliance;
+
+    /// Counts evaluations of the surface compliance, if the workspace has a counter.
+    fn count_evaluations(_workspace: &mut Self::Workspace, _evaluation_count: usize) {}
+
     /// Appends the surface compliance at a few wavenumbers, a cheap substitute for the compliances at `s`.
     ///
     /// [`SURROGATE_COMPONENTS`] numbers each, in a hundredth of the time.
@@ -73,9 +91,16 @@ pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Self::Workspace,
+        workspace: &mut Self::Workspace,
         values: &mut Vec<Complex>,
-    ) -> Result<()>;
+    ) -> Result<()> {
+        let compliance = Self::surface_compliance(workspace);
+        compliance.set(profile, s)?;
+        let lengths = self.surrogate_lengths();
+        let evaluation_count = append_surface_surrogate(profile, compliance, lengths, values);
+        Self::count_evaluations(workspace, evaluation_count);
+        Ok(())
+    }
 }
 
 /// Wavenumbers of an outlook, times the length of the patch.
@@ -146,32 +171,29 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
         Ok(())
     }
 
-    /// Appends the surface compliance at small wavenumbers, and for waves along the shortest element and the
-    /// patch.
-    fn append_surrogate(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        work: &mut Self::Workspace,
-        values: &mut Vec<Complex>,
-    ) -> Result<()> {
-        work.compliance.set(profile, s)?;
-        let lengths = [self.shortest, self.span];
-        work.panels.evaluations +=
-            append_surface_surrogate(profile, &mut work.compliance, lengths, values);
-        Ok(())
+    fn surrogate_lengths(&self) -> SurrogateLengths {
+        SurrogateLengths { min_element_length: self.shortest, span: self.span }
+    }
+
+    fn surface_compliance(workspace: &mut StripWorkspace) -> &mut LayeredCompliance {
+        &mut workspace.compliance
+    }
+
+    fn count_evaluations(workspace: &mut StripWorkspace, evaluation_count: usize) {
+        workspace.panels.evaluations += evaluation_count;
     }
 }
 
 /// Appends the surface compliance at small wavenumbers, and for waves along shortest element and patch.
 ///
 /// Returns the number of evaluations.
-pub(crate) fn append_surface_surrogate(
+fn append_surface_surrogate(
     profile: &SoilProfile,
     compliance: &mut LayeredCompliance,
-    [shortest, span]: [f64; 2],
+    lengths: SurrogateLengths,
     values: &mut Vec<Complex>,
 ) -> usize {
+    let SurrogateLengths { min_element_length, span } = lengths;
     let mut wavenumbers = &SURROGATE_WAVENUMBERS[..1];
     if let Some((top, (below, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
         // A slab stiffer along the patch than the ground below it transmits waves along the patch.
@@ -182,7 +204,7 @@ pub(crate) fn append_surface_surrogate(
     }
     let root = compliance.top().q2.sqrt();
     let one = Complex::real(1.0);
-    let waves = [shortest, span].map(|distance| {
+    let waves = [min_element_length, span].map(|distance| {
         let exponent = root.scale(distance);
         (-exponent).exp() / (one + exponent)
     });
