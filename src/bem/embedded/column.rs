@@ -87,7 +87,7 @@ impl DepthFunctions {
 }
 
 /// Functions of the elements of all columns.
-pub(super) struct ColumnFunctions {
+pub(super) struct ElementBasis {
     /// Symmetric, and antisymmetric.
     parities: [Parity; 2],
     /// Of the near field, and of the stretched elements.
@@ -133,7 +133,7 @@ impl EdgeLoads {
     pub(super) const NO_LOADS: Self = Self { count: 0, first_load: None };
 }
 
-impl ColumnFunctions {
+impl ElementBasis {
     /// Functions of `degree` along x and, in the near field, along z; of `stretched_degree` in the stretched elements.
     pub(super) fn new(degree: usize, stretched_degree: usize) -> Self {
         let [even, odd] = IntervalFunctions::lagrange(degree).even_and_odd();

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::column::{ColumnFunctions, EdgeLoads, ElementColumn, Moduli};
+use super::column::{EdgeLoads, ElementBasis, ElementColumn, Moduli};
 use super::grid::{Interval, TrenchGrid, WallInterval};
 use super::polynomials::IntervalFunctions;
 use super::stack::{CoarseStack, InterpolationEntry, Stack, StackElement};
@@ -63,7 +63,7 @@ impl TrenchModel<'_> {
     /// [`Error::Singular`](crate::Error::Singular).
     pub(super) fn compliances(&self) -> Result<Option<HalfCompliances>> {
         let Self { grid, degree, .. } = self;
-        let functions = ColumnFunctions::new(*degree, self.bottom.degree);
+        let functions = ElementBasis::new(*degree, self.bottom.degree);
         let full_stack = self.stack(false);
         let CoarseStack { stack: coarse_stack, interpolation } =
             full_stack.coarsened(&self.element_groups());

@@ -26,7 +26,7 @@ fn doubled_columns_are_columns_side_by_side() {
         lame: Complex64::new(1.5 * shear, 0.15 * shear),
         inertia: s * s,
     });
-    let functions = ColumnFunctions::new(3, 4);
+    let functions = ElementBasis::new(3, 4);
     let column = functions.column(0.4, &stack, &soils, EdgeLoads::NO_LOADS).unwrap();
     let node_count = stack.node_count();
     let mut side = SideStiffness { matrix: column.mean(1.0), node_count, load_count: 0 };
