@@ -124,7 +124,7 @@ impl ElementColumn {
 pub(super) struct EdgeLoads {
     /// Number of loads on all columns.
     pub(super) count: usize,
-    /// Index of the horizontal load on this column; the vertical load follows. `None` without loads on this column.
+    /// Index of the horizontal load on this column, if it has loads; the vertical load follows.
     pub(super) first_load: Option<usize>,
 }
 
@@ -134,7 +134,9 @@ impl EdgeLoads {
 }
 
 impl ElementBasis {
-    /// Functions of `degree` along x and, in the near field, along z; of `stretched_degree` in the stretched elements.
+    /// Functions of near-field and stretched elements.
+    ///
+    /// `degree`: along x, and along z in the near field. `stretched_degree`: along z in stretched elements.
     pub(super) fn new(degree: usize, stretched_degree: usize) -> Self {
         let [even, odd] = IntervalFunctions::lagrange(degree).even_and_odd();
         // Mirror images about a vertical line: u_x is odd, u_z even.
@@ -170,56 +172,43 @@ impl ElementBasis {
         let inner_count = parity.function_counts.iter().sum::<usize>() - 2;
         let side_order = 2 * node_count + loads.count;
         let edge_order = stack.0.len() * inner_count;
-        let mut sides = ComplexBlock::zeros(side_order, side_order);
-        let mut pivot = ComplexBlock::zeros(edge_order, edge_order);
-        let mut coupling = ComplexBlock::zeros(edge_order, side_order);
+        let mut matrices = ColumnMatrices {
+            sides: ComplexBlock::zeros(side_order, side_order),
+            edges: ComplexBlock::zeros(edge_order, edge_order),
+            coupling: ComplexBlock::zeros(edge_order, side_order),
+        };
+        let near_field = &self.depth_functions[0];
+        let stretched = &self.depth_functions[1];
         let mut top_node = 0;
         for (k, element) in stack.0.iter().enumerate() {
-            let is_stretched = element.degree != self.depth_functions[0].degree;
-            let column_element = ColumnElement {
-                parity,
-                depth_functions: &self.depth_functions[usize::from(is_stretched)],
-                width,
-                height: element.height,
-                moduli: soils[element.soil_index],
-            };
+            let is_stretched = element.degree != near_field.degree;
+            let depth_functions = if is_stretched { stretched } else { near_field };
+            let moduli = soils[element.soil_index];
+            let height = element.height;
+            let column_element = ColumnElement { parity, depth_functions, width, height, moduli };
             let CondensedElement { matrix, functions } = column_element.condensed()?;
             let mut rows = Vec::with_capacity(functions.len());
             for function in functions {
-                // Functions on the fixed bottom have no row.
                 rows.push(match function {
-                    RetainedFunction::Side { component, level } => (top_node + level < node_count)
-                        .then_some(MatrixRow::Side(component * node_count + top_node + level)),
+                    RetainedFunction::Side { component, level } => {
+                        side_row(component, top_node + level, node_count)
+                    }
                     RetainedFunction::Edge { function, is_at_bottom } => {
-                        let line = k + usize::from(is_at_bottom);
-                        (line < stack.0.len())
-                            .then_some(MatrixRow::Edge(line * inner_count + function))
+                        let edge = k + usize::from(is_at_bottom);
+                        let is_free = edge < stack.0.len();
+                        is_free.then_some(MatrixRow::Edge(edge * inner_count + function))
                     }
                 });
             }
-            for (j, column) in rows.iter().enumerate() {
-                for (i, row) in rows.iter().enumerate() {
-                    let value = matrix[(i, j)];
-                    match (row, column) {
-                        (Some(MatrixRow::Side(row)), Some(MatrixRow::Side(column))) => {
-                            sides[(*row, *column)] += value;
-                        }
-                        (Some(MatrixRow::Edge(row)), Some(MatrixRow::Edge(column))) => {
-                            pivot[(*row, *column)] += value;
-                        }
-                        (Some(MatrixRow::Edge(row)), Some(MatrixRow::Side(column))) => {
-                            coupling[(*row, *column)] += value;
-                        }
-                        _ => {}
-                    }
-                }
-            }
+            matrices.add(&matrix, &rows);
             top_node += element.degree;
         }
         if let Some(first_load) = loads.first_load {
-            parity.load_top(width, node_count, first_load, &mut sides, &mut coupling);
+            let ColumnMatrices { sides, coupling, .. } = &mut matrices;
+            parity.load_top(width, node_count, first_load, sides, coupling);
         }
-        sides.eliminate(&pivot, &coupling)?;
+        let ColumnMatrices { mut sides, edges, coupling } = matrices;
+        sides.eliminate(&edges, &coupling)?;
         Ok(sides)
     }
 }
@@ -230,6 +219,42 @@ enum MatrixRow {
     Side(usize),
     /// Among the functions of horizontal edges.
     Edge(usize),
+}
+
+/// Matrices of a column before the functions of edges are eliminated.
+struct ColumnMatrices {
+    sides: ComplexBlock,
+    edges: ComplexBlock,
+    /// Rows of edges, columns of sides.
+    coupling: ComplexBlock,
+}
+
+impl ColumnMatrices {
+    /// Adds the matrix of an element, whose functions have these `rows`.
+    fn add(&mut self, matrix: &ComplexBlock, rows: &[Option<MatrixRow>]) {
+        for (j, column) in rows.iter().enumerate() {
+            for (i, row) in rows.iter().enumerate() {
+                let value = matrix[(i, j)];
+                match (row, column) {
+                    (Some(MatrixRow::Side(row)), Some(MatrixRow::Side(column))) => {
+                        self.sides[(*row, *column)] += value;
+                    }
+                    (Some(MatrixRow::Edge(row)), Some(MatrixRow::Edge(column))) => {
+                        self.edges[(*row, *column)] += value;
+                    }
+                    (Some(MatrixRow::Edge(row)), Some(MatrixRow::Side(column))) => {
+                        self.coupling[(*row, *column)] += value;
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// Row of a component at a node of a side; `None` at the fixed bottom.
+fn side_row(component: usize, node: usize, node_count: usize) -> Option<MatrixRow> {
+    (node < node_count).then_some(MatrixRow::Side(component * node_count + node))
 }
 
 /// Function of an element that remains when its inner functions are eliminated.

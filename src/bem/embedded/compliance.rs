@@ -11,7 +11,9 @@ use super::stack::{CoarseStack, InterpolationEntry, Stack, StackElement};
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
 
-/// Largest number of doublings: 2⁴⁵ columns attenuate even waves that lose 1e-12 of their amplitude in a column.
+/// Largest number of doublings.
+///
+/// 2⁴⁵ columns attenuate even waves that lose 1e-12 of their amplitude in a column.
 const MAX_COLUMN_DOUBLINGS: usize = 45;
 /// Largest stiffness between both ends of the doubled columns, relative to a side's, that counts as zero.
 const CROSS_STIFFNESS_TOLERANCE: f64 = 1e-13;
@@ -19,7 +21,7 @@ const CROSS_STIFFNESS_TOLERANCE: f64 = 1e-13;
 const STRETCH_ANGLE_RATIO: f64 = 0.6;
 /// Longest stretched element, in c/|s|.
 const MAX_STRETCHED_LENGTH: f64 = 8.0;
-/// Smallest degree of stretched elements; few elements of a high degree take less time than many of a low one.
+/// Smallest degree of stretched elements: a high degree needs fewer elements and less time.
 const MIN_STRETCHED_DEGREE: usize = 8;
 
 /// Compliances of the right half of a trench, for symmetric and antisymmetric fields.
@@ -275,7 +277,9 @@ impl SideStiffness {
         dof_interpolation
     }
 
-    /// Compliance of the loads if all degrees of freedom of this line but the `free` ones are fixed.
+    /// Compliance of the loads with the `free` degrees of freedom of this line.
+    ///
+    /// All other degrees of freedom are fixed.
     fn compliance(&self, free: Range<usize>) -> Result<ComplexBlock> {
         let loads = 2 * self.node_count..2 * self.node_count + self.load_count;
         let mut compliance = self.matrix.submatrix(loads.clone(), loads.clone());
@@ -290,7 +294,9 @@ fn mirrored(dof: usize, node_count: usize, value: Complex64) -> Complex64 {
     if dof < node_count { -value } else { value }
 }
 
-/// Stiffness of a side of infinitely many equal columns; `None` if 2⁴⁵ columns do not attenuate the waves.
+/// Stiffness of a side of infinitely many equal columns.
+///
+/// `None` if 2⁴⁵ columns do not attenuate the waves.
 fn far_side_stiffness(
     mut column: ElementColumn,
     node_count: usize,
@@ -321,7 +327,9 @@ fn double_column(
     })
 }
 
-/// Stiffness of a side with the `free` degrees of freedom of the other side eliminated, its other ones fixed.
+/// Stiffness of a side, with the other side free in some degrees of freedom.
+///
+/// The `free` degrees of freedom of the other side are eliminated, and all others of that side are fixed.
 fn with_free_dofs(
     stiffness: &ComplexBlock,
     cross_stiffness: &ComplexBlock,

@@ -44,7 +44,9 @@ fn wall_pieces(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
     elements.map(|ends| element_pieces(&layers, ends[0], ends[1])).collect()
 }
 
-/// Pieces of soil beside an element between two depths, from `layers` with the depths of their lower ends.
+/// Pieces of soil beside an element between two depths.
+///
+/// `layers`: soils with the depths of their lower ends, m.
 fn element_pieces(layers: &[(Soil, f64)], upper_end: f64, lower_end: f64) -> Vec<SoilPiece> {
     let mut mass_above_layer = 0.0;
     let mut layer_top = 0.0;
@@ -65,7 +67,7 @@ fn element_pieces(layers: &[(Soil, f64)], upper_end: f64, lower_end: f64) -> Vec
     pieces
 }
 
-/// Values of all elements along the outline, from the values of a wall's elements and the value of the base.
+/// Values of all elements along the outline: left wall, base, right wall.
 fn outline_values(soil: &TrenchSoil, wall_values: &[f64], base_value: f64) -> Vec<f64> {
     let base_count = 2 * (soil.elements().base_ends().len() - 1);
     let base_values = std::iter::repeat_n(base_value, base_count);
@@ -107,7 +109,9 @@ pub(super) fn masses_above(soil: &TrenchSoil) -> Vec<f64> {
     outline_values(soil, &wall_masses, mass_above_base(soil))
 }
 
-/// Distance (m) of the resultant at rest below the middle of each element, in the order of the outline.
+/// Depth of the resultant at rest below the middle of each element, m.
+///
+/// The elements are in the order of the outline.
 pub(super) fn resultant_depths(soil: &TrenchSoil, k0: Option<f64>) -> Vec<f64> {
     let mut distances = vec![];
     for (pieces, ends) in wall_pieces(soil).iter().zip(soil.elements().wall_ends().windows(2)) {
@@ -140,8 +144,9 @@ fn mean_of_positive_part(end_values: [f64; 2]) -> f64 {
     }
 }
 
-/// Law of each element of a wall, from the surface down: means of the limits of the soils beside it.
+/// Laws of the elements of a wall, from the surface down.
 ///
+/// Their limits are means of the limits of the soils beside an element.
 /// `strengths`: one for all soils, or one each. `k0`: as for [`pressures_at_rest`].
 pub(super) fn wall_laws(
     soil: &TrenchSoil,

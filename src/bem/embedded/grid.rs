@@ -4,7 +4,7 @@
 const NEAR_FIELD_RATIO: f64 = 0.5;
 /// Longest joined interval of the regular columns, in half widths.
 const MAX_JOINED_RATIO: f64 = 0.4;
-/// Longest last interval of a distance, relative to the regular one: a short remainder joins its neighbour.
+/// Longest last interval, relative to the regular length: a short remainder joins its neighbour.
 const MAX_LAST_INTERVAL_RATIO: f64 = 1.5;
 
 /// Interval between two horizontal lines.
@@ -24,7 +24,7 @@ pub(super) struct WallInterval {
     pub(super) element: usize,
 }
 
-/// Right half of a trench and of the near field around it, in m from its axis and the surface.
+/// Right half of a trench and of the near field around the trench, m.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TrenchGrid {
     /// Lengths of the base elements, from the axis to the wall.
@@ -53,8 +53,9 @@ pub(super) struct GridLayer {
 }
 
 impl TrenchGrid {
-    /// Grid for base elements with ends at `base_ends` (m from the axis) and wall elements at `wall_ends` (m of depth).
+    /// Grid for the elements of a base and a wall.
     ///
+    /// `base_ends`: ends of the base elements, m from the axis. `wall_ends`: depths of the ends of the wall elements, m.
     /// `layers`: the last is the half-plane, with an infinite depth, unless the bedrock `is_rigid`. `backfill_width`, m.
     pub(super) fn new(
         base_ends: &[f64],
@@ -132,7 +133,9 @@ fn wall_intervals(wall_ends: &[f64], layers: &[GridLayer]) -> Vec<WallInterval> 
     intervals
 }
 
-/// Intervals from the base at `depth` to `bottom` (m), of which the first has `first_length` or less.
+/// Intervals from the base at `depth` to the depth `bottom`, m.
+///
+/// Their lengths double from `first_length` on, up to the longest interval of each layer.
 fn lower_intervals(
     depth: f64,
     bottom: f64,

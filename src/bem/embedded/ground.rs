@@ -21,8 +21,8 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 /// length.
 ///
 /// The soil around the trench is a mesh of finite elements of high degree. On both sides infinitely many columns of
-/// elements follow. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the corners
-/// of the trench and depends on the contact elements only.
+/// elements follow. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the
+/// corners of the trench and depends on the contact elements only.
 ///
 /// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights follow
 /// by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh. The
@@ -146,9 +146,9 @@ impl TrenchGround {
 
     /// Interface laws of all elements, with earth pressure limits on the walls.
     ///
-    /// `base`: law of the base. The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each element of a
-    /// wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]), as means over the
-    /// element: the limits of the thrust are exact. `strengths`: one for all soils, or one for each from the surface
+    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each
+    /// element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]). These
+    /// limits are means over the element; the limits of the thrust are exact. `base`: law of the base. `strengths`: one for all soils, or one for each from the surface
     /// down, the half-plane last; with backfill, of the backfill only. `gravity`: as in the builder, m/s².
     ///
     /// ```

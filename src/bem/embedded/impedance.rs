@@ -17,10 +17,10 @@ use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Complex, ComplexBlock, DenseFactor};
 use crate::soil::Bedrock;
 
-/// Motion of a rigid body without mass in a trench, e^(iωt), per unit motion of the surface of the free field.
+/// Motion of a rigid body without mass in a trench, e^(iωt).
 ///
-/// Kinematic interaction: this motion is the input of the structure. Waves travel vertically. x to the right, y down; a
-/// positive rotation lowers the right end. Translations refer to the middle of the base.
+/// The motion is per unit motion of the surface of the free field, and is the input of the structure (kinematic
+/// interaction). Waves travel vertically. x to the right, y down; a positive rotation lowers the right end. Translations refer to the middle of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -113,7 +113,8 @@ impl TrenchGround {
 
     /// Motions of a rigid body without mass at each of `frequencies` (Hz).
     ///
-    /// The waves are vertical shear and pressure waves. The observer counts as for [`impedances`](TrenchGround::impedances).
+    /// The waves are vertical shear and pressure waves. The observer counts as for
+    /// [`impedances`](TrenchGround::impedances).
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};

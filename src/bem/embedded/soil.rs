@@ -164,7 +164,9 @@ impl TrenchSoil {
         Ok(moduli)
     }
 
-    /// Mesh for Laplace variables near `s`, and the compliances at `s` if the choice needed them.
+    /// Mesh for Laplace variables near `s`.
+    ///
+    /// The result contains the compliances at `s` if the choice needed them.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a frequency that the elements do not resolve; as for
@@ -184,7 +186,9 @@ impl TrenchSoil {
         self.mesh_of_degree(s, degree.unwrap_or(MAX_DEGREE))
     }
 
-    /// Mesh of a `degree` that is deep enough at `s`, and the compliances at `s` if the choice needed them.
+    /// Mesh of a `degree` that is deep enough at `s`.
+    ///
+    /// The result contains the compliances at `s` if the choice needed them.
     ///
     /// # Errors
     /// [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
@@ -210,7 +214,9 @@ impl TrenchSoil {
         }
     }
 
-    /// Mesh for Laplace variables near `s` with stretched elements to a `depth` in c/|s|, of a `degree` or higher.
+    /// Mesh for Laplace variables near `s`, with stretched elements down to a `depth`.
+    ///
+    /// `depth`: in c/|s|. `degree`: of the near field; stretched elements may have a higher degree.
     pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> TrenchMesh {
         let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
             return TrenchMesh { degree, bottom: Bottom::rigid(degree) };

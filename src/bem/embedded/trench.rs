@@ -35,7 +35,9 @@ validated! {
 }
 
 impl Trench {
-    /// Trench between `sides` (m along x), `depth` metres deep; of depth 0, a strip of the surface.
+    /// Trench between two `sides` (x, m), with its `depth` in m.
+    ///
+    /// A trench of depth 0 is a strip of the surface.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not

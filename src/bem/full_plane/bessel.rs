@@ -68,7 +68,9 @@ pub(super) struct BesselSeries {
     pub(super) kappa: Complex64,
 }
 
-/// K₀ and κ at `z` by their series; means over the line from 0 to `z` if `is_mean`.
+/// K₀ and κ at `z` by their series.
+///
+/// If `is_mean`, means over the line from 0 to `z`.
 pub(super) fn bessel_series(z: Complex64, is_mean: bool) -> BesselSeries {
     let half = 0.5 * z;
     let log = half.ln();

@@ -91,7 +91,8 @@ impl Boundary {
 
     /// Any boundary, with the indices of the contact elements.
     ///
-    /// `contact_indices`: elements under the structure, from left to right. Contact elements must be horizontal with the soil below. All others are free of traction.
+    /// `contact_indices`: elements under the structure, from left to right. Contact elements must be horizontal with the
+    /// soil below. All others are free of traction.
     ///
     /// # Errors
     /// [`Error::Size`] for no elements, [`Error::Index`] for an index out of range, [`Error::Input`] for an
@@ -167,7 +168,9 @@ impl Boundary {
         Ok(Mobility { factor, columns })
     }
 
-    /// Overwrites `matrix` (2Q × 2Q) with the rows of the contact elements in the columns of a [`Mobility`].
+    /// Overwrites `matrix` with the compliance of the contact elements (2Q × 2Q).
+    ///
+    /// `mobility_columns`: of a [`Mobility`].
     pub(super) fn compliance(&self, mobility_columns: &[f64], matrix: &mut [f64]) {
         let contact_order = self.contact_rows().count();
         for (k, column) in mobility_columns.chunks_exact(self.layout().len()).enumerate() {

@@ -232,7 +232,9 @@ fn with_longer_rows(
     new_rows
 }
 
-/// Index of the series of a class, a matrix (0: G, 1: H), and components i of the output and j of the input.
+/// Index of the series of a class and a pair of components.
+///
+/// `matrix`: 0 for G, 1 for H. `i`: component of the output. `j`: component of the input.
 fn series_index(class: usize, matrix: usize, i: usize, j: usize) -> usize {
     SERIES_PER_CLASS * class + 4 * matrix + 2 * i + j
 }

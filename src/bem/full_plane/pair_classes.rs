@@ -84,7 +84,8 @@ impl SegmentPairClasses {
 
     /// Overwrites G and H with the blocks of all classes.
     ///
-    /// `view_block` returns the block of a view in the axes (d, n) of the source. `free_term`: added to the diagonal of H.
+    /// `view_block` returns the block of a view in the axes (d, n) of the source. `free_term` is added to the diagonal
+    /// of H.
     pub(super) fn fill(
         &self,
         segments: &[Segment],

@@ -1,9 +1,9 @@
 //! Stability of a boundary equation in time: growth of perturbations, before the run.
 //!
 //! The degrees of freedom x are displacements of traction-free elements, and tractions of elements with
-//! prescribed displacement. The equation Σ F^{N−m} xᵐ = bᴺ, b a combination of prescribed values, has the symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of
-//! H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The smallest zero gives the
-//! growth factor 1/|ζ| per step. Zeros are counted by the argument principle on circles (F has no poles
+//! prescribed displacement. Prescribed values form the right-hand side b. The equation Σ F^{N−m} xᵐ = bᴺ has the
+//! symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The
+//! growth factor per step is 1/|ζ| of the smallest zero. Zeros are counted by the argument principle on circles (F has no poles
 //! there, since its coefficients do not grow), and the smallest modulus is found by bisection.
 
 use super::stability_symbol::BoundarySymbol;

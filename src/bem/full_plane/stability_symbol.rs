@@ -256,7 +256,9 @@ impl<'a> BoundarySymbol<'a> {
         Ok(())
     }
 
-    /// The operator F from the symbols of G and H, with columns in the order of the degrees of freedom.
+    /// Overwrites `operator` with F, from the symbols of G and H.
+    ///
+    /// Its columns are in the order of the degrees of freedom.
     pub(super) fn operator(&self, symbols: &[Complex64], operator: &mut Vec<Complex64>) {
         let order = self.order();
         let matrix_length = order * order;

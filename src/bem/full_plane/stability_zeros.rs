@@ -34,7 +34,7 @@ const MAX_SECANT_STEPS: usize = 40;
 /// Last change of ζ in the secant method.
 const SECANT_TOLERANCE: f64 = 1e-11;
 
-/// Distance from a zero of the circle without smaller zeros, over the distance of the zero from the unit circle.
+/// Margin of the search for smaller zeros, over the distance of the zero from the unit circle.
 const SMALLEST_ZERO_MARGIN: f64 = 1e-3;
 
 /// ln of the largest growth factor that is searched for.

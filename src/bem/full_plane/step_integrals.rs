@@ -103,7 +103,9 @@ impl Front {
     }
 }
 
-/// Number of terms of the series of (y − atan y)/y³: its error is 1e-17 at y = ½.
+/// Number of terms of the series of (y − atan y)/y³.
+///
+/// The error is 1e-17 at y = ½.
 const DEFECT_TERM_COUNT: u32 = 26;
 
 /// (y − atan y)/y³.
@@ -166,21 +168,26 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
     [square * (x - cubic), half_sum]
 }
 
-/// The primitives at one end.
+/// D at one end.
+fn end_value(fronts: &[Front; 2], slowness_squared: [f64; 2], r: f64) -> f64 {
+    match (fronts[0].is_past_end, fronts[1].is_past_end) {
+        (true, true) => {
+            let q = [0, 1].map(|k| fronts[k].root / fronts[k].travel);
+            (slowness_squared[1] - slowness_squared[0]) / (q[0] + q[1])
+        }
+        (true, false) => slowness_squared[0] * fronts[0].travel / r * (fronts[0].root / r),
+        _ => 0.0,
+    }
+}
+
+/// Primitives at one end.
 fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegrals {
     let height = h.abs();
     let sign = if h == 0.0 { 0.0 } else { h.signum() };
     let r = s.hypot(height);
     let fronts = waves.speeds.map(|c| Front::new(c, time, s, height, r));
     let slowness_squared = waves.speeds.map(|c| 1.0 / (c * c));
-    let d = match (fronts[0].is_past_end, fronts[1].is_past_end) {
-        (true, true) => {
-            let q = fronts.map(|f| f.root / f.travel);
-            (slowness_squared[1] - slowness_squared[0]) / (q[0] + q[1])
-        }
-        (true, false) => slowness_squared[0] * fronts[0].travel / r * (fronts[0].root / r),
-        _ => 0.0,
-    };
+    let d = end_value(&fronts, slowness_squared, r);
     let pole_terms = pole_terms(&fronts, time, s, height, r, d);
     let pole = pole_terms[0];
 
