@@ -58,7 +58,7 @@ impl BoundaryMarch {
     /// determine the others, and errors of the kernel.
     pub fn new(kernel: Box<dyn BoundaryKernel>, prescribed: &[Given]) -> Result<Self> {
         let order = ContactLayout::new(COMPONENTS_IN_PLANE, kernel.segments().len()).len();
-        same_length("list of given components", prescribed.len(), order)?;
+        same_length("list of prescribed quantities", prescribed.len(), order)?;
         let mut g = vec![0.0; order * order];
         let mut h = vec![0.0; order * order];
         kernel.coefficients(0, &mut g, &mut h)?;

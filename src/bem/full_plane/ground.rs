@@ -190,10 +190,10 @@ impl FullPlaneGround {
             return Ok(());
         }
         let [uplifted, bonded] = self.assess_kernel(kernel, MAX_GROWTH_PER_STEP)?;
-        let bonded_is_worse = bonded.growth_per_step > uplifted.growth_per_step;
-        let worst = if bonded_is_worse { bonded } else { uplifted };
-        if !worst.is_bounded() {
-            let Stability { growth_per_step, growing_modes } = worst;
+        let bonded_is_faster = bonded.growth_per_step > uplifted.growth_per_step;
+        let faster_growth = if bonded_is_faster { bonded } else { uplifted };
+        if !faster_growth.is_bounded() {
+            let Stability { growth_per_step, growing_modes } = faster_growth;
             return Err(GroundError::Unstable { growth_per_step, growing_modes }.into());
         }
         self.stable_time_step = Some(time_step);
@@ -266,7 +266,7 @@ impl Ground for FullPlaneGround {
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
-        same_length("instantaneous operator", matrix.len(), size)?;
+        same_length("step compliance", matrix.len(), size)?;
         self.boundary.compliance(&prepared.mobility.columns, matrix);
         Ok(())
     }

@@ -71,12 +71,7 @@ impl Stability {
     /// Stability of a boundary equation with this symbol.
     pub(super) fn from_symbol(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Self> {
         let is_in_range = (1e-7..=0.5).contains(&smallest_growth);
-        require(
-            "growth looked for",
-            smallest_growth,
-            is_in_range,
-            "between 1e-7 and 0.5 per step",
-        )?;
+        require("smallest growth", smallest_growth, is_in_range, "between 1e-7 and 0.5 per step")?;
         let zeros = smallest_zero(symbol, smallest_growth)?;
         Ok(Self {
             growth_per_step: zeros.smallest_zero.map_or(0.0, |zero| 1.0 / zero.norm() - 1.0),
