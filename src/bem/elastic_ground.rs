@@ -10,9 +10,8 @@ use super::{
     Grading, Ground, GroundDescription, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
 use crate::error::{Observer, Result, require};
-use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, check_count, check_order};
+use crate::geometry::{COMPONENTS_IN_SPACE, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
-use crate::motion::FreeField;
 use crate::soil::SoilProfile;
 use crate::structure::Structure;
 
@@ -297,18 +296,7 @@ impl ElasticGround {
 }
 
 impl Ground for ElasticGround {
-    forward! {
-        self.ground;
-        fn elements(&self) -> &[ContactElement];
-        fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
-        fn commit(&mut self, traction: &[f64]);
-        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn increment_error_bound(&self) -> f64;
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
-        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
-    }
+    forward_weights_ground! { self.ground }
 
     fn prepare(
         &mut self,

@@ -11,6 +11,29 @@
 //! from the reader). In plan, read 3Q for 2Q everywhere. Its elements are rectangles ([`ContactElement::in_plan`]), in
 //! any order.
 
+/// Implements the methods of a [`Ground`] that a wrapper of a [`WeightsGround`] does not change.
+macro_rules! forward_weights_ground {
+    ($wrapper:ident.$ground:ident) => {
+        forward! {
+            $wrapper.$ground;
+            fn elements(&$wrapper) -> &[$crate::bem::ContactElement];
+            fn step_compliance(&$wrapper, matrix: &mut [f64]) -> $crate::error::Result<()>;
+            fn history(&mut $wrapper, displacement: &mut [f64]) -> $crate::error::Result<()>;
+            fn commit(&mut $wrapper, traction: &[f64]);
+            fn static_compliance(&$wrapper, matrix: &mut [f64]) -> $crate::error::Result<()>;
+            fn increment_error_bound(&$wrapper) -> f64;
+            fn save(&$wrapper) -> $crate::error::Result<Vec<f64>>;
+            fn restore(&mut $wrapper, steps: usize, values: &[f64]) -> $crate::error::Result<()>;
+            fn free_field(
+                &$wrapper,
+                motion: &dyn $crate::motion::FreeField,
+                time: f64,
+                displacement: &mut [f64]
+            );
+        }
+    };
+}
+
 mod elastic_ground;
 mod elastic_source;
 #[cfg(feature = "embedded")]

@@ -13,7 +13,7 @@
 //! differences are computed without the terms that grow with time, because these terms cancel.
 
 use crate::error::{Result, finite, positive};
-use crate::fundamental::{FundamentalSolution, LoadHistory};
+use crate::fundamental::{FundamentalSolution, LoadHistory, LoadResponse};
 use crate::soil::Soil;
 
 /// Elastic full plane, without a surface, in plane strain.
@@ -123,12 +123,7 @@ impl FundamentalSolution for FullPlane {
         self.soil
     }
 
-    fn displacement(
-        &self,
-        offset: [f64; 2],
-        time: f64,
-        load: LoadHistory,
-    ) -> Result<[[f64; 2]; 2]> {
+    fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory) -> Result<LoadResponse> {
         let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
         let functions = self.time_functions(r, time, load);
@@ -147,7 +142,7 @@ impl FundamentalSolution for FullPlane {
         normal: [f64; 2],
         time: f64,
         load: LoadHistory,
-    ) -> Result<[[f64; 2]; 2]> {
+    ) -> Result<LoadResponse> {
         let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
         finite("x component of the normal", normal[0])?;

@@ -18,7 +18,7 @@
 use crate::error::{Result, finite, positive, require};
 use crate::fundamental::branch::{Branch, Branches, Power};
 use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, late_coefficients};
-use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
+use crate::fundamental::{FundamentalSolution, LoadHistory, LoadResponse, Rayleigh};
 use crate::geometry::ContactElement;
 use crate::linalg::Complex;
 use crate::soil::Soil;
@@ -340,12 +340,7 @@ impl FundamentalSolution for HalfPlane {
 
     /// Load and receiver lie on the surface: `offset[1]` must be 0. [`LoadHistory::Impulse`] omits the
     /// Rayleigh pulse of the coupled components.
-    fn displacement(
-        &self,
-        offset: [f64; 2],
-        time: f64,
-        load: LoadHistory,
-    ) -> Result<[[f64; 2]; 2]> {
+    fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory) -> Result<LoadResponse> {
         let r = surface_distance(offset)?;
         finite("time", time)?;
         let speed = self.soil.shear_wave_speed();
@@ -380,7 +375,7 @@ impl FundamentalSolution for HalfPlane {
         normal: [f64; 2],
         time: f64,
         _load: LoadHistory,
-    ) -> Result<[[f64; 2]; 2]> {
+    ) -> Result<LoadResponse> {
         surface_distance(offset)?;
         finite("time", time)?;
         let is_vertical = normal[0] == 0.0 && normal[1].abs() == 1.0;

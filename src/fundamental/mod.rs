@@ -29,6 +29,9 @@ pub enum LoadHistory {
     Ramp,
 }
 
+/// Response to line loads: `[i][j]` is component i due to a load in direction j.
+pub(crate) type LoadResponse = [[f64; 2]; 2];
+
 /// Displacements and tractions of an elastic plane or half-plane under a line load.
 pub trait FundamentalSolution: Send + Sync {
     /// The soil.
@@ -40,8 +43,7 @@ pub trait FundamentalSolution: Send + Sync {
     ///
     /// # Errors
     /// [`crate::Error::Input`] if the offset is zero, not finite, or outside the domain of the solution.
-    fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory)
-    -> Result<[[f64; 2]; 2]>;
+    fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory) -> Result<LoadResponse>;
 
     /// Tractions (Pa) at `offset` on the plane with the unit vector `normal`.
     ///
@@ -55,5 +57,5 @@ pub trait FundamentalSolution: Send + Sync {
         normal: [f64; 2],
         time: f64,
         load: LoadHistory,
-    ) -> Result<[[f64; 2]; 2]>;
+    ) -> Result<LoadResponse>;
 }

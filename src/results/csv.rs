@@ -1,5 +1,7 @@
 //! Time series, envelopes and spectra as CSV.
 
+use std::fmt::Write;
+
 use super::{ElementEnvelope, Run, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::motion::SpectralOrdinate;
@@ -76,7 +78,7 @@ impl TimeSeries {
                     .map(|(_, coordinates)| NumberCell(coordinates[element]).to_string())
                     .collect();
                 let time = NumberCell(frame.time);
-                text += &format!("{time},{element},{},{mode},", end_cells.join(","));
+                let _ = write!(text, "{time},{element},{},{mode},", end_cells.join(","));
                 text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
             }
         }

@@ -11,6 +11,7 @@ use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{RigidBody, Structure};
 use basemat::{Result, Simulation, Soil};
 use basemat_problems::prescribed::PrescribedGround;
+use basemat_problems::series::nearest_integer;
 use basemat_problems::settling_strips::{RockingBase, SettlingStrips, StripLaw};
 
 const FOOTING_BASE: RockingBase = RockingBase { length: 2.8, width: 0.65, weight: 285.0e3 };
@@ -102,7 +103,7 @@ impl Structure for TurnedFooting {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
-        let step = time.round().max(0.0) as usize;
+        let step = nearest_integer(time);
         let last = self.rotations.len() - 1;
         load[4] += DRIVE_STIFFNESS * self.rotations[step.min(last)];
         Ok(())

@@ -1,4 +1,4 @@
-//! Pressure of the soil on the faces of a trench: at rest, and the limits of its strength.
+//! Pressure of the soil on the faces of a trench: at rest, and the limits by the soil's strength.
 
 use super::soil::TrenchSoil;
 use crate::error::{Result, require};
@@ -10,69 +10,75 @@ const PRESSURE_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// One soil beside an element of a wall, over a height.
 struct SoilPiece {
-    /// Place of the soil in the profile; of backfill, 0.
-    place: usize,
+    /// Index of the soil in the profile; 0 for backfill.
+    soil_index: usize,
     soil: Soil,
+    /// Height, m.
     height: f64,
-    /// Depth of its middle, m.
-    middle: f64,
-    /// Mass of the soil above its middle, kg/m².
+    /// Depth of the middle of the piece, m.
+    middle_depth: f64,
+    /// Mass of the soil above the middle of the piece, kg/m².
     mass_above: f64,
 }
 
 impl SoilPiece {
-    /// Pressure at rest over the pressure of the soil above.
-    fn ratio_at_rest(&self, ratio: Option<f64>) -> f64 {
-        ratio.unwrap_or(self.soil.poisson() / (1.0 - self.soil.poisson()))
+    /// Pressure at rest over the vertical pressure: `k0`, or ν/(1 − ν).
+    fn ratio_at_rest(&self, k0: Option<f64>) -> f64 {
+        k0.unwrap_or(self.soil.poisson() / (1.0 - self.soil.poisson()))
     }
 
-    /// Mass of the soil above the upper and the lower end, kg/m².
+    /// Mass of the soil above the upper and the lower end of the piece, kg/m².
     fn masses_at_ends(&self) -> [f64; 2] {
         let half_mass = 0.5 * self.height * self.soil.density();
         [self.mass_above - half_mass, self.mass_above + half_mass]
     }
 }
 
-/// The soils beside each element of a wall, from the surface down.
-fn soils_beside_wall(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
+/// Pieces of soil beside each element of a wall, from the surface down.
+fn wall_pieces(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
     let layers: Vec<(Soil, f64)> = match soil.fill() {
         Some(fill) => vec![(fill, f64::INFINITY)],
         None => soil.profile().soils_to().collect(),
     };
-    let elements = soil.elements().wall().windows(2);
-    elements.map(|ends| soils_beside_element(&layers, [ends[0], ends[1]])).collect()
+    let elements = soil.elements().wall_ends().windows(2);
+    elements.map(|ends| element_pieces(&layers, ends[0], ends[1])).collect()
 }
 
-/// The soils between two depths, from `layers` with their lower ends.
-fn soils_beside_element(layers: &[(Soil, f64)], ends: [f64; 2]) -> Vec<SoilPiece> {
+/// Pieces of soil beside an element between two depths.
+///
+/// `layers`: soils with the depths of their lower ends, m.
+fn element_pieces(layers: &[(Soil, f64)], upper_end: f64, lower_end: f64) -> Vec<SoilPiece> {
     let mut mass_above_layer = 0.0;
-    let mut top = 0.0;
+    let mut layer_top = 0.0;
     let mut pieces = vec![];
-    for (place, (soil, bottom)) in layers.iter().enumerate() {
-        let bottom = bottom.min(ends[1]);
-        let start = ends[0].clamp(top, bottom.max(top));
-        let height = (bottom - start).max(0.0);
-        let middle = start + 0.5 * height;
-        let mass_above = mass_above_layer + soil.density() * (start - top + 0.5 * height);
+    for (soil_index, (soil, layer_bottom)) in layers.iter().enumerate() {
+        let soil = *soil;
+        let bottom = layer_bottom.min(lower_end);
+        let top = upper_end.clamp(layer_top, bottom.max(layer_top));
+        let height = (bottom - top).max(0.0);
+        let middle_depth = top + 0.5 * height;
+        let mass_above = mass_above_layer + soil.density() * (top - layer_top + 0.5 * height);
         if height > 0.0 {
-            pieces.push(SoilPiece { place, soil: *soil, height, middle, mass_above });
+            pieces.push(SoilPiece { soil_index, soil, height, middle_depth, mass_above });
         }
-        mass_above_layer += soil.density() * (bottom - top).max(0.0);
-        top = bottom.max(top);
+        mass_above_layer += soil.density() * (bottom - layer_top).max(0.0);
+        layer_top = bottom.max(layer_top);
     }
     pieces
 }
 
-/// Values of all elements along the outline, from the values of a wall's elements and the base.
-fn along_outline(soil: &TrenchSoil, wall: &[f64], base: f64) -> Vec<f64> {
-    let base = std::iter::repeat_n(base, 2 * (soil.elements().base().len() - 1));
-    wall.iter().copied().chain(base).chain(wall.iter().rev().copied()).collect()
+/// Values of all elements along the outline: left wall, base, right wall.
+fn outline_values(soil: &TrenchSoil, wall_values: &[f64], base_value: f64) -> Vec<f64> {
+    let base_count = 2 * (soil.elements().base_ends().len() - 1);
+    let base_values = std::iter::repeat_n(base_value, base_count);
+    let left_wall = wall_values.iter().copied();
+    left_wall.clone().chain(base_values).chain(left_wall.rev()).collect()
 }
 
 /// Mean over the height of each element of a wall, from the integral over each piece.
-fn means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec<f64> {
+fn element_means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec<f64> {
     let mut means = vec![];
-    for (pieces, ends) in soils_beside_wall(soil).iter().zip(soil.elements().wall().windows(2)) {
+    for (pieces, ends) in wall_pieces(soil).iter().zip(soil.elements().wall_ends().windows(2)) {
         means.push(pieces.iter().map(&integral).sum::<f64>() / (ends[1] - ends[0]));
     }
     means
@@ -80,87 +86,100 @@ fn means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec<f64> {
 
 /// Pressure at rest on each element over gravity, kg/m², in the order of the outline.
 ///
-/// The base carries all of the soil above it. `ratio`: K₀ of all soils; `None`: ν/(1 − ν) of each soil.
-pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
-    let wall = means(soil, |piece| piece.ratio_at_rest(ratio) * piece.height * piece.mass_above);
-    along_outline(soil, &wall, mass_above_base(soil))
+/// The pressure on the base is the weight of all soil above it. `k0`: K₀ of all soils; `None`: ν/(1 − ν) of each soil.
+pub(super) fn pressures_at_rest(soil: &TrenchSoil, k0: Option<f64>) -> Vec<f64> {
+    let wall_pressures =
+        element_means(soil, |piece| piece.ratio_at_rest(k0) * piece.height * piece.mass_above);
+    outline_values(soil, &wall_pressures, mass_above_base(soil))
 }
 
 /// Mass of the soil above the base, kg/m².
 fn mass_above_base(soil: &TrenchSoil) -> f64 {
-    let above = soil.profile().above(soil.elements().trench().depth());
-    above.layers().iter().map(|layer| layer.soil.density() * layer.thickness).sum()
+    let profile_above = soil.profile().above(soil.elements().trench().depth());
+    profile_above
+        .layers()
+        .iter()
+        .map(|layer| layer.soil.density() * layer.thickness)
+        .sum()
 }
 
 /// Mean mass of the soil above each element, kg/m², in the order of the outline.
-pub(super) fn mass_above(soil: &TrenchSoil) -> Vec<f64> {
-    let wall = means(soil, |piece| piece.height * piece.mass_above);
-    along_outline(soil, &wall, mass_above_base(soil))
+pub(super) fn masses_above(soil: &TrenchSoil) -> Vec<f64> {
+    let wall_masses = element_means(soil, |piece| piece.height * piece.mass_above);
+    outline_values(soil, &wall_masses, mass_above_base(soil))
 }
 
-/// Distance (m) of the resultant at rest below the middle of each element, in the order of the outline.
-pub(super) fn depth_below_middle(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
+/// Depth of the resultant at rest below the middle of each element, m.
+///
+/// The elements are in the order of the outline.
+pub(super) fn resultant_depths(soil: &TrenchSoil, k0: Option<f64>) -> Vec<f64> {
     let mut distances = vec![];
-    for (pieces, ends) in soils_beside_wall(soil).iter().zip(soil.elements().wall().windows(2)) {
+    for (pieces, ends) in wall_pieces(soil).iter().zip(soil.elements().wall_ends().windows(2)) {
         let middle = 0.5 * (ends[0] + ends[1]);
         let mut moment = 0.0;
         let mut thrust = 0.0;
         for piece in pieces {
-            let ratio = piece.ratio_at_rest(ratio);
+            let ratio = piece.ratio_at_rest(k0);
             let piece_thrust = ratio * piece.height * piece.mass_above;
             // Mass grows linearly over the piece.
             let moment_about_middle = ratio * piece.soil.density() * piece.height.powi(3) / 12.0;
-            moment += piece_thrust * (piece.middle - middle) + moment_about_middle;
+            moment += piece_thrust * (piece.middle_depth - middle) + moment_about_middle;
             thrust += piece_thrust;
         }
         distances.push(if thrust > 0.0 { moment / thrust } else { 0.0 });
     }
-    along_outline(soil, &distances, 0.0)
+    outline_values(soil, &distances, 0.0)
 }
 
-/// Mean of a quantity above zero that is linear between two ends.
-fn mean_above_zero([one, other]: [f64; 2]) -> f64 {
-    let low = one.min(other);
-    let high = one.max(other);
-    if low >= 0.0 {
-        0.5 * (low + high)
-    } else if high <= 0.0 {
+/// Mean of the positive part of a quantity that is linear between two ends.
+fn mean_of_positive_part(end_values: [f64; 2]) -> f64 {
+    let min_value = end_values[0].min(end_values[1]);
+    let max_value = end_values[0].max(end_values[1]);
+    if min_value >= 0.0 {
+        0.5 * (min_value + max_value)
+    } else if max_value <= 0.0 {
         0.0
     } else {
-        0.5 * high * high / (high - low)
+        0.5 * max_value * max_value / (max_value - min_value)
     }
 }
 
-/// Law of each element of a wall, from the surface down: means of the limits of the soils beside it.
+/// Laws of the elements of a wall, from the surface down.
 ///
-/// `strengths`: one for all soils, or one each. `ratio`: as for [`at_rest`].
-pub(super) fn laws(
+/// Their limits are means of the limits of the soils beside an element.
+/// `strengths`: one for all soils, or one each. `k0`: as for [`pressures_at_rest`].
+pub(super) fn wall_laws(
     soil: &TrenchSoil,
     strengths: &[SoilStrength],
     gravity: f64,
-    ratio: Option<f64>,
+    k0: Option<f64>,
 ) -> Result<Vec<EarthPressure>> {
     let strength = |piece: &SoilPiece| {
-        if strengths.len() == 1 { strengths[0] } else { strengths[piece.place] }
+        if strengths.len() == 1 { strengths[0] } else { strengths[piece.soil_index] }
     };
     // Active and passive limit of the thrust of a piece. Where the active pressure would be below zero, the soil stands
     // without the wall.
-    let limits = |piece: &SoilPiece| {
-        let at_ends = piece.masses_at_ends().map(|mass| strength(piece).pressures(gravity * mass));
-        [0, 1].map(|limit| piece.height * mean_above_zero(at_ends.map(|limits| limits[limit])))
+    let thrust_limits = |piece: &SoilPiece| {
+        let end_pressures =
+            piece.masses_at_ends().map(|mass| strength(piece).pressures(gravity * mass));
+        [0, 1].map(|limit| {
+            let end_values = end_pressures.map(|pressures| pressures[limit]);
+            piece.height * mean_of_positive_part(end_values)
+        })
     };
-    let active = means(soil, |piece| limits(piece)[0]);
-    let passive = means(soil, |piece| limits(piece)[1]);
-    let friction = means(soil, |piece| piece.height * strength(piece).wall_friction());
-    let at_rest =
-        means(soil, |piece| gravity * piece.ratio_at_rest(ratio) * piece.height * piece.mass_above);
+    let active = element_means(soil, |piece| thrust_limits(piece)[0]);
+    let passive = element_means(soil, |piece| thrust_limits(piece)[1]);
+    let friction = element_means(soil, |piece| piece.height * strength(piece).wall_friction());
+    let pressure_at_rest = element_means(soil, |piece| {
+        gravity * piece.ratio_at_rest(k0) * piece.height * piece.mass_above
+    });
     let mut laws = Vec::with_capacity(active.len());
     for element in 0..active.len() {
-        let bounds = active[element] * (1.0 - PRESSURE_TOLERANCE_FACTOR)
+        let limits = active[element] * (1.0 - PRESSURE_TOLERANCE_FACTOR)
             ..=passive[element] * (1.0 + PRESSURE_TOLERANCE_FACTOR);
-        let fits = bounds.contains(&at_rest[element]);
+        let is_between_limits = limits.contains(&pressure_at_rest[element]);
         let needed = "between active and passive pressure: see `with_pressure_at_rest`";
-        let law = require("pressure at rest", at_rest[element], fits, needed)
+        let law = require("pressure at rest", pressure_at_rest[element], is_between_limits, needed)
             .and_then(|_| EarthPressure::new(active[element], passive[element], friction[element]));
         laws.push(law.map_err(|error| error.within(format!("wall element {element}")))?);
     }
@@ -174,7 +193,7 @@ mod tests {
     use crate::bem::embedded::Trench;
     use crate::soil::SoilProfile;
 
-    /// Two layers of 2 m and more, ρ = 1000 and 2000: the thrust by hand, ∫K₀ m dz.
+    /// A layer of 2 m with ρ = 1000 over a half-plane with ρ = 2000: the thrust ∫K₀ m dz by hand.
     #[test]
     fn thrust_of_two_layers() {
         let upper = Soil::from_shear_wave_speed(200.0, 0.25, 1000.0).unwrap();
@@ -183,14 +202,14 @@ mod tests {
         let elements = Trench::new(-3.0..3.0, 5.0).unwrap().elements(4, 3).unwrap();
         let lengths: Vec<f64> = elements.elements().iter().map(ContactElement::length).collect();
         let soil = TrenchSoil::new(profile, elements).unwrap();
-        for (ratio, k) in [(None, 1.0 / 3.0), (Some(0.5), 0.5)] {
-            let pressures = at_rest(&soil, ratio);
+        for (k0, ratio) in [(None, 1.0 / 3.0), (Some(0.5), 0.5)] {
+            let pressures = pressures_at_rest(&soil, k0);
             assert_eq!(pressures.len(), 10);
             assert_eq!(pressures[3..7], [8000.0; 4]);
             for wall in [0..3, 7..10] {
                 let thrust: f64 = wall.map(|e| pressures[e] * lengths[e]).sum();
                 // 1000 · 2²/2 + 2000 · 3 + 2000 · 3²/2.
-                assert!((thrust - k * 17_000.0).abs() < 1e-8, "{thrust}");
+                assert!((thrust - ratio * 17_000.0).abs() < 1e-8, "{thrust}");
             }
             assert!((pressures[0] - pressures[9]).abs() < 1e-12 * pressures[0]);
         }

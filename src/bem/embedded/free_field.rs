@@ -10,49 +10,66 @@ pub(super) struct ProfilePiece {
     pub(super) inertia: Complex64,
 }
 
-/// Displacement u and stress M ∂u/∂z, z down, of a vertical wave that moves the surface by one.
+/// Displacement u and stress M ∂u/∂z (z down) of a vertical wave that displaces the surface by one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct VerticalField {
     pub(super) displacement: Complex64,
     pub(super) stress: Complex64,
 }
 
+/// Field of a vertical wave over a piece of the profile.
+pub(super) struct FieldOverPiece {
+    /// Field at the lower end.
+    pub(super) bottom: VerticalField,
+    /// Integrals over the height.
+    pub(super) integrals: VerticalField,
+}
+
+/// Largest |x| for which two terms of the series of sinh(x)/x have an error below 1e-14.
+const MAX_SERIES_ARGUMENT: f64 = 1e-3;
+
 impl VerticalField {
-    /// At the free surface.
+    /// Field at the free surface.
     pub(super) const AT_SURFACE: Self =
         Self { displacement: Complex64::ONE, stress: Complex64::ZERO };
 
-    /// The field at the bottom of a piece that has this field at its top, and its integrals over the piece.
-    pub(super) fn below(self, piece: ProfilePiece) -> (Self, Self) {
+    /// Field over a piece that has this field at its top.
+    pub(super) fn over_piece(self, piece: ProfilePiece) -> FieldOverPiece {
         let Self { displacement, stress } = self;
         let ProfilePiece { height, modulus, inertia } = piece;
-        let travel = (inertia / modulus).sqrt() * height;
+        let phase = (inertia / modulus).sqrt() * height;
         // sinh(κh)/κ, cosh(κh) and (cosh(κh) − 1)/κ².
-        let ratio = sinh_ratio(travel) * height;
-        let half = sinh_ratio(travel * 0.5) * height;
-        let cosh = travel.cosh();
-        let below = Self {
-            displacement: displacement * cosh + stress / modulus * ratio,
-            stress: stress * cosh + displacement * inertia * ratio,
+        let sinh_term = sinh_ratio(phase) * height;
+        let half_sinh_term = sinh_ratio(phase * 0.5) * height;
+        let cosh = phase.cosh();
+        let bottom = Self {
+            displacement: displacement * cosh + stress / modulus * sinh_term,
+            stress: stress * cosh + displacement * inertia * sinh_term,
         };
         let integrals = Self {
-            displacement: displacement * ratio + stress / modulus * half * half * 0.5,
-            stress: stress * ratio + displacement * inertia * half * half * 0.5,
+            displacement: displacement * sinh_term
+                + stress / modulus * half_sinh_term * half_sinh_term * 0.5,
+            stress: stress * sinh_term
+                + displacement * inertia * half_sinh_term * half_sinh_term * 0.5,
         };
-        (below, integrals)
+        FieldOverPiece { bottom, integrals }
     }
 }
 
 /// sinh(x)/x.
 fn sinh_ratio(x: Complex64) -> Complex64 {
-    if x.norm() < 1e-3 { Complex64::ONE + x * x / 6.0 } else { x.sinh() / x }
+    if x.norm() < MAX_SERIES_ARGUMENT {
+        Complex64::ONE + x * x / 6.0
+    } else {
+        x.sinh() / x
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Homogeneous soil: u = cos(ωz/c), stress −μ (ω/c) sin(ωz/c), in pieces as at once.
+    /// Two pieces of homogeneous soil: u = cos(ωz/c), stress −μ (ω/c) sin(ωz/c).
     #[test]
     fn vertical_waves_of_homogeneous_soil_are_standing() {
         for omega in [1e-5_f64, 1e-3, 0.7, 3.0] {
@@ -60,16 +77,20 @@ mod tests {
             let modulus = Complex64::from(2.5);
             let k = omega * (1.5_f64 / 2.5).sqrt();
             let upper_piece = ProfilePiece { height: 0.4, modulus, inertia };
-            let (middle, upper) = VerticalField::AT_SURFACE.below(upper_piece);
-            let (bottom, lower) = middle.below(ProfilePiece { height: 0.9, modulus, inertia });
+            let upper = VerticalField::AT_SURFACE.over_piece(upper_piece);
+            let lower_piece = ProfilePiece { height: 0.9, modulus, inertia };
+            let lower = upper.bottom.over_piece(lower_piece);
+            let displacement_integral = upper.integrals.displacement + lower.integrals.displacement;
+            let stress_integral = upper.integrals.stress + lower.integrals.stress;
             let sine = (k * 1.3).sin();
-            for (found, wanted) in [
-                (bottom.displacement, (k * 1.3).cos()),
-                (bottom.stress / (k * k), -2.5 * sine / k),
-                (upper.displacement + lower.displacement, sine / k),
-                ((upper.stress + lower.stress) / (k * k), -5.0 * ((k * 0.65).sin() / k).powi(2)),
+            for (computed, expected) in [
+                (lower.bottom.displacement, (k * 1.3).cos()),
+                (lower.bottom.stress / (k * k), -2.5 * sine / k),
+                (displacement_integral, sine / k),
+                (stress_integral / (k * k), -5.0 * ((k * 0.65).sin() / k).powi(2)),
             ] {
-                assert!((found - wanted).norm() < 1e-12 * (1.0 + wanted.abs()), "{found} {wanted}");
+                let tolerance = 1e-12 * (1.0 + expected.abs());
+                assert!((computed - expected).norm() < tolerance, "{computed} {expected}");
             }
         }
     }

@@ -9,27 +9,27 @@ use super::trench::TrenchElements;
 use crate::bem::layered::Stages;
 use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround, WeightsSource};
 use crate::error::{Observer, Result, not_negative, positive, same_length};
-use crate::geometry::{ContactElement, ContactLayout};
+use crate::geometry::ContactLayout;
 use crate::history::{HistoryChoice, HistoryOptions};
 use crate::interface::{EarthPressure, InterfaceLaw};
-use crate::motion::FreeField;
 use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 
 /// Soil around a trench: profile, contact elements and backfill.
 ///
-/// Gives the [impedances](TrenchGround::impedances) of a rigid body in the trench, welded to walls and base, and its
-/// [motion without mass](TrenchGround::kinematic_motions) under vertical waves. Plane strain, per metre of length.
+/// Computes the [impedances](TrenchGround::impedances) of a rigid body that is bonded to walls and base, and the
+/// [motions of a body without mass](TrenchGround::kinematic_motions) under vertical waves. Plane strain, per metre of
+/// length.
 ///
-/// The soil around the trench is a mesh of finite elements of high degree. Endless columns of elements follow on both
-/// sides. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the corners
-/// of the trench and depends on its elements only.
+/// The soil around the trench is a mesh of finite elements of high degree. On both sides infinitely many columns of
+/// elements follow. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the
+/// corners of the trench and depends on the contact elements only.
 ///
 /// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights follow
 /// by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh. The
 /// number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
 /// translations.
 ///
-/// The mesh is as fine as the contact elements, and resolves waves as long as these. Short steps on long elements excite
+/// The mesh is as fine as the contact elements, and resolves waves of their length. Short steps on long elements excite
 /// shorter waves. With two elements of the base, one of each wall, and steps in which shear waves cross a tenth of half
 /// the width, the step compliance changes by 1 to 5 % with the mesh.
 ///
@@ -56,7 +56,7 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 pub struct TrenchGround {
     source: TrenchSource,
     /// K₀ of all soils; `None`: ν/(1 − ν) of each soil.
-    ratio_at_rest: Option<f64>,
+    k0: Option<f64>,
     /// Runge–Kutta stages since the last [`Ground::prepare`].
     prepared_stages: Option<Stages>,
     ground: WeightsGround,
@@ -75,7 +75,7 @@ impl TrenchGround {
         let soil = TrenchSoil::new(profile.into(), elements)?;
         let source = TrenchSource { soil, stages: None, file: None };
         let ground = WeightsGround::with_unions(source.clone(), contact_elements, None);
-        Ok(Self { source, ratio_at_rest: None, prepared_stages: None, ground })
+        Ok(Self { source, k0: None, prepared_stages: None, ground })
     }
 
     /// The ground with another source.
@@ -84,7 +84,9 @@ impl TrenchGround {
         Self { ground, source, prepared_stages: None, ..self }
     }
 
-    /// Fills the soil beside the walls with `soil`, over a `width` in m and from the surface down to the base.
+    /// Replaces the soil beside the walls by backfill of a `width`, m.
+    ///
+    /// The backfill reaches from the surface down to the base, and consists of `soil` with this `damping`.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a width that is not finite and above zero.
@@ -99,16 +101,20 @@ impl TrenchGround {
         Ok(self.with_source(TrenchSource { soil, ..source }))
     }
 
-    /// Sets K₀, the pressure at rest on the walls over the pressure of the soil above; default ν/(1 − ν) of each soil.
+    /// Sets K₀, the ratio of horizontal to vertical pressure at rest.
+    ///
+    /// The default is ν/(1 − ν) of each soil.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a ratio below zero or not finite.
     pub fn with_pressure_at_rest(self, ratio: f64) -> Result<Self> {
         let ratio = not_negative("pressure at rest over the vertical pressure", ratio)?;
-        Ok(Self { ratio_at_rest: Some(ratio), ..self })
+        Ok(Self { k0: Some(ratio), ..self })
     }
 
-    /// Sets the number of Runge–Kutta stages, in place of the rule.
+    /// Sets the number of Runge–Kutta stages.
+    ///
+    /// The default is [`Stages::for_profile`].
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         let source = TrenchSource { stages: Some(stages), ..self.source.clone() };
@@ -132,18 +138,18 @@ impl TrenchGround {
         Ok(Self { ground: self.ground.with_history(options)?, ..self })
     }
 
-    /// Takes weights from a store shared with other grounds: see [`WeightsGround::with_shared_kernels`].
+    /// Shares convolution weights with other grounds: see [`WeightsGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
-    /// Interface laws of all elements: `base` below, and limits of the pressure on the walls by the soils' strengths.
+    /// Interface laws of all elements, with earth pressure limits on the walls.
     ///
-    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each element of a
-    /// wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]), as means over the
-    /// element: the limits of the thrust are exact. `strengths`: one for all soils, or one for each from the surface
-    /// down, the half-plane last; with backfill, of the backfill alone. `gravity`: of the builder, m/s².
+    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each
+    /// element of a wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]). These
+    /// limits are means over the element; the limits of the thrust are exact. `base`: law of the base. `strengths`: one for all soils, or one for each from the surface
+    /// down, the half-plane last; with backfill, of the backfill only. `gravity`: as in the builder, m/s².
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -170,16 +176,17 @@ impl TrenchGround {
         strengths: &[SoilStrength],
         gravity: f64,
     ) -> Result<Vec<Box<dyn InterfaceLaw>>> {
-        let walls = self.wall_laws(strengths, gravity)?;
+        let wall_laws = self.wall_laws(strengths, gravity)?;
         let elements = self.trench_elements().elements();
-        let last = elements.len() - 1;
-        let laws = elements.iter().enumerate().map(move |(e, element)| -> Box<dyn InterfaceLaw> {
-            if element.faces_down() {
-                Box::new(base.clone())
-            } else {
-                Box::new(walls[e.min(last - e)])
-            }
-        });
+        let last_index = elements.len() - 1;
+        let laws =
+            elements.iter().enumerate().map(move |(index, element)| -> Box<dyn InterfaceLaw> {
+                if element.faces_down() {
+                    Box::new(base.clone())
+                } else {
+                    Box::new(wall_laws[index.min(last_index - index)])
+                }
+            });
         Ok(laws.collect())
     }
 
@@ -194,10 +201,10 @@ impl TrenchGround {
     ) -> Result<Vec<EarthPressure>> {
         positive("gravity", gravity)?;
         if strengths.len() != 1 {
-            let soils = if self.has_backfill() { 1 } else { self.profile().soils().count() };
-            same_length("list of soil strengths", strengths.len(), soils)?;
+            let soil_count = if self.has_backfill() { 1 } else { self.profile().soils().count() };
+            same_length("list of soil strengths", strengths.len(), soil_count)?;
         }
-        earth_pressure::laws(self.soil(), strengths, gravity, self.ratio_at_rest)
+        earth_pressure::wall_laws(self.soil(), strengths, gravity, self.k0)
     }
 
     /// Soil beside and below the trench.
@@ -221,18 +228,7 @@ impl TrenchGround {
 }
 
 impl Ground for TrenchGround {
-    forward! {
-        self.ground;
-        fn elements(&self) -> &[ContactElement];
-        fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
-        fn commit(&mut self, traction: &[f64]);
-        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn increment_error_bound(&self) -> f64;
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
-        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
-    }
+    forward_weights_ground! { self.ground }
 
     fn prepare(
         &mut self,
@@ -256,13 +252,12 @@ impl Ground for TrenchGround {
     fn description(&self) -> GroundDescription {
         let description = self.ground.description();
         let stages = self.prepared_stages.map(Stages::count);
-        let ratio = self.ratio_at_rest;
         GroundDescription {
             soils: self.soil().soils().collect(),
             identity: self.soil().identity(),
-            pressure_at_rest: earth_pressure::at_rest(self.soil(), ratio),
-            depth_of_pressure_at_rest: earth_pressure::depth_below_middle(self.soil(), ratio),
-            mass_above: earth_pressure::mass_above(self.soil()),
+            pressure_at_rest: earth_pressure::pressures_at_rest(self.soil(), self.k0),
+            depth_of_pressure_at_rest: earth_pressure::resultant_depths(self.soil(), self.k0),
+            mass_above: earth_pressure::masses_above(self.soil()),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

@@ -17,10 +17,10 @@ use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Complex, ComplexBlock, DenseFactor};
 use crate::soil::Bedrock;
 
-/// Motion of a rigid body without mass in a trench, e^(iωt), per unit motion of the surface of the free field.
+/// Motion of a rigid body without mass in a trench, e^(iωt).
 ///
-/// It is the input motion of the structure: kinematic interaction. Waves travel vertically. x to the right, y down; a
-/// positive rotation lowers the right end. Translations are of the middle of the base.
+/// The motion is per unit motion of the surface of the free field, and is the input of the structure (kinematic
+/// interaction). Waves travel vertically. x to the right, y down; a positive rotation lowers the right end. Translations refer to the middle of the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -39,26 +39,26 @@ pub struct KinematicMotion {
 /// Response of a rigid body in the trench at one Laplace variable.
 #[derive(Clone, Copy)]
 pub(super) struct TrenchResponse {
-    /// hh, vv, rr and hr of the dynamic stiffness.
+    /// Dynamic stiffness: horizontal, vertical, rocking, and coupling of sliding and rocking.
     pub(super) stiffness: [Complex; 4],
     /// Horizontal translation, rotation and vertical translation due to the free field.
     pub(super) motion: [Complex; 3],
 }
 
-/// Numbers of a [`TrenchResponse`] in one list: stiffness, then motion.
-const RESPONSE_LENGTH: usize = 7;
+/// Number of values of a [`TrenchResponse`]: stiffness, then motion.
+const RESPONSE_VALUE_COUNT: usize = 7;
 
 impl TrenchResponse {
-    fn from_list(list: [Complex; RESPONSE_LENGTH]) -> Self {
-        let [hh, vv, rr, hr, horizontal, rotation, vertical] = list;
+    fn from_values(values: [Complex; RESPONSE_VALUE_COUNT]) -> Self {
+        let [hh, vv, rr, hr, horizontal, rotation, vertical] = values;
         Self { stiffness: [hh, vv, rr, hr], motion: [horizontal, rotation, vertical] }
     }
 
-    fn list(&self) -> [Complex; RESPONSE_LENGTH] {
-        let mut list = [Complex::default(); RESPONSE_LENGTH];
-        list[..4].copy_from_slice(&self.stiffness);
-        list[4..].copy_from_slice(&self.motion);
-        list
+    fn values(&self) -> [Complex; RESPONSE_VALUE_COUNT] {
+        let mut values = [Complex::default(); RESPONSE_VALUE_COUNT];
+        values[..4].copy_from_slice(&self.stiffness);
+        values[4..].copy_from_slice(&self.motion);
+        values
     }
 }
 
@@ -66,11 +66,12 @@ impl TrenchResponse {
 const RIGID_MOTION_COUNT: usize = 3;
 
 impl TrenchGround {
-    /// Dynamic stiffness of a rigid body welded to walls and base, at each of `frequencies` (Hz).
+    /// Dynamic stiffness of a bonded rigid body at each of `frequencies` (Hz).
     ///
-    /// The reference point is the middle of the base. The observer counts points of the Laplace plane, eight per
-    /// frequency. Frequency 0 is the static stiffness on rigid bedrock. Layers may have any damping, including
-    /// hysteretic damping; without damping they take up to eight times as long.
+    /// The body is bonded to walls and base. The reference point is the middle of the base. The observer counts points of
+    /// the Laplace plane, eight per frequency. At frequency 0 the result is the static stiffness on rigid bedrock. Layers
+    /// may have any damping, including hysteretic damping; the computation takes up to eight times as long for layers
+    /// without damping.
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -83,17 +84,18 @@ impl TrenchGround {
     ///     .with_damping(Hysteretic::new(0.05)?);
     /// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(8, 6)?;
     /// let ground = TrenchGround::new(profile, elements)?;
-    /// let found = ground.impedances(&[0.0, 2.0], &mut unobserved)?;
-    /// // Below the first frequency of the layer, 3.75 Hz, only the soil damps: Im K ≈ 2ξ Re K.
-    /// assert!((found[1].rocking.im / found[0].rocking.re - 0.10).abs() < 0.01);
+    /// let impedances = ground.impedances(&[0.0, 2.0], &mut unobserved)?;
+    /// // Below the first frequency of the layer, 3.75 Hz, waves radiate no energy: Im K ≈ 2ξ Re K.
+    /// let loss_ratio = impedances[1].rocking.im / impedances[0].rocking.re;
+    /// assert!((loss_ratio - 0.10).abs() < 0.01);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error::Input`] for a frequency that is negative, not finite or too high for the elements, or 0 on a
     /// half-plane, whose static stiffness is 0; [`GroundError::GuidedWave`] without damping at a frequency at which
-    /// guided waves begin; [`Error::Singular`] if the stiffnesses of soils differ by more than double precision
-    /// carries; [`Error::Stopped`] by the observer.
+    /// guided waves begin; [`Error::Singular`] if the stiffnesses of soils differ too much for double
+    /// precision; [`Error::Stopped`] by the observer.
     pub fn impedances(
         &self,
         frequencies: &[f64],
@@ -109,21 +111,22 @@ impl TrenchGround {
         Ok(impedances)
     }
 
-    /// Motion of a rigid body without mass under vertical shear and pressure waves, at each of `frequencies` (Hz).
+    /// Motions of a rigid body without mass at each of `frequencies` (Hz).
     ///
-    /// The observer counts as for [`impedances`](TrenchGround::impedances).
+    /// The waves are vertical shear and pressure waves. The observer counts as for
+    /// [`impedances`](TrenchGround::impedances).
     ///
     /// ```
     /// use basemat::bem::embedded::{Trench, TrenchGround};
     /// use basemat::{Soil, unobserved};
     /// let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
     /// let ground = TrenchGround::new(soil, Trench::new(-6.0..6.0, 5.0)?.elements(8, 6)?)?;
-    /// let found = ground.kinematic_motions(&[0.5, 5.0], &mut unobserved)?;
-    /// // Long waves move the body as they move the surface.
-    /// assert!((found[0].horizontal.abs() - 1.0).abs() < 0.01);
-    /// // At 5 Hz the base moves about as the soil at its depth, cos(ωd/c) = 0.71, and rotates.
-    /// assert!((found[1].horizontal.abs() - 0.72).abs() < 0.01, "{:?}", found[1]);
-    /// assert!((6.0 * found[1].rotation.abs() - 0.076).abs() < 0.002);
+    /// let motions = ground.kinematic_motions(&[0.5, 5.0], &mut unobserved)?;
+    /// // Long waves displace the body and the surface equally.
+    /// assert!((motions[0].horizontal.abs() - 1.0).abs() < 0.01);
+    /// // At 5 Hz the base translates nearly like the soil at its depth, cos(ωd/c) = 0.71, and rotates.
+    /// assert!((motions[1].horizontal.abs() - 0.72).abs() < 0.01, "{:?}", motions[1]);
+    /// assert!((6.0 * motions[1].rotation.abs() - 0.076).abs() < 0.002);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -153,47 +156,52 @@ impl TrenchGround {
 }
 
 impl TrenchSoil {
-    /// Responses at some frequencies, Hz.
+    /// Responses at all `frequencies`, Hz.
     fn responses(
         &self,
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<TrenchResponse>> {
-        let watch = &mut impedance_progress(frequencies, observer);
+        let progress = &mut impedance_progress(frequencies, observer);
         let profile = self.profile();
         let trench = self.elements().trench();
         let span = 2.0 * (trench.half_width() + trench.depth());
         let mut variables = Vec::with_capacity(frequencies.len());
         for frequency in frequencies {
-            let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
-            require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
+            let is_defined = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
+            require(
+                "frequency of an impedance on a half-plane",
+                *frequency,
+                is_defined,
+                "above zero",
+            )?;
             variables.push(laplace_variables(profile, span, *frequency)?);
         }
         // Mesh of one frequency, with its ω.
         let mut mesh: Option<(f64, TrenchMesh)> = None;
-        let lists = extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| {
-            // All points of a frequency have one mesh. The response is therefore analytic in s.
+        let values_by_frequency = extrapolated_stiffnesses(&variables, &[0, 1, 2], progress, |s| {
+            // All points of a frequency share one mesh. The response is therefore analytic in s.
             let response = match &mesh {
                 Some((omega, mesh)) if *omega == s.im => self.response(s, mesh)?,
                 _ => {
-                    let found = self.mesh(s)?;
-                    let response = match &found.compliances {
+                    let chosen = self.mesh(s)?;
+                    let response = match &chosen.compliances {
                         Some(compliances) => self.response_with(s, compliances)?,
-                        None => self.response(s, &found.mesh)?,
+                        None => self.response(s, &chosen.mesh)?,
                     };
-                    mesh = Some((s.im, found.mesh));
+                    mesh = Some((s.im, chosen.mesh));
                     response
                 }
             };
-            Ok(response.list())
+            Ok(response.values())
         });
-        let lists = lists.map_err(|error| match error {
+        let values_by_frequency = values_by_frequency.map_err(|error| match error {
             Error::Ground(GroundError::Unresolved { re, im, .. }) => {
                 GroundError::GuidedWave { re, im }.into()
             }
             other => other,
         })?;
-        Ok(lists.into_iter().map(TrenchResponse::from_list).collect())
+        Ok(values_by_frequency.into_iter().map(TrenchResponse::from_values).collect())
     }
 
     /// Response at `s` by finite elements on a mesh.
@@ -206,30 +214,32 @@ impl TrenchSoil {
         let HalfCompliances { symmetric, antisymmetric } = compliances;
         let faces = TrenchFaces::new(self);
         let field = self.free_field(s)?;
-        let motions = faces.rigid_motions();
-        let shear = faces.free_field(&field, 0);
-        let pressure = faces.free_field(&field, 1);
-        let ReducedSystem { stiffness, forces } = reduce(antisymmetric, &motions, &shear)?;
-        let vertical = reduce(symmetric, &motions, &pressure)?;
+        let rigid_motions = faces.rigid_motions();
+        let shear_field = faces.free_field(&field, 0);
+        let pressure_field = faces.free_field(&field, 1);
+        let ReducedSystem { stiffness, forces } =
+            reduce(antisymmetric, &rigid_motions, &shear_field)?;
+        let vertical = reduce(symmetric, &rigid_motions, &pressure_field)?;
         let vv = vertical.stiffness[1][1];
         let coupling = (stiffness[0][2] + stiffness[2][0]) * 0.5;
         let determinant = stiffness[0][0] * stiffness[2][2] - coupling * coupling;
         let horizontal = (stiffness[2][2] * forces[0] - coupling * forces[2]) / determinant;
         let rotation = (stiffness[0][0] * forces[2] - coupling * forces[0]) / determinant;
         let motion = [horizontal, rotation, vertical.forces[1] / vv];
-        // The stiffnesses are of the right half.
-        let whole = [stiffness[0][0], vv, stiffness[2][2], coupling].map(|half| half * 2.0);
+        // The matrices contain the stiffnesses of the right half.
+        let whole_stiffness =
+            [stiffness[0][0], vv, stiffness[2][2], coupling].map(|half| half * 2.0);
         Ok(TrenchResponse {
-            stiffness: whole.map(|value| Complex::new(value.re, value.im)),
+            stiffness: whole_stiffness.map(|value| Complex::new(value.re, value.im)),
             motion: motion.map(|value| Complex::new(value.re, value.im)),
         })
     }
 }
 
-/// Elements of the right half, in the order of [`HalfCompliances`].
+/// Ends of the elements of the right half, in the order of [`HalfCompliances`].
 struct TrenchFaces<'a> {
-    base: &'a [f64],
-    wall: &'a [f64],
+    base_ends: &'a [f64],
+    wall_ends: &'a [f64],
 }
 
 /// Free field at the elements: horizontal and then vertical component of each.
@@ -241,22 +251,22 @@ struct FaceField {
 }
 
 impl<'a> TrenchFaces<'a> {
-    fn new(ground: &'a TrenchSoil) -> Self {
-        Self { base: ground.elements().base(), wall: ground.elements().wall() }
+    fn new(soil: &'a TrenchSoil) -> Self {
+        Self { base_ends: soil.elements().base_ends(), wall_ends: soil.elements().wall_ends() }
     }
 
     /// Resultants of unit tractions about the middle of the base: three for each row.
     fn rigid_motions(&self) -> Vec<[f64; RIGID_MOTION_COUNT]> {
-        let Self { base, wall } = self;
-        let half_width = base[base.len() - 1];
-        let depth = wall[wall.len() - 1];
+        let Self { base_ends, wall_ends } = self;
+        let half_width = base_ends[base_ends.len() - 1];
+        let depth = wall_ends[wall_ends.len() - 1];
         let mut rows = vec![];
-        for ends in base.windows(2) {
+        for ends in base_ends.windows(2) {
             let length = ends[1] - ends[0];
             rows.push([length, 0.0, 0.0]);
             rows.push([0.0, length, length * (0.5 * (ends[0] + ends[1]))]);
         }
-        for ends in wall.windows(2) {
+        for ends in wall_ends.windows(2) {
             let length = ends[1] - ends[0];
             let height_above_base = depth - 0.5 * (ends[0] + ends[1]);
             rows.push([length, 0.0, length * height_above_base]);
@@ -265,24 +275,28 @@ impl<'a> TrenchFaces<'a> {
         rows
     }
 
-    /// The free field of shear (0) or pressure waves (1).
+    /// Free field of shear waves (`wave` 0) or pressure waves (1) at the elements.
     fn free_field(&self, field: &FreeFieldAtFaces, wave: usize) -> FaceField {
-        let count = self.base.len() + self.wall.len() - 2;
-        let mut displacements = vec![Complex64::ZERO; 2 * count];
+        let element_count = self.base_ends.len() + self.wall_ends.len() - 2;
+        let mut displacements = vec![Complex64::ZERO; 2 * element_count];
         let mut tractions = displacements.clone();
-        // The displacement is along x (0) in shear waves and along z (1) in pressure waves; so is the traction of the
-        // base. The traction of a wall has the other direction.
+        // Displacement, and traction on the base: along x (0) in shear waves and along z (1) in pressure waves. The
+        // traction on a wall has the other direction.
         let direction = wave;
-        let at_base = field.base[wave];
-        for (element, ends) in self.base.windows(2).enumerate() {
-            displacements[2 * element + direction] = at_base.displacement * (ends[1] - ends[0]);
-            tractions[2 * element + direction] = -at_base.stress;
+        let base_field = field.base_fields[wave];
+        for (element, ends) in self.base_ends.windows(2).enumerate() {
+            displacements[2 * element + direction] = base_field.displacement * (ends[1] - ends[0]);
+            tractions[2 * element + direction] = -base_field.stress;
         }
-        for (element, ends) in self.wall.windows(2).enumerate() {
-            let at_wall = field.walls[element][wave];
-            let stress = if wave == 0 { at_wall.stress } else { field.side_stresses[element] };
-            let row = 2 * (self.base.len() - 1 + element);
-            displacements[row + direction] = at_wall.displacement;
+        for (element, ends) in self.wall_ends.windows(2).enumerate() {
+            let wall_integrals = field.wall_integrals[element][wave];
+            let stress = if wave == 0 {
+                wall_integrals.stress
+            } else {
+                field.side_stress_integrals[element]
+            };
+            let row = 2 * (self.base_ends.len() - 1 + element);
+            displacements[row + direction] = wall_integrals.displacement;
             tractions[row + 1 - direction] = -stress / (ends[1] - ends[0]);
         }
         FaceField { displacements, tractions }
@@ -303,28 +317,28 @@ const SOLVED_COLUMN_COUNT: usize = RIGID_MOTION_COUNT + 1;
 /// Reduces the compliances of a half to the rigid motions.
 fn reduce(
     compliance: &ComplexBlock,
-    motions: &[[f64; RIGID_MOTION_COUNT]],
+    rigid_motions: &[[f64; RIGID_MOTION_COUNT]],
     field: &FaceField,
 ) -> Result<ReducedSystem> {
     let order = compliance.rows();
-    let mut solved: Vec<Complex64> = vec![];
-    for (motion, displacement) in motions.iter().zip(&field.displacements) {
-        solved.extend(motion.map(Complex64::from));
-        solved.push(*displacement);
+    let mut solutions: Vec<Complex64> = vec![];
+    for (motion, displacement) in rigid_motions.iter().zip(&field.displacements) {
+        solutions.extend(motion.map(Complex64::from));
+        solutions.push(*displacement);
     }
     let mut factor = DenseFactor::with_columns(order, SOLVED_COLUMN_COUNT);
     if !factor.factor(compliance.values(), order) {
         return Err(Error::Singular { matrix: "compliance of a trench", order });
     }
-    factor.solve_columns(&mut solved, SOLVED_COLUMN_COUNT);
+    factor.solve_columns(&mut solutions, SOLVED_COLUMN_COUNT);
     let product = |motion: usize, column: usize| -> Complex64 {
-        let rows = motions.iter().zip(solved.chunks_exact(SOLVED_COLUMN_COUNT));
-        rows.map(|(a, row)| row[column] * a[motion]).sum()
+        let rows = rigid_motions.iter().zip(solutions.chunks_exact(SOLVED_COLUMN_COUNT));
+        rows.map(|(motions, solution)| solution[column] * motions[motion]).sum()
     };
     let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| product(i, j)));
     let forces = std::array::from_fn(|i| {
-        let tractions = motions.iter().zip(&field.tractions);
-        let resultant: Complex64 = tractions.map(|(a, t)| *t * a[i]).sum();
+        let rows = rigid_motions.iter().zip(&field.tractions);
+        let resultant: Complex64 = rows.map(|(motions, traction)| *traction * motions[i]).sum();
         product(i, RIGID_MOTION_COUNT) - resultant
     });
     Ok(ReducedSystem { stiffness, forces })

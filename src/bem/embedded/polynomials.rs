@@ -2,52 +2,57 @@
 
 use crate::linalg::gauss::{largest, next_legendre};
 
-/// Functions of the unit interval, by their values and slopes at points of a Gauss rule.
+/// Functions of the unit interval: values and derivatives at the points of a Gauss rule.
+///
+/// One list of points for each function.
 pub(super) struct IntervalFunctions {
     values: Vec<Vec<f64>>,
-    slopes: Vec<Vec<f64>>,
+    derivatives: Vec<Vec<f64>>,
 }
 
 /// Integrals of products of two sets of functions; row by row.
 pub(super) struct ProductIntegrals {
-    columns: usize,
+    column_count: usize,
     values: Vec<f64>,
 }
 
 impl ProductIntegrals {
-    fn new(rows: &[Vec<f64>], columns: &[Vec<f64>]) -> Self {
-        let mut values = Vec::with_capacity(rows.len() * columns.len());
-        for row in rows {
-            for column in columns {
+    fn new(row_functions: &[Vec<f64>], column_functions: &[Vec<f64>]) -> Self {
+        let mut values = Vec::with_capacity(row_functions.len() * column_functions.len());
+        for row in row_functions {
+            for column in column_functions {
                 let points = largest().points_on_unit_interval().zip(row.iter().zip(column));
                 values.push(points.map(|((_, weight), (a, b))| weight * a * b).sum());
             }
         }
-        Self { columns: columns.len(), values }
+        Self { column_count: column_functions.len(), values }
     }
 
     /// The integrals with rows and columns exchanged.
     pub(super) fn transposed(&self) -> Self {
-        let rows = self.values.len() / self.columns;
-        let values = (0..self.columns).flat_map(|j| (0..rows).map(move |i| self.at(i, j)));
-        Self { columns: rows, values: values.collect() }
+        let row_count = self.values.len() / self.column_count;
+        let values =
+            (0..self.column_count).flat_map(|j| (0..row_count).map(move |i| self.at(i, j)));
+        Self { column_count: row_count, values: values.collect() }
     }
 
     /// The integral of the product of two functions.
     pub(super) fn at(&self, row: usize, column: usize) -> f64 {
-        self.values[row * self.columns + column]
+        self.values[row * self.column_count + column]
     }
 }
 
 impl IntervalFunctions {
     /// Lagrange functions of the `degree` + 1 nodes, in their order.
     pub(super) fn lagrange(degree: usize) -> Self {
-        let nodes = nodes(degree);
-        let mut functions = Self { values: vec![], slopes: vec![] };
+        let nodes = lobatto_nodes(degree);
+        let mut functions = Self { values: vec![], derivatives: vec![] };
         for i in 0..=degree {
             let points = largest().points_on_unit_interval().map(|(x, _)| x);
             functions.values.push(points.clone().map(|x| lagrange(&nodes, i, x)).collect());
-            functions.slopes.push(points.map(|x| lagrange_slope(&nodes, i, x)).collect());
+            functions
+                .derivatives
+                .push(points.map(|x| lagrange_derivative(&nodes, i, x)).collect());
         }
         functions
     }
@@ -55,10 +60,10 @@ impl IntervalFunctions {
     /// Combinations that are even and odd about the middle of the interval.
     ///
     /// The first function of either set is the only one that does not vanish at the ends: it is 1 at the left end.
-    pub(super) fn halves(&self) -> [Self; 2] {
+    pub(super) fn even_and_odd(&self) -> [Self; 2] {
         [1.0, -1.0].map(|sign| Self {
             values: combine_mirrored(&self.values, sign),
-            slopes: combine_mirrored(&self.slopes, sign),
+            derivatives: combine_mirrored(&self.derivatives, sign),
         })
     }
 
@@ -67,44 +72,47 @@ impl IntervalFunctions {
         self.values.len()
     }
 
-    /// ∫ f g of these functions f and the `others` g.
-    pub(super) fn masses(&self, others: &Self) -> ProductIntegrals {
-        ProductIntegrals::new(&self.values, &others.values)
+    /// ∫ f g of these functions f and the functions g of `other`.
+    pub(super) fn masses(&self, other: &Self) -> ProductIntegrals {
+        ProductIntegrals::new(&self.values, &other.values)
     }
 
-    /// ∫ f′ g′.
+    /// ∫ f′ g′ of these functions.
     pub(super) fn stiffnesses(&self) -> ProductIntegrals {
-        ProductIntegrals::new(&self.slopes, &self.slopes)
+        ProductIntegrals::new(&self.derivatives, &self.derivatives)
     }
 
-    /// ∫ f′ g.
-    pub(super) fn slopes_by(&self, others: &Self) -> ProductIntegrals {
-        ProductIntegrals::new(&self.slopes, &others.values)
+    /// ∫ f′ g of these functions f and the functions g of `other`.
+    pub(super) fn derivative_products(&self, other: &Self) -> ProductIntegrals {
+        ProductIntegrals::new(&self.derivatives, &other.values)
     }
 
-    /// ∫ f.
+    /// ∫ f: the mean of each function.
     pub(super) fn means(&self) -> Vec<f64> {
         let one = vec![vec![1.0; largest().nodes.len()]];
         ProductIntegrals::new(&self.values, &one).values
     }
 }
 
+/// Number of Newton iterations for a node: rounding is reached in fewer from Chebyshev's nodes.
+const NEWTON_ITERATIONS: usize = 20;
+
 /// Lobatto's nodes on [0, 1]: the ends, and the extrema of Legendre's polynomial of `degree`.
-pub(super) fn nodes(degree: usize) -> Vec<f64> {
+pub(super) fn lobatto_nodes(degree: usize) -> Vec<f64> {
     let n = degree as f64;
     let mut nodes = vec![];
     for i in 0..=degree {
         let mut x = -(std::f64::consts::PI * i as f64 / n).cos();
         // Newton's method at the inner nodes.
-        let iterations = if i == 0 || i == degree { 0 } else { 20 };
+        let iterations = if i == 0 || i == degree { 0 } else { NEWTON_ITERATIONS };
         for _ in 0..iterations {
-            let mut before = 1.0;
+            let mut previous_value = 1.0;
             let mut value = x;
             for k in 2..=degree {
-                (before, value) = (value, next_legendre(k, x, [before, value]));
+                (previous_value, value) = (value, next_legendre(k, x, [previous_value, value]));
             }
-            // (1 − x²) P′ = n (P before − x P), whose slope is −n (n + 1) P.
-            x += (before - x * value) / ((n + 1.0) * value);
+            // (1 − x²) Pₙ′ = n (Pₙ₋₁ − x Pₙ), whose derivative is −n (n + 1) Pₙ.
+            x += (previous_value - x * value) / ((n + 1.0) * value);
         }
         nodes.push(0.5 * (1.0 + x));
     }
@@ -123,24 +131,24 @@ fn combine_mirrored(functions: &[Vec<f64>], sign: f64) -> Vec<Vec<f64>> {
             continue;
         }
         let factor = if is_middle { 0.0 } else { sign };
-        let pairs = functions[i].iter().zip(&functions[j]);
-        combined.push(pairs.map(|(a, b)| a + factor * b).collect());
+        let value_pairs = functions[i].iter().zip(&functions[j]);
+        combined.push(value_pairs.map(|(a, b)| a + factor * b).collect());
     }
     combined
 }
 
 /// Lagrange's function of node `i` at `x`.
 pub(super) fn lagrange(nodes: &[f64], i: usize, x: f64) -> f64 {
-    let others = (0..nodes.len()).filter(|k| *k != i);
-    others.map(|k| (x - nodes[k]) / (nodes[i] - nodes[k])).product()
+    let other_nodes = (0..nodes.len()).filter(|k| *k != i);
+    other_nodes.map(|k| (x - nodes[k]) / (nodes[i] - nodes[k])).product()
 }
 
 /// Derivative of Lagrange's function of node `i` at `x`.
-fn lagrange_slope(nodes: &[f64], i: usize, x: f64) -> f64 {
+fn lagrange_derivative(nodes: &[f64], i: usize, x: f64) -> f64 {
     let mut terms = vec![];
     for j in (0..nodes.len()).filter(|j| *j != i) {
-        let others = (0..nodes.len()).filter(|k| *k != i && *k != j);
-        let product: f64 = others.map(|k| (x - nodes[k]) / (nodes[i] - nodes[k])).product();
+        let other_nodes = (0..nodes.len()).filter(|k| *k != i && *k != j);
+        let product: f64 = other_nodes.map(|k| (x - nodes[k]) / (nodes[i] - nodes[k])).product();
         terms.push(product / (nodes[i] - nodes[j]));
     }
     terms.iter().sum()

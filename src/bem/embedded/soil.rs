@@ -2,11 +2,10 @@
 
 use basemat_fourier::num_complex::Complex64;
 
-use super::compliance::Bottom;
-use super::compliance::{HalfCompliances, TrenchModel};
-use super::free_field::{ProfilePiece, VerticalField};
-use super::grid::{GridLayer, TrenchGrid};
-use super::stack::Moduli;
+use super::column::Moduli;
+use super::compliance::{Bottom, HalfCompliances, TrenchModel};
+use super::free_field::{FieldOverPiece, ProfilePiece, VerticalField};
+use super::grid::{GridLayer, TrenchGrid, WallInterval};
 use super::trench::TrenchElements;
 use crate::error::{GroundError, Result, positive, require};
 use crate::linalg::Complex;
@@ -26,20 +25,20 @@ pub(super) struct TrenchSoil {
 struct Backfill {
     /// Width, m.
     width: f64,
-    /// Half-plane of the soil, for its damping law.
+    /// Half-plane of the soil, with its damping law.
     profile: SoilProfile,
 }
 
-/// Degree of the elements of the near field.
+/// Smallest degree of the elements of the near field.
 const NEAR_FIELD_DEGREE: usize = 4;
-/// Largest degree.
+/// Largest degree of the elements of the near field.
 const MAX_DEGREE: usize = 12;
 /// Length of an element of the near field for each degree, in c/|s|.
 const LENGTH_PER_DEGREE: f64 = 0.75;
-/// Longest contact element, in c/ω: a quarter of a shear wave.
-const MAX_CONTACT_LENGTH: f64 = 0.25 * std::f64::consts::TAU;
+/// Largest phase over a contact element, rad: a quarter of a shear wave.
+const MAX_CONTACT_PHASE: f64 = 0.25 * std::f64::consts::TAU;
 /// Longest interval of the near field in the slowest soil, in half widths of the trench.
-const MAX_NEAR_INTERVAL: f64 = 0.5;
+const MAX_NEAR_INTERVAL_RATIO: f64 = 0.5;
 /// First depth of the stretched elements, in c/|s|.
 const FIRST_BOTTOM_DEPTH: f64 = 24.0;
 /// Ratio of two depths that are compared.
@@ -49,12 +48,12 @@ const MAX_BOTTOM_DEPTH: f64 = 100.0;
 /// Largest relative difference between the compliances of two depths.
 const DEPTH_CHANGE_TOLERANCE: f64 = 1e-6;
 /// Largest Re s·b/c for which depths are compared under undamped layers.
-const NEAR_AXIS: f64 = 1e-2;
+const MAX_COMPARED_DECAY: f64 = 1e-2;
 /// Smallest 2ξ of damped layers, for which no comparison is needed.
 const MIN_LOSS_RATIO: f64 = 4e-3;
 /// Laplace variable in place of zero on a half-plane, in c/b.
-const STATIC_VARIABLE: f64 = 1e-4;
-/// Distance between interface and wall element that counts as rounding, in half widths.
+const STATIC_LAPLACE_RATIO: f64 = 1e-4;
+/// Distance between an interface and the end of a wall element that counts as rounding, in half widths.
 const INTERFACE_TOLERANCE: f64 = 1e-6;
 
 /// Degree and stretched elements for Laplace variables near iω.
@@ -66,7 +65,7 @@ pub(super) struct TrenchMesh {
 /// Mesh that is deep enough at a Laplace variable.
 pub(super) struct ChosenMesh {
     pub(super) mesh: TrenchMesh,
-    /// Compliances there, if they were needed to find the mesh.
+    /// Compliances at the Laplace variable, if the choice of the mesh needed them.
     pub(super) compliances: Option<HalfCompliances>,
 }
 
@@ -85,7 +84,7 @@ impl TrenchSoil {
         Ok(Self { profile, elements, backfill: None, grid })
     }
 
-    /// Fills the soil beside the walls with `soil`, over a `width` in m and from the surface down to the base.
+    /// Replaces the soil beside the walls by backfill of a `width` (m), from the surface to the base.
     ///
     /// # Errors
     /// As for [`TrenchGround::with_backfill`](super::TrenchGround::with_backfill).
@@ -102,7 +101,7 @@ impl TrenchSoil {
         Ok(self)
     }
 
-    /// The same soil around faces divided into halves of all elements.
+    /// The same soil with each contact element divided into two.
     pub(super) fn halved(&self) -> Self {
         let width = self.backfill.as_ref().map_or(0.0, |backfill| backfill.width);
         let elements = self.elements.halved();
@@ -119,7 +118,7 @@ impl TrenchSoil {
         &self.elements
     }
 
-    /// Soil of the backfill.
+    /// Soil of the backfill, if there is any.
     pub(super) fn fill(&self) -> Option<Soil> {
         self.backfill.as_ref().and_then(|backfill| backfill.profile.surface())
     }
@@ -136,17 +135,17 @@ impl TrenchSoil {
         self.backfill.iter().try_for_each(|backfill| backfill.profile.check_causal())
     }
 
-    /// Numbers that tell soils and backfill from others; `None` for a damping law without such numbers.
+    /// Numbers that identify soils and backfill; `None` if a damping law has no identity.
     pub(super) fn identity(&self) -> Option<Vec<f64>> {
-        let mut numbers = self.profile.identity()?;
+        let mut identity = self.profile.identity()?;
         if let Some(Backfill { width, profile }) = &self.backfill {
-            numbers.push(*width);
-            numbers.extend(profile.identity()?);
+            identity.push(*width);
+            identity.extend(profile.identity()?);
         }
-        Some(numbers)
+        Some(identity)
     }
 
-    /// Elastic constants at `s`, with the inertia at the Laplace variable `inertia_s`.
+    /// Elastic constants of all soils at `s`, with the inertia at the Laplace variable `inertia_s`.
     fn moduli(&self, s: Complex, inertia_s: Complex) -> Result<Vec<Moduli>> {
         let mut shear_moduli = vec![];
         self.profile.moduli(s, &mut shear_moduli)?;
@@ -155,17 +154,19 @@ impl TrenchSoil {
             backfill.profile.moduli(s, &mut fill_moduli)?;
             shear_moduli.extend(fill_moduli);
         }
-        let square = inertia_s.inner() * inertia_s.inner();
+        let inertia_s_squared = inertia_s.inner() * inertia_s.inner();
         let mut moduli = Vec::with_capacity(shear_moduli.len());
         for (modulus, soil) in shear_moduli.iter().zip(self.soils()) {
             let shear = modulus.inner();
             let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
-            moduli.push(Moduli { shear, lame, inertia: square * soil.density() });
+            moduli.push(Moduli { shear, lame, inertia: inertia_s_squared * soil.density() });
         }
         Ok(moduli)
     }
 
-    /// Mesh for Laplace variables near `s`, and the compliances there if they were needed to find it.
+    /// Mesh for Laplace variables near `s`.
+    ///
+    /// The result contains the compliances at `s` if the choice needed them.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a frequency that the elements do not resolve; as for
@@ -173,19 +174,21 @@ impl TrenchSoil {
     pub(super) fn mesh(&self, s: Complex) -> Result<ChosenMesh> {
         let half_width = self.elements.trench().half_width();
         let speeds: Vec<f64> = self.soils().map(|soil| soil.shear_wave_speed()).collect();
-        let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let interval_phase = MAX_NEAR_INTERVAL * half_width * s.im / slowest;
+        let min_speed = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let interval_phase = MAX_NEAR_INTERVAL_RATIO * half_width * s.im / min_speed;
         let degree = (NEAR_FIELD_DEGREE..=MAX_DEGREE)
             .find(|degree| interval_phase <= LENGTH_PER_DEGREE * *degree as f64);
-        let contact_phase = s.im * self.grid.slowest_crossing(&speeds);
-        let is_resolved = degree.is_some() && contact_phase <= MAX_CONTACT_LENGTH;
+        let contact_phase = s.im * self.grid.max_crossing_time(&speeds);
+        let is_resolved = degree.is_some() && contact_phase <= MAX_CONTACT_PHASE;
         let frequency = s.im / std::f64::consts::TAU;
         let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
         require("frequency of a trench (Hz)", frequency, is_resolved, needed)?;
         self.mesh_of_degree(s, degree.unwrap_or(MAX_DEGREE))
     }
 
-    /// Mesh of a `degree` that is deep enough at `s`, and the compliances there if they were needed to find it.
+    /// Mesh of a `degree` that is deep enough at `s`.
+    ///
+    /// The result contains the compliances at `s` if the choice needed them.
     ///
     /// # Errors
     /// [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
@@ -211,30 +214,33 @@ impl TrenchSoil {
         }
     }
 
-    /// Mesh for Laplace variables near `s` with stretched elements to a `depth` in c/|s|, of a `degree` or higher.
+    /// Mesh for Laplace variables near `s`, with stretched elements down to a `depth`.
+    ///
+    /// `depth`: in c/|s|. `degree`: of the near field; stretched elements may have a higher degree.
     pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> TrenchMesh {
         let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
             return TrenchMesh { degree, bottom: Bottom::rigid(degree) };
         };
         let half_width = self.elements.trench().half_width();
-        let last = self.grid.below.last().map_or(half_width, |interval| interval.length);
-        let bottom = Bottom::new(s.inner(), last, soil.shear_wave_speed(), depth, degree);
+        let lowest = self.grid.lower_intervals.last();
+        let upper_length = lowest.map_or(half_width, |interval| interval.length);
+        let bottom = Bottom::new(s.inner(), upper_length, soil.shear_wave_speed(), depth, degree);
         TrenchMesh { degree, bottom }
     }
 
     /// Whether a guided wave near its cut-off may need a deeper bottom at `s`.
     fn needs_comparison(&self, s: Complex) -> Result<bool> {
         let half_width = self.elements.trench().half_width();
-        let fastest = self.soils().map(|soil| soil.shear_wave_speed()).fold(0.0, f64::max);
+        let max_speed = self.soils().map(|soil| soil.shear_wave_speed()).fold(0.0, f64::max);
         let has_half_plane = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let is_near_axis = s.re * half_width < NEAR_AXIS * fastest;
-        let on_axis = Complex::new(0.0, s.im);
-        let moduli = self.moduli(on_axis, on_axis)?;
-        let layers = self.profile.layers().len();
-        let is_undamped = moduli[..layers + usize::from(has_half_plane)]
+        let is_near_axis = s.re * half_width < MAX_COMPARED_DECAY * max_speed;
+        let imaginary_s = Complex::new(0.0, s.im);
+        let moduli = self.moduli(imaginary_s, imaginary_s)?;
+        let layer_count = self.profile.layers().len();
+        let is_undamped = moduli[..layer_count + usize::from(has_half_plane)]
             .iter()
             .any(|moduli| moduli.shear.im.abs() < MIN_LOSS_RATIO * moduli.shear.re);
-        Ok(has_half_plane && is_near_axis && layers > 0 && is_undamped)
+        Ok(has_half_plane && is_near_axis && layer_count > 0 && is_undamped)
     }
 
     /// Compliances of the faces at `s`.
@@ -252,7 +258,7 @@ impl TrenchSoil {
     pub(super) fn static_compliances(&self) -> Result<HalfCompliances> {
         let s = match self.profile.bedrock() {
             Bedrock::HalfPlane { soil, .. } => {
-                STATIC_VARIABLE * soil.shear_wave_speed() / self.elements.trench().half_width()
+                STATIC_LAPLACE_RATIO * soil.shear_wave_speed() / self.elements.trench().half_width()
             }
             Bedrock::Rigid => 0.0,
         };
@@ -274,58 +280,60 @@ impl TrenchSoil {
             .ok_or_else(|| GroundError::GuidedWave { re: s.re, im: s.im }.into())
     }
 
-    /// Shear and pressure waves that move the surface by one.
+    /// Shear and pressure waves that displace the surface by one.
     ///
-    /// Lists are ordered as [`TrenchElements::wall`], from the surface down. Each pair: shear, pressure.
+    /// Lists follow the wall from the surface down. Each pair: shear, pressure.
     pub(super) fn free_field(&self, s: Complex) -> Result<FreeFieldAtFaces> {
         let moduli = self.moduli(s, s)?;
         let zero = VerticalField { displacement: Complex64::ZERO, stress: Complex64::ZERO };
         let mut fields = [VerticalField::AT_SURFACE; 2];
-        let mut walls = vec![[zero; 2]; self.grid.walls()];
-        let mut side_stresses = vec![Complex64::ZERO; self.grid.walls()];
-        for (interval, element) in &self.grid.wall {
-            let Moduli { shear, lame, inertia } = moduli[interval.soil];
+        let element_count = self.grid.wall_element_count();
+        let mut wall_integrals = vec![[zero; 2]; element_count];
+        let mut side_stress_integrals = vec![Complex64::ZERO; element_count];
+        for WallInterval { interval, element } in &self.grid.wall_intervals {
+            let Moduli { shear, lame, inertia } = moduli[interval.soil_index];
             let pressure = lame + shear * 2.0;
             for (wave, modulus) in [shear, pressure].into_iter().enumerate() {
                 let piece = ProfilePiece { height: interval.length, modulus, inertia };
-                let (below, integrals) = fields[wave].below(piece);
-                fields[wave] = below;
-                walls[*element][wave].displacement += integrals.displacement;
-                walls[*element][wave].stress += integrals.stress;
+                let FieldOverPiece { bottom, integrals } = fields[wave].over_piece(piece);
+                fields[wave] = bottom;
+                wall_integrals[*element][wave].displacement += integrals.displacement;
+                wall_integrals[*element][wave].stress += integrals.stress;
                 if wave == 1 {
-                    side_stresses[*element] += lame / pressure * integrals.stress;
+                    side_stress_integrals[*element] += lame / pressure * integrals.stress;
                 }
             }
         }
-        Ok(FreeFieldAtFaces { walls, side_stresses, base: fields })
+        Ok(FreeFieldAtFaces { wall_integrals, side_stress_integrals, base_fields: fields })
     }
 }
 
 /// Vertical waves at the faces of a trench: shear and pressure.
 pub(super) struct FreeFieldAtFaces {
     /// Integrals over wall elements: displacement, σ_xz of shear and σ_zz of pressure waves.
-    pub(super) walls: Vec<[VerticalField; 2]>,
-    /// Integrals of σ_xx of pressure waves.
-    pub(super) side_stresses: Vec<Complex64>,
-    /// At the depth of the base.
-    pub(super) base: [VerticalField; 2],
+    pub(super) wall_integrals: Vec<[VerticalField; 2]>,
+    /// Integrals over wall elements of σ_xx of pressure waves.
+    pub(super) side_stress_integrals: Vec<Complex64>,
+    /// Waves at the depth of the base.
+    pub(super) base_fields: [VerticalField; 2],
 }
 
 /// Lines of the mesh around `elements` with backfill of a `width`, which may be zero.
 fn trench_grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> TrenchGrid {
     let half_width = elements.trench().half_width();
-    let slowest = profile
+    let min_speed = profile
         .soils()
         .map(|(soil, _)| soil.shear_wave_speed())
         .fold(f64::INFINITY, f64::min);
     let mut layers = vec![];
     for (soil, bottom) in profile.soils_to() {
-        // An interface beside a line of the wall is this line.
-        let mut lines = elements.wall().iter();
-        let line = lines.find(|line| (*line - bottom).abs() < INTERFACE_TOLERANCE * half_width);
-        let longest = MAX_NEAR_INTERVAL * half_width * soil.shear_wave_speed() / slowest;
-        layers.push(GridLayer { bottom: line.copied().unwrap_or(bottom), longest });
+        // An interface near the end of a wall element moves to this end.
+        let mut ends = elements.wall_ends().iter();
+        let near_end = ends.find(|end| (*end - bottom).abs() < INTERFACE_TOLERANCE * half_width);
+        let max_interval =
+            MAX_NEAR_INTERVAL_RATIO * half_width * soil.shear_wave_speed() / min_speed;
+        layers.push(GridLayer { bottom: near_end.copied().unwrap_or(bottom), max_interval });
     }
-    let rigid = matches!(profile.bedrock(), Bedrock::Rigid);
-    TrenchGrid::new(elements.base(), elements.wall(), &layers, rigid, width)
+    let is_rigid = matches!(profile.bedrock(), Bedrock::Rigid);
+    TrenchGrid::new(elements.base_ends(), elements.wall_ends(), &layers, is_rigid, width)
 }

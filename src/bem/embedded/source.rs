@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::classes::{TRENCH_KINDS, trench_classes};
-use super::pairs::TrenchPairs;
+use super::pairs::{TRENCH_KINDS, TrenchPairs, trench_classes};
 use super::soil::TrenchSoil;
 use crate::bem::WeightsSource;
 use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, self_pair_classes};
@@ -17,10 +16,10 @@ use crate::linalg::Complex;
 const WEIGHT_TOLERANCE: f64 = 1e-8;
 /// Degree of the finite elements.
 const ELEMENT_DEGREE: usize = 4;
-/// Degree of the finite elements for short time steps, whose waves are short beside the elements.
+/// Degree of the finite elements for short time steps, which excite waves shorter than the contact elements.
 const SHORT_STEP_DEGREE: usize = 8;
 /// Longest of the short time steps, in b/c.
-const MAX_SHORT_STEP: f64 = 0.03;
+const MAX_SHORT_STEP_RATIO: f64 = 0.03;
 
 /// Soil around a trench, with the method of its convolution weights.
 #[derive(Debug, Clone)]
@@ -43,20 +42,21 @@ impl TrenchSource {
     ) -> Result<QuadratureWeights<TrenchPairs, TRENCH_KINDS>> {
         positive("time step", time_step)?;
         self.soil.check_causal()?;
-        let trench = self.soil.elements();
-        let classes = trench_classes(trench.elements())?;
+        let elements = self.soil.elements();
+        let classes = trench_classes(elements.elements())?;
         let speeds = self.soil.soils().map(|soil| soil.shear_wave_speed());
-        let slowest = speeds.fold(f64::INFINITY, f64::min);
-        let is_short = slowest * time_step <= MAX_SHORT_STEP * trench.trench().half_width();
-        let degree = if is_short { SHORT_STEP_DEGREE } else { ELEMENT_DEGREE };
+        let min_speed = speeds.fold(f64::INFINITY, f64::min);
+        let max_short_travel = MAX_SHORT_STEP_RATIO * elements.trench().half_width();
+        let is_short_step = min_speed * time_step <= max_short_travel;
+        let degree = if is_short_step { SHORT_STEP_DEGREE } else { ELEMENT_DEGREE };
         let pairs = TrenchPairs::new(self.soil.clone(), degree);
         let profile = self.soil.profile().clone();
         let stages = self.stages(time_step);
         let self_pairs = self_pair_classes(&classes);
         let tolerance = WEIGHT_TOLERANCE;
         let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, time_step, tolerance);
-        let mesh = [trench.base(), trench.wall()].concat();
-        Ok(QuadratureWeights::new(quadrature, classes, None, mesh, self.file.clone()))
+        let element_ends = [elements.base_ends(), elements.wall_ends()].concat();
+        Ok(QuadratureWeights::new(quadrature, classes, None, element_ends, self.file.clone()))
     }
 }
 
@@ -85,13 +85,14 @@ impl WeightsSource for TrenchSource {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        // A ground with a file does not share its kernel with a ground without a file.
-        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
-        let mut numbers = vec![stages, file.map_or(-1.0, |bytes| bytes.len() as f64)];
-        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
-        numbers.extend(self.soil.identity()?);
-        Some(numbers)
+        let stage_count = self.stages.map_or(0.0, |stages| stages.count() as f64);
+        // A ground with a file does not share its convolution weights with a ground without a file.
+        let path_bytes = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
+        let path_length = path_bytes.map_or(-1.0, |bytes| bytes.len() as f64);
+        let mut identity = vec![stage_count, path_length];
+        identity.extend(path_bytes.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        identity.extend(self.soil.identity()?);
+        Some(identity)
     }
 }
 

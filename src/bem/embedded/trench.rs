@@ -7,7 +7,7 @@ use crate::error::{Result, finite, not_negative, positive, require_part};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::interface::InterfaceLaw;
 
-/// Rectangular trench in the surface of the ground, in the plane: its sides and its depth.
+/// Rectangular trench in the surface of the ground, in the plane.
 ///
 /// ```
 /// use basemat::bem::embedded::Trench;
@@ -35,7 +35,9 @@ validated! {
 }
 
 impl Trench {
-    /// Trench between `sides` (m along x), `depth` metres deep; of depth 0, a strip of the surface.
+    /// Trench between two `sides` (x, m), with its `depth` in m.
+    ///
+    /// A trench of depth 0 is a strip of the surface.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not
@@ -49,7 +51,7 @@ impl Trench {
         Ok(Self { left, right, depth })
     }
 
-    /// Places of the left and the right wall, m.
+    /// Positions x of the left and the right wall, m.
     pub fn sides(&self) -> [f64; 2] {
         [self.left, self.right]
     }
@@ -64,7 +66,7 @@ impl Trench {
         0.5 * (self.right - self.left)
     }
 
-    /// The faces divided into `base` elements of the base and `wall` elements of each wall.
+    /// Divides the faces into `base_count` elements of the base and `wall_count` of each wall.
     ///
     /// Elements are shorter towards both ends of each face, where tractions are singular. Impedances converge with
     /// second order: with 10 elements in all (4 and 3) errors are about 2 %, with 20 (8 and 6) 0.4 %.
@@ -73,36 +75,38 @@ impl Trench {
     /// [`Error::Scene`](crate::Error::Scene) for a number of base elements that is zero or odd, or for walls without
     /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their
     /// matrices allow.
-    pub fn elements(&self, base: usize, wall: usize) -> Result<TrenchElements> {
-        check_count(base.saturating_add(wall.saturating_mul(2)), COMPONENTS_IN_PLANE)?;
-        let even = base > 0 && base.is_multiple_of(2);
-        require_part("base elements of a trench", even, "an even number above zero")?;
-        let fits = (wall > 0) == (self.depth > 0.0);
+    pub fn elements(&self, base_count: usize, wall_count: usize) -> Result<TrenchElements> {
+        let element_count = base_count.saturating_add(wall_count.saturating_mul(2));
+        check_count(element_count, COMPONENTS_IN_PLANE)?;
+        let is_even = base_count > 0 && base_count.is_multiple_of(2);
+        require_part("base elements of a trench", is_even, "an even number above zero")?;
+        let has_needed_walls = (wall_count > 0) == (self.depth > 0.0);
         require_part(
             "wall elements of a trench",
-            fits,
+            has_needed_walls,
             "some if the trench has a depth, else none",
         )?;
         let half_width = self.half_width();
         // From the axis outwards; both halves are equal to the last bit.
         let mut base_ends = vec![];
-        for k in 0..base / 2 {
-            base_ends.push(half_width * (PI * k as f64 / base as f64).sin());
+        for k in 0..base_count / 2 {
+            base_ends.push(half_width * (PI * k as f64 / base_count as f64).sin());
         }
         base_ends.push(half_width);
         let mut wall_ends = vec![];
-        for k in 0..wall {
-            wall_ends.push(0.5 * self.depth * (1.0 - (PI * k as f64 / wall as f64).cos()));
+        for k in 0..wall_count {
+            let cosine = (PI * k as f64 / wall_count as f64).cos();
+            wall_ends.push(0.5 * self.depth * (1.0 - cosine));
         }
         wall_ends.push(self.depth);
-        Ok(TrenchElements { trench: *self, base: base_ends, wall: wall_ends })
+        Ok(TrenchElements { trench: *self, base_ends, wall_ends })
     }
 }
 
-/// Lines with another line in the middle between each two.
-fn with_middles(lines: &[f64]) -> Vec<f64> {
-    let halves = lines.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
-    halves.chain(lines.last().copied()).collect()
+/// Ends of elements, and their middles.
+fn with_middles(element_ends: &[f64]) -> Vec<f64> {
+    let coordinates = element_ends.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
+    coordinates.chain(element_ends.last().copied()).collect()
 }
 
 /// Contact elements of the faces of a [`Trench`].
@@ -110,9 +114,9 @@ fn with_middles(lines: &[f64]) -> Vec<f64> {
 pub struct TrenchElements {
     trench: Trench,
     /// Distances of the ends of base elements from the axis, m.
-    base: Vec<f64>,
+    base_ends: Vec<f64>,
     /// Depths of the ends of wall elements, m.
-    wall: Vec<f64>,
+    wall_ends: Vec<f64>,
 }
 
 impl TrenchElements {
@@ -121,29 +125,29 @@ impl TrenchElements {
         &self.trench
     }
 
-    /// The elements along the outline: down the left wall, along the base to the right, up the right wall.
+    /// Contact elements along the outline.
     ///
-    /// Their normals lead into the soil.
+    /// The order is down the left wall, along the base to the right, and up the right wall. Normals lead into the soil.
     pub fn elements(&self) -> Vec<ContactElement> {
         let Trench { left, right, depth } = self.trench;
         let middle = 0.5 * (left + right);
         let bottom = -depth;
-        let mut corners: Vec<[f64; 2]> = self.wall.iter().map(|z| [left, -z]).collect();
-        corners.extend(self.base.iter().rev().skip(1).map(|x| [middle - x, bottom]));
-        corners.extend(self.base.iter().skip(1).map(|x| [middle + x, bottom]));
-        corners.extend(self.wall.iter().rev().skip(1).map(|z| [right, -z]));
-        corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
+        let mut nodes: Vec<[f64; 2]> = self.wall_ends.iter().map(|z| [left, -z]).collect();
+        nodes.extend(self.base_ends.iter().rev().skip(1).map(|x| [middle - x, bottom]));
+        nodes.extend(self.base_ends.iter().skip(1).map(|x| [middle + x, bottom]));
+        nodes.extend(self.wall_ends.iter().rev().skip(1).map(|z| [right, -z]));
+        nodes.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
     }
 
-    /// The same faces divided into halves of all elements.
+    /// The same faces with each element divided into two.
     pub(super) fn halved(&self) -> Self {
-        let base = with_middles(&self.base);
-        Self { trench: self.trench, base, wall: with_middles(&self.wall) }
+        let base_ends = with_middles(&self.base_ends);
+        Self { trench: self.trench, base_ends, wall_ends: with_middles(&self.wall_ends) }
     }
 
-    /// Interface laws of all elements, one for the base and one for both walls.
+    /// Interface laws of all elements: one for the base and one for both walls.
     ///
-    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder.
+    /// The laws are for [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder.
     pub fn interfaces(
         &self,
         base: impl InterfaceLaw + Clone + 'static,
@@ -156,12 +160,12 @@ impl TrenchElements {
     }
 
     /// Ends of the base elements of the right half, m from the axis.
-    pub(super) fn base(&self) -> &[f64] {
-        &self.base
+    pub(super) fn base_ends(&self) -> &[f64] {
+        &self.base_ends
     }
 
     /// Ends of the elements of a wall, m below the surface.
-    pub(super) fn wall(&self) -> &[f64] {
-        &self.wall
+    pub(super) fn wall_ends(&self) -> &[f64] {
+        &self.wall_ends
     }
 }

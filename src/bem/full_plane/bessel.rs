@@ -17,76 +17,78 @@ use complex_bessel::{Scaling, besselk_seq};
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;
 
-/// Largest |z| at which the series has all digits: cancellation, by the factor I₀/|K₀|, is below 20.
-pub(super) const SERIES_REACH: f64 = 2.0;
+/// Largest |z| at which the series has all digits: the cancellation factor I₀/|K₀| is below 20.
+pub(super) const MAX_SERIES_ARGUMENT: f64 = 2.0;
 
 /// Smallest real part for which K is below 1e-30 and counts as zero.
 const NEGLIGIBLE_REAL_PART: f64 = 70.0;
 
 /// Number of terms of the series: (q^k/k!²) is below 1e-17 at |z| = 2.
-const BESSEL_SERIES_TERMS: usize = 14;
+const SERIES_TERM_COUNT: usize = 14;
 
 /// Euler's constant.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 
-/// K₀, K₁/z or κ, and z K₁ of one argument.
+/// Modified Bessel functions of one argument, in the combinations of the fundamental solution.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Modified {
+pub(super) struct ModifiedBessel {
     /// K₀(z).
-    pub(super) zeroth: Complex64,
-    /// K₁(z)/z, or κ if `regular` was set.
+    pub(super) k0: Complex64,
+    /// K₁(z)/z, or κ without the pole.
     pub(super) quotient: Complex64,
     /// z K₁(z).
     pub(super) product: Complex64,
 }
 
-/// K₀ and K₁ of `z`; with `regular`, κ instead of K₁/z, for |z| ≤ [`SERIES_REACH`].
-pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
-    if z.norm() <= SERIES_REACH {
-        let BesselSeries { zeroth, kappa } = series(z, false);
+/// K₀ and K₁ of `z`; κ instead of K₁/z if `omits_pole`, for |z| ≤ [`MAX_SERIES_ARGUMENT`].
+pub(super) fn modified_bessel(z: Complex64, omits_pole: bool) -> ModifiedBessel {
+    if z.norm() <= MAX_SERIES_ARGUMENT {
+        let BesselSeries { k0, kappa } = bessel_series(z, false);
         let square = z * z;
-        let quotient = if regular { kappa } else { kappa + 1.0 / square };
-        return Modified { zeroth, quotient, product: 1.0 + square * kappa };
+        let quotient = if omits_pole { kappa } else { kappa + 1.0 / square };
+        return ModifiedBessel { k0, quotient, product: 1.0 + square * kappa };
     }
     if z.re > NEGLIGIBLE_REAL_PART {
-        return Modified::default();
+        return ModifiedBessel::default();
     }
-    if let Ok(found) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
-        let zeroth = found.values[0];
-        let first = found.values[1];
-        return Modified { zeroth, quotient: first / z, product: first * z };
+    if let Ok(sequence) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
+        let k0 = sequence.values[0];
+        let k1 = sequence.values[1];
+        return ModifiedBessel { k0, quotient: k1 / z, product: k1 * z };
     }
-    // Only arguments that are not finite reach this point; the result must not be finite either.
+    // The argument is not finite here; the result must not be finite either.
     let nan = Complex64::new(f64::NAN, f64::NAN);
-    Modified { zeroth: nan, quotient: nan, product: nan }
+    ModifiedBessel { k0: nan, quotient: nan, product: nan }
 }
 
 /// K₀ and κ of one argument, or their means over a line.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct BesselSeries {
-    pub(super) zeroth: Complex64,
+    pub(super) k0: Complex64,
     pub(super) kappa: Complex64,
 }
 
-/// K₀ and κ at `z`; with `mean`, their means over the line from 0 to `z`.
-pub(super) fn series(z: Complex64, mean: bool) -> BesselSeries {
+/// K₀ and κ at `z` by their series.
+///
+/// If `is_mean`, means over the line from 0 to `z`.
+pub(super) fn bessel_series(z: Complex64, is_mean: bool) -> BesselSeries {
     let half = 0.5 * z;
     let log = half.ln();
     let q = half * half;
     let mut power = Complex64::new(1.0, 0.0);
     let mut sums = BesselSeries::default();
     let mut digamma = -EULER_GAMMA;
-    for k in 0..BESSEL_SERIES_TERMS {
+    for k in 0..SERIES_TERM_COUNT {
         let next = (k + 1) as f64;
         let mut scale = power;
         let mut logarithm = log;
-        if mean {
+        if is_mean {
             // ∫₀¹ x^{2k} ln(xz/2) dx = (ln(z/2) − 1/(2k+1))/(2k+1)
             let odd = (2 * k + 1) as f64;
             scale = power / odd;
             logarithm = log - 1.0 / odd;
         }
-        sums.zeroth += scale * (digamma - logarithm);
+        sums.k0 += scale * (digamma - logarithm);
         sums.kappa += scale / next * (0.5 * logarithm - 0.5 * digamma - 0.25 / next);
         digamma += 1.0 / next;
         power *= q / (next * next);
@@ -102,52 +104,52 @@ mod tests {
     #[test]
     fn values_agree_with_the_table() {
         let table = include_str!("../../../tests/data/bessel_k.csv");
-        let mut rows = 0;
+        let mut row_count = 0;
         for line in table.lines().filter(|line| !line.starts_with(['#', 'r'])) {
             let x: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
             let z = Complex64::new(x[0], x[1]);
             let k0 = Complex64::new(x[2], x[3]);
             let k1 = Complex64::new(x[4], x[5]);
-            let found = modified(z, false);
-            for (name, found, wanted) in [
-                ("K0", found.zeroth, k0),
-                ("K1/z", found.quotient, k1 / z),
-                ("zK1", found.product, k1 * z),
+            let values = modified_bessel(z, false);
+            for (name, computed, expected) in [
+                ("K0", values.k0, k0),
+                ("K1/z", values.quotient, k1 / z),
+                ("zK1", values.product, k1 * z),
             ] {
-                let error = (found - wanted).norm() / wanted.norm();
-                assert!(error < 5e-14, "{name}({z}): {found} instead of {wanted}: {error:.1e}");
+                let error = (computed - expected).norm() / expected.norm();
+                assert!(error < 5e-14, "{name}({z}): {computed}, not {expected}: {error:.1e}");
             }
-            rows += 1;
+            row_count += 1;
         }
-        assert_eq!(rows, 112);
+        assert_eq!(row_count, 112);
     }
 
     /// GOAL: the regular part of K₁/z at the joint of both branches; near 0, its leading terms.
     #[test]
     fn regular_part_is_the_quotient_without_its_pole() {
         let z = Complex64::new(1.2, -1.5);
-        let kappa = modified(z, true).quotient;
+        let kappa = modified_bessel(z, true).quotient;
         let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
         assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
         let tiny = Complex64::new(3e-9, 1e-9);
         let leading = 0.5 * (0.5 * tiny).ln() + 0.5 * EULER_GAMMA - 0.25;
-        assert!((modified(tiny, true).quotient - leading).norm() < 1e-14);
+        assert!((modified_bessel(tiny, true).quotient - leading).norm() < 1e-14);
     }
 
     /// GOAL: means over [0, z] against a Gauss rule on a part away from the logarithm.
     #[test]
     fn means_are_integrals() {
         let z = Complex64::new(0.9, 1.1);
-        let whole = series(z, true);
-        let half = series(0.5 * z, true);
+        let whole = bessel_series(z, true);
+        let half = bessel_series(0.5 * z, true);
         let rule = crate::linalg::gauss::largest();
-        let mut zeroth = whole.zeroth * z - half.zeroth * 0.5 * z;
+        let mut k0 = whole.k0 * z - half.k0 * 0.5 * z;
         let mut kappa = whole.kappa * z - half.kappa * 0.5 * z;
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-            let value = series(z * (0.75 + 0.25 * node), false);
-            zeroth -= value.zeroth * z * (0.25 * weight);
+            let value = bessel_series(z * (0.75 + 0.25 * node), false);
+            k0 -= value.k0 * z * (0.25 * weight);
             kappa -= value.kappa * z * (0.25 * weight);
         }
-        assert!(zeroth.norm() < 1e-14 && kappa.norm() < 1e-14);
+        assert!(k0.norm() < 1e-14 && kappa.norm() < 1e-14);
     }
 }

@@ -1,4 +1,4 @@
-//! Blocks of one size: spectra of the coefficients, and the effect of b inputs on the next b outputs.
+//! Convolutions of blocks of one size b: the effect of b inputs on the next b outputs.
 
 use std::sync::Arc;
 
@@ -8,12 +8,12 @@ use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 /// Number of frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const FREQUENCY_TILE_SIZE: usize = 64;
 
-/// A series of coefficients between one input and one output.
+/// Series of coefficients between one input and one output: row and series indices.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeriesLink {
-    pub(super) output: usize,
-    pub(super) input: usize,
-    pub(super) series: usize,
+    pub(super) output_row: usize,
+    pub(super) input_row: usize,
+    pub(super) series_index: usize,
     pub(super) sign: f64,
 }
 
@@ -27,55 +27,58 @@ pub(super) struct TransformBuffers {
 }
 
 impl TransformBuffers {
-    /// Allocates for the blocks of `level` with `inputs` channels, and for smaller ones.
-    pub(super) fn grow(&mut self, level: &BlockTransform, inputs: usize) {
-        let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
+    /// Allocates for the blocks of `transform` with `input_count` rows, and for smaller blocks.
+    pub(super) fn grow(&mut self, transform: &BlockTransform, input_count: usize) {
+        let forward_length = transform.forward.get_scratch_len();
+        let scratch_length = forward_length.max(transform.inverse.get_scratch_len());
+        let spectrum_length = input_count * (transform.block_size + 1);
         let zero = Complex::default();
-        self.real.resize(self.real.len().max(2 * level.size), 0.0);
-        self.scratch.resize(self.scratch.len().max(scratch), zero);
-        self.inputs.resize(self.inputs.len().max(inputs * (level.size + 1)), zero);
-        self.outputs.resize(self.outputs.len().max(inputs * (level.size + 1)), zero);
+        self.real.resize(self.real.len().max(2 * transform.block_size), 0.0);
+        self.scratch.resize(self.scratch.len().max(scratch_length), zero);
+        self.inputs.resize(self.inputs.len().max(spectrum_length), zero);
+        self.outputs.resize(self.outputs.len().max(spectrum_length), zero);
     }
 }
 
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
 pub(super) struct BlockTransform {
-    size: usize,
+    block_size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// For each series, b + 1 frequencies; empty where all coefficients are zero.
+    /// Spectrum of each series, with b + 1 frequencies; empty where all coefficients are zero.
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
 impl BlockTransform {
-    /// Level with blocks of `size`; each of the `series` has at least 2b lags or is empty.
+    /// Transform of blocks of `block_size`; each of the `series` has at least 2b lags or is empty.
     pub(super) fn new(
-        size: usize,
+        block_size: usize,
         series: &[Vec<f64>],
         planner: &mut RealPlanner,
-        work: &mut TransformBuffers,
+        buffers: &mut TransformBuffers,
     ) -> Self {
-        let mut level = Self {
-            size,
-            forward: planner.plan_fft_forward(2 * size),
-            inverse: planner.plan_fft_inverse(2 * size),
+        let mut transform = Self {
+            block_size,
+            forward: planner.plan_fft_forward(2 * block_size),
+            inverse: planner.plan_fft_inverse(2 * block_size),
             spectra: Vec::with_capacity(series.len()),
         };
-        work.grow(&level, 0);
-        for list in series {
+        buffers.grow(&transform, 0);
+        for coefficients in series {
             let mut spectrum = Vec::new();
-            if list.iter().take(2 * size).any(|value| *value != 0.0) {
-                spectrum.resize(size + 1, Complex::default());
-                work.real[..2 * size].copy_from_slice(&list[..2 * size]);
-                level.transform(&mut work.real[..2 * size], &mut spectrum, &mut work.scratch);
+            if coefficients.iter().take(2 * block_size).any(|value| *value != 0.0) {
+                spectrum.resize(block_size + 1, Complex::default());
+                buffers.real[..2 * block_size].copy_from_slice(&coefficients[..2 * block_size]);
+                let real = &mut buffers.real[..2 * block_size];
+                transform.forward_transform(real, &mut spectrum, &mut buffers.scratch);
             }
-            level.spectra.push(spectrum);
+            transform.spectra.push(spectrum);
         }
-        level
+        transform
     }
 
-    /// Transforms `real`, which is overwritten as well.
-    fn transform(
+    /// Overwrites `spectrum` with the transform of `real`, which becomes workspace.
+    fn forward_transform(
         &self,
         real: &mut [f64],
         spectrum: &mut [Complex<f64>],
@@ -87,7 +90,7 @@ impl BlockTransform {
         debug_assert!(outcome.is_ok());
     }
 
-    /// Adds the effect of the last b inputs before step `step` to the b outputs from there on.
+    /// Adds the effect of the last b inputs before `step` to the b outputs from `step` on.
     ///
     /// Rows of `inputs` and `outputs` have length `stride`.
     pub(super) fn apply(
@@ -97,43 +100,44 @@ impl BlockTransform {
         outputs: &mut [f64],
         stride: usize,
         step: usize,
-        work: &mut TransformBuffers,
+        buffers: &mut TransformBuffers,
     ) {
-        let size = self.size;
-        let bins = self.size + 1;
-        let real = &mut work.real[..2 * size];
-        let spectra = work.inputs.chunks_exact_mut(bins);
+        let block_size = self.block_size;
+        let frequency_count = self.block_size + 1;
+        let real = &mut buffers.real[..2 * block_size];
+        let spectra = buffers.inputs.chunks_exact_mut(frequency_count);
         for (row, spectrum) in inputs.chunks_exact(stride).zip(spectra) {
-            real[..size].copy_from_slice(&row[step - size..step]);
-            real[size..].fill(0.0);
-            self.transform(real, spectrum, &mut work.scratch);
+            real[..block_size].copy_from_slice(&row[step - block_size..step]);
+            real[block_size..].fill(0.0);
+            self.forward_transform(real, spectrum, &mut buffers.scratch);
         }
-        work.outputs.fill(Complex::default());
-        for begin in (0..bins).step_by(FREQUENCY_TILE_SIZE) {
-            let range = begin..(begin + FREQUENCY_TILE_SIZE).min(bins);
+        buffers.outputs.fill(Complex::default());
+        for begin in (0..frequency_count).step_by(FREQUENCY_TILE_SIZE) {
+            let tile = begin..(begin + FREQUENCY_TILE_SIZE).min(frequency_count);
             for link in links {
-                let spectrum = &self.spectra[link.series];
+                let spectrum = &self.spectra[link.series_index];
                 if spectrum.is_empty() {
                     continue;
                 }
-                let input = &work.inputs[link.input * bins..][range.clone()];
-                let output = &mut work.outputs[link.output * bins..][range.clone()];
-                for ((out, c), x) in output.iter_mut().zip(&spectrum[range.clone()]).zip(input) {
+                let input = &buffers.inputs[link.input_row * frequency_count..][tile.clone()];
+                let output =
+                    &mut buffers.outputs[link.output_row * frequency_count..][tile.clone()];
+                for ((out, c), x) in output.iter_mut().zip(&spectrum[tile.clone()]).zip(input) {
                     out.re += link.sign * (c.re * x.re - c.im * x.im);
                     out.im += link.sign * (c.re * x.im + c.im * x.re);
                 }
             }
         }
-        let scale = 1.0 / (2 * size) as f64;
-        let spectra = work.outputs.chunks_exact_mut(bins);
+        let scale = 1.0 / (2 * block_size) as f64;
+        let spectra = buffers.outputs.chunks_exact_mut(frequency_count);
         for (row, spectrum) in outputs.chunks_exact_mut(stride).zip(spectra) {
             // These values are real up to rounding; the inverse transform requires exactly real values.
             spectrum[0].im = 0.0;
-            spectrum[size].im = 0.0;
-            let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
+            spectrum[block_size].im = 0.0;
+            let scratch = &mut buffers.scratch[..self.inverse.get_scratch_len()];
             let outcome = self.inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(outcome.is_ok());
-            for (output, value) in row[step..].iter_mut().zip(&real[size..]) {
+            for (output, value) in row[step..].iter_mut().zip(&real[block_size..]) {
                 *output += scale * value;
             }
         }

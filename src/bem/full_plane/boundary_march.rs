@@ -6,7 +6,7 @@ use crate::error::{Error, Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
-/// Quantity that is prescribed for a component of an element.
+/// Prescribed quantity of a component of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Given {
     /// The traction, Pa: constant over the step.
@@ -42,7 +42,7 @@ pub struct BoundaryMarch {
     prescribed_columns: Vec<f64>,
     /// Unit of computed tractions, Pa per m.
     traction_unit: f64,
-    /// Right-hand side, and solution.
+    /// Right-hand side, overwritten by the solution.
     rhs: Vec<f64>,
     displacement: Vec<f64>,
     traction: Vec<f64>,
@@ -51,22 +51,22 @@ pub struct BoundaryMarch {
 short_debug! { BoundaryMarch; self; components: self.prescribed.len() }
 
 impl BoundaryMarch {
-    /// Boundary at rest; `given` has 2E entries.
+    /// Boundary at rest; `prescribed` has 2E entries.
     ///
     /// # Errors
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values do not
     /// determine the others, and errors of the kernel.
-    pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, kernel.segments().len()).len();
-        same_length("list of given components", given.len(), size)?;
-        let mut g = vec![0.0; size * size];
-        let mut h = vec![0.0; size * size];
+    pub fn new(kernel: Box<dyn BoundaryKernel>, prescribed: &[Given]) -> Result<Self> {
+        let order = ContactLayout::new(COMPONENTS_IN_PLANE, kernel.segments().len()).len();
+        same_length("list of prescribed quantities", prescribed.len(), order)?;
+        let mut g = vec![0.0; order * order];
+        let mut h = vec![0.0; order * order];
         kernel.coefficients(0, &mut g, &mut h)?;
         let traction_unit = 1.0 / largest(&g).max(f64::MIN_POSITIVE);
-        let mut matrix = vec![0.0; size * size];
-        let mut prescribed_columns = vec![0.0; size * size];
+        let mut matrix = vec![0.0; order * order];
+        let mut prescribed_columns = vec![0.0; order * order];
         for (k, (g, h)) in g.iter().zip(&h).enumerate() {
-            match given[k % size] {
+            match prescribed[k % order] {
                 Given::Traction => {
                     matrix[k] = *h;
                     prescribed_columns[k] = *g;
@@ -77,19 +77,19 @@ impl BoundaryMarch {
                 }
             }
         }
-        let mut factor = DenseFactor::with_capacity(size);
-        if !factor.factor(&matrix, size) {
-            return Err(Error::Singular { matrix: "boundary operator", order: size });
+        let mut factor = DenseFactor::with_capacity(order);
+        if !factor.factor(&matrix, order) {
+            return Err(Error::Singular { matrix: "boundary operator", order });
         }
         Ok(Self {
-            history: BoundaryHistory::new(kernel, &vec![true; size]),
-            prescribed: given.to_vec(),
+            history: BoundaryHistory::new(kernel, &vec![true; order]),
+            prescribed: prescribed.to_vec(),
             factor,
             prescribed_columns,
             traction_unit,
-            rhs: vec![0.0; size],
-            displacement: vec![0.0; size],
-            traction: vec![0.0; size],
+            rhs: vec![0.0; order],
+            displacement: vec![0.0; order],
+            traction: vec![0.0; order],
         })
     }
 
@@ -126,7 +126,7 @@ impl BoundaryMarch {
         Ok(())
     }
 
-    /// Number of steps done.
+    /// Number of completed steps.
     pub fn steps(&self) -> usize {
         self.history.steps()
     }

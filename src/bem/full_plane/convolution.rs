@@ -16,10 +16,16 @@ use basemat_fourier::RealPlanner;
 /// Number of steps that are summed directly, before the smallest block is transformed.
 const DIRECT_STEPS: usize = 64;
 
-/// Largest number of steps for which memory is allocated at once; beyond, memory grows with the steps.
-const MAX_HINTED_STEPS: usize = 1 << 17;
-/// Largest memory for hinted steps, bytes.
-const MAX_HINTED_BYTES: usize = 1 << 30;
+/// Largest number of steps for which [`BoundaryHistory::prepare`] allocates; memory then grows with the steps.
+const MAX_PREALLOCATED_STEPS: usize = 1 << 17;
+/// Largest memory that [`BoundaryHistory::prepare`] allocates, bytes.
+const MAX_PREALLOCATED_BYTES: usize = 1 << 30;
+/// Bytes for a class of pairs and a step: eight series, with their values and spectra.
+const BYTES_PER_CLASS: usize = 192;
+/// Bytes for a component and a step: two inputs and an output.
+const BYTES_PER_COMPONENT: usize = 24;
+/// Number of series of a class: two matrices with four components each.
+const SERIES_PER_CLASS: usize = 8;
 
 /// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, with coefficients stored once per class of pairs.
 ///
@@ -34,17 +40,17 @@ pub(super) struct BoundaryHistory {
     /// Transforms of blocks, each twice as long as the one before.
     transforms: Vec<BlockTransform>,
     planner: RealPlanner,
-    work: TransformBuffers,
+    buffers: TransformBuffers,
     /// 4E rows of `capacity`.
     inputs: Vec<f64>,
-    /// 2E rows of `capacity`: outputs, with the contributions so far.
+    /// 2E rows of `capacity`: outputs, with the contributions of the earlier inputs.
     outputs: Vec<f64>,
-    /// Number of steps for which rows and levels are allocated: the leaf times a power of two.
+    /// Number of steps for which rows and transforms are allocated: the leaf times a power of two.
     capacity: usize,
-    /// Number of steps accepted.
+    /// Number of accepted steps.
     steps: usize,
-    /// Whether the contribution of the last input is still missing.
-    pending: bool,
+    /// Whether the outputs do not contain the contribution of the last input.
+    has_pending_input: bool,
 }
 
 impl BoundaryHistory {
@@ -58,46 +64,48 @@ impl BoundaryHistory {
             kernel,
             transforms: Vec::new(),
             planner: RealPlanner::new(),
-            work: TransformBuffers::default(),
+            buffers: TransformBuffers::default(),
             inputs: Vec::new(),
             outputs: Vec::new(),
             capacity: 0,
             steps: 0,
-            pending: false,
+            has_pending_input: false,
         }
     }
 
     /// Number of components 2E.
-    fn size(&self) -> usize {
+    fn component_count(&self) -> usize {
         ContactLayout::new(COMPONENTS_IN_PLANE, self.kernel.segments().len()).len()
     }
 
-    /// Coefficients of all series for the lags below `lags`, without lag 0, which belongs to the present
-    /// step.
-    fn series(&self, lags: usize) -> Result<Vec<Vec<f64>>> {
-        let size = self.size();
-        let count = size / 2;
-        let mut g = vec![0.0; size * size];
-        let mut h = vec![0.0; size * size];
-        let mut series = vec![Vec::new(); 8 * self.pairs.classes.len()];
-        for lag in 1..lags {
+    /// Coefficients of all series for the lags below `lag_count`, except lag 0.
+    ///
+    /// Lag 0 belongs to the present step.
+    fn series(&self, lag_count: usize) -> Result<Vec<Vec<f64>>> {
+        let order = self.component_count();
+        let segment_count = order / 2;
+        let mut g = vec![0.0; order * order];
+        let mut h = vec![0.0; order * order];
+        let mut series = vec![Vec::new(); SERIES_PER_CLASS * self.pairs.classes.len()];
+        for lag in 1..lag_count {
             self.kernel.coefficients(lag, &mut g, &mut h)?;
             for (class, &(p, q)) in self.pairs.classes.iter().enumerate() {
                 for (k, matrix) in [&g, &h].into_iter().enumerate() {
                     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        let value = matrix[(i * count + p) * size + j * count + q];
-                        let list = &mut series[8 * class + 4 * k + 2 * i + j];
+                        let row = i * segment_count + p;
+                        let value = matrix[row * order + j * segment_count + q];
+                        let coefficients = &mut series[series_index(class, k, i, j)];
                         // Many series are zero at all lags, on flat boundaries half of them.
-                        if value != 0.0 || !list.is_empty() {
-                            list.resize(lag, 0.0);
-                            list.push(value);
+                        if value != 0.0 || !coefficients.is_empty() {
+                            coefficients.resize(lag, 0.0);
+                            coefficients.push(value);
                         }
                     }
                 }
             }
         }
-        for list in series.iter_mut().filter(|list| !list.is_empty()) {
-            list.resize(lags, 0.0);
+        for coefficients in series.iter_mut().filter(|series| !series.is_empty()) {
+            coefficients.resize(lag_count, 0.0);
         }
         Ok(series)
     }
@@ -110,32 +118,36 @@ impl BoundaryHistory {
         let capacity = steps.div_ceil(DIRECT_STEPS).next_power_of_two() * DIRECT_STEPS;
         let series = self.series(capacity)?;
         if self.direct_series.is_empty() {
-            for list in &series {
-                self.direct_series.push(list[..DIRECT_STEPS.min(list.len())].to_vec());
+            for coefficients in &series {
+                let direct_count = DIRECT_STEPS.min(coefficients.len());
+                self.direct_series.push(coefficients[..direct_count].to_vec());
             }
         }
-        let mut size = DIRECT_STEPS << self.transforms.len();
-        while size < capacity {
-            let transform = BlockTransform::new(size, &series, &mut self.planner, &mut self.work);
+        let mut block_size = DIRECT_STEPS << self.transforms.len();
+        while block_size < capacity {
+            let transform =
+                BlockTransform::new(block_size, &series, &mut self.planner, &mut self.buffers);
             self.transforms.push(transform);
-            size *= 2;
+            block_size *= 2;
         }
         if let Some(transform) = self.transforms.last() {
-            self.work.grow(transform, 2 * self.size());
+            self.buffers.grow(transform, 2 * self.component_count());
         }
-        self.inputs = with_longer_rows(&self.inputs, self.capacity, capacity, 2 * self.size());
-        self.outputs = with_longer_rows(&self.outputs, self.capacity, capacity, self.size());
+        let output_count = self.component_count();
+        self.inputs = with_longer_rows(&self.inputs, self.capacity, capacity, 2 * output_count);
+        self.outputs = with_longer_rows(&self.outputs, self.capacity, capacity, output_count);
         self.capacity = capacity;
         Ok(())
     }
 
     /// Allocates for `steps` further steps, up to 131 072 steps and 1 GiB.
     ///
-    /// The number is limited because a larger one may mean a run without end.
+    /// The number is limited because a very large number may stand for a run of unknown length.
     pub(super) fn prepare(&mut self, steps: usize) -> Result<()> {
-        // Eight series for each class of pairs, their values and spectra, and inputs and outputs.
-        let bytes_per_step = 192 * self.pairs.classes.len() + 24 * self.size();
-        let max_steps = MAX_HINTED_STEPS.min(MAX_HINTED_BYTES / bytes_per_step.max(1));
+        let bytes_per_step = BYTES_PER_CLASS * self.pairs.classes.len()
+            + BYTES_PER_COMPONENT * self.component_count();
+        let memory_steps = MAX_PREALLOCATED_BYTES / bytes_per_step.max(1);
+        let max_steps = MAX_PREALLOCATED_STEPS.min(memory_steps);
         self.grow(self.steps.saturating_add(steps.min(max_steps)))
     }
 
@@ -143,41 +155,42 @@ impl BoundaryHistory {
     fn add_last_input(&mut self) {
         let step = self.steps;
         let stride = self.capacity;
-        let last = step - 1;
-        let remaining = DIRECT_STEPS - 1 - last % DIRECT_STEPS;
-        if remaining > 0 {
+        let last_step = step - 1;
+        let remaining_steps = DIRECT_STEPS - 1 - last_step % DIRECT_STEPS;
+        if remaining_steps > 0 {
             for link in &self.links {
-                let series = &self.direct_series[link.series];
-                let value = link.sign * self.inputs[link.input * stride + last];
+                let series = &self.direct_series[link.series_index];
+                let value = link.sign * self.inputs[link.input_row * stride + last_step];
                 if series.is_empty() || value == 0.0 {
                     continue;
                 }
-                let output = &mut self.outputs[link.output * stride + step..][..remaining];
-                for (output, coefficient) in output.iter_mut().zip(&series[1..]) {
+                let first_output = link.output_row * stride + step;
+                let row = &mut self.outputs[first_output..][..remaining_steps];
+                for (output, coefficient) in row.iter_mut().zip(&series[1..]) {
                     *output += coefficient * value;
                 }
             }
         } else {
-            let number = (step / DIRECT_STEPS).trailing_zeros() as usize;
-            if let Some(transform) = self.transforms.get(number) {
+            let block_level = (step / DIRECT_STEPS).trailing_zeros() as usize;
+            if let Some(transform) = self.transforms.get(block_level) {
                 transform.apply(
                     &self.links,
                     &self.inputs,
                     &mut self.outputs,
                     stride,
                     step,
-                    &mut self.work,
+                    &mut self.buffers,
                 );
             }
         }
-        self.pending = false;
+        self.has_pending_input = false;
     }
 
     /// Overwrites `output` (2E) with the history at the end of the next step.
     pub(super) fn evaluate(&mut self, output: &mut [f64]) -> Result<()> {
-        same_length("history of the boundary", output.len(), self.size())?;
+        same_length("history of the boundary", output.len(), self.component_count())?;
         self.grow(self.steps + 1)?;
-        if self.pending {
+        if self.has_pending_input {
             self.add_last_input();
         }
         for (value, row) in output.iter_mut().zip(self.outputs.chunks_exact(self.capacity)) {
@@ -195,44 +208,58 @@ impl BoundaryHistory {
             row[self.steps] = *value;
         }
         self.steps += 1;
-        self.pending = true;
+        self.has_pending_input = true;
     }
 
-    /// Number of steps accepted.
+    /// Number of accepted steps.
     pub(super) fn steps(&self) -> usize {
         self.steps
     }
 }
 
-/// The rows of `count` series, copied from rows of length `old_length` to rows of length `length`.
-fn with_longer_rows(rows: &[f64], old_length: usize, length: usize, count: usize) -> Vec<f64> {
-    let mut longer = vec![0.0; count * length];
-    for (new, row) in longer.chunks_exact_mut(length).zip(rows.chunks_exact(old_length.max(1))) {
-        new[..old_length].copy_from_slice(row);
+/// Copies `row_count` rows of `old_length` to rows of `new_length`, padded by zeros.
+fn with_longer_rows(
+    old_rows: &[f64],
+    old_length: usize,
+    new_length: usize,
+    row_count: usize,
+) -> Vec<f64> {
+    let mut new_rows = vec![0.0; row_count * new_length];
+    let old_chunks = old_rows.chunks_exact(old_length.max(1));
+    for (new_row, old_row) in new_rows.chunks_exact_mut(new_length).zip(old_chunks) {
+        new_row[..old_length].copy_from_slice(old_row);
     }
-    longer
+    new_rows
 }
 
-/// All pairs of components, G with tractions and −H with displacements.
-fn links(pairs: &SegmentPairClasses, count: usize, loaded: &[bool]) -> Vec<SeriesLink> {
-    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
+/// Index of the series of a class and a pair of components.
+///
+/// `matrix`: 0 for G, 1 for H. `i`: component of the output. `j`: component of the input.
+fn series_index(class: usize, matrix: usize, i: usize, j: usize) -> usize {
+    SERIES_PER_CLASS * class + 4 * matrix + 2 * i + j
+}
+
+/// Links of all pairs of components: G with tractions and −H with displacements.
+fn links(pairs: &SegmentPairClasses, segment_count: usize, loaded: &[bool]) -> Vec<SeriesLink> {
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count);
     let mut links = Vec::new();
-    for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
+    for (p, receiver_pairs) in pairs.pairs.chunks_exact(segment_count).enumerate() {
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                for (q, &(class, mirrored)) in pairs.iter().enumerate() {
-                    let channel = layout.place(j, q);
-                    if k == 0 && !loaded[channel] {
+                for (q, &(class, is_mirrored)) in receiver_pairs.iter().enumerate() {
+                    let source_row = layout.place(j, q);
+                    if k == 0 && !loaded[source_row] {
                         continue;
                     }
-                    let mut sign = if mirrored && i != j { -1.0 } else { 1.0 };
-                    let mut input = layout.len() + channel;
+                    let mut sign = if is_mirrored && i != j { -1.0 } else { 1.0 };
+                    let mut input_row = layout.len() + source_row;
                     if k == 1 {
                         sign = -sign;
-                        input = channel;
+                        input_row = source_row;
                     }
-                    let series = 8 * class + 4 * k + 2 * i + j;
-                    links.push(SeriesLink { output: layout.place(i, p), input, series, sign });
+                    let series_index = series_index(class, k, i, j);
+                    let output_row = layout.place(i, p);
+                    links.push(SeriesLink { output_row, input_row, series_index, sign });
                 }
             }
         }
@@ -246,7 +273,7 @@ mod tests {
     use crate::Soil;
     use crate::bem::full_plane::{Segment, TimeKernel};
 
-    /// Compares transforms with the direct sum, over several sizes of blocks and without a hint.
+    /// Transforms of several block sizes, without preallocation, against the direct sum.
     #[test]
     fn blocks_equal_the_direct_sum() {
         let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
@@ -264,16 +291,16 @@ mod tests {
             kernel.coefficients(lag, &mut g, &mut h).unwrap();
             coefficients.push([g, h]);
         }
-        let mut found = [7.0; 8];
+        let mut computed = [7.0; 8];
         for n in 0..400 {
-            history.evaluate(&mut found).unwrap();
-            let mut wanted = [0.0; 8];
+            history.evaluate(&mut computed).unwrap();
+            let mut expected = [0.0; 8];
             for (m, [u, t]) in past.iter().enumerate() {
                 let lag = &coefficients[n - m];
-                crate::linalg::dense_multiply_add(&lag[0], 1.0, t, &mut wanted);
-                crate::linalg::dense_multiply_add(&lag[1], -1.0, u, &mut wanted);
+                crate::linalg::dense_multiply_add(&lag[0], 1.0, t, &mut expected);
+                crate::linalg::dense_multiply_add(&lag[1], -1.0, u, &mut expected);
             }
-            for (a, b) in found.iter().zip(wanted) {
+            for (a, b) in computed.iter().zip(expected) {
                 assert!((a - b).abs() < 1e-13, "step {n}: {a} {b}");
             }
             let mut u = vec![];

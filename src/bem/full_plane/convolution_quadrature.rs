@@ -8,9 +8,9 @@
 //! ωₙ = λ^{−n}/L Σ_l K(δ(λ e^{2πil/L})/Δt) e^{−2πiln/L} − Σ_{j≥1} λ^{jL} ω_{n+jL} ,
 //! ```
 //!
-//! where the second sum, the alias of the trapezoidal rule, is known: L is chosen so that all later lags are
-//! late lags, with the closed form of [`super::laplace_element`]. So λ need not be small (λ^L = 1/100 here
-//! instead of the usual √ε^…), and rounding loses at most two digits. The number of frequencies, L/2 + 1 by
+//! where the second sum is the alias of the trapezoidal rule. L is so large that the lags of the alias are late
+//! lags, which have the closed form of [`super::late_weights`]. λ therefore need not be small: λ^L is 1/100, and
+//! rounding loses at most two digits. The number of frequencies, L/2 + 1 by
 //! symmetry, depends on the travel time of waves across the boundary, and not on the number of steps.
 
 use std::collections::HashMap;
@@ -65,23 +65,23 @@ pub struct ConvolutionQuadrature {
     segments: Vec<Segment>,
     time_step: f64,
     method: CqMethod,
-    /// Different views of an element from a midpoint.
+    /// Distinct views of elements from midpoints.
     views: Vec<ElementView>,
-    /// Index of the view of each pair (i, j).
-    view_of: Vec<usize>,
+    /// Index of the view of each pair (row, column).
+    view_indices: Vec<usize>,
     /// Closed form of the late lags of each view, for distances up to ρ c₂ Δt.
     late_terms: Vec<LogTerms>,
+    /// ρ: largest distance over the travel of an S wave in a step.
     rho: f64,
     /// Early lags: blocks of all views, lag after lag.
-    early: Vec<[f64; 8]>,
-    /// Number of early lags.
-    early_lags: usize,
+    early_blocks: Vec<[f64; 8]>,
+    early_lag_count: usize,
 }
 
 impl ConvolutionQuadrature {
     /// The equation on `segments` with steps of `time_step` seconds.
     ///
-    /// Costs L/2 + 1 evaluations of the Laplace-domain matrices. L is about three times the number of steps
+    /// The constructor evaluates the Laplace-domain matrices L/2 + 1 times. L is about three times the number of steps
     /// in which an S wave crosses the boundary. Pairs with the same view are evaluated once.
     ///
     /// # Errors
@@ -95,9 +95,9 @@ impl ConvolutionQuadrature {
         for segment in segments {
             positive("length of a boundary element", segment.length())?;
         }
-        let DistinctViews { views, view_of } = distinct_views(segments);
-        let reach = views.iter().map(ElementView::reach).fold(0.0, f64::max);
-        let rho = positive("boundary over wave travel in a step", reach)?
+        let DistinctViews { views, view_indices } = distinct_views(segments);
+        let max_distance = views.iter().map(ElementView::max_distance).fold(0.0, f64::max);
+        let rho = positive("boundary over wave travel in a step", max_distance)?
             / (soil.shear_wave_speed() * time_step);
         let quantity = "steps that an S wave needs across the boundary";
         require(quantity, rho, rho < MAX_CROSSING_STEPS, "below 1e5")?;
@@ -106,14 +106,14 @@ impl ConvolutionQuadrature {
             segments: segments.to_vec(),
             time_step,
             method,
-            late_terms: views.iter().map(|view| log_terms(soil, view, reach)).collect(),
+            late_terms: views.iter().map(|view| log_terms(soil, view, max_distance)).collect(),
             views,
-            view_of,
+            view_indices,
             rho,
-            early: vec![],
-            early_lags: first_lag(method, rho).next_power_of_two(),
+            early_blocks: vec![],
+            early_lag_count: first_lag(method, rho).next_power_of_two(),
         };
-        kernel.early = kernel.compute_early_lags();
+        kernel.early_blocks = kernel.compute_early_blocks();
         Ok(kernel)
     }
 
@@ -129,7 +129,7 @@ impl ConvolutionQuadrature {
 
     /// Number of lags from Lubich's contour; later lags have a closed form.
     pub fn contour_lags(&self) -> usize {
-        self.early_lags
+        self.early_lag_count
     }
 
     /// Blocks of all views at δ(ζ)/Δt, with the free term.
@@ -146,54 +146,56 @@ impl ConvolutionQuadrature {
     }
 
     /// Early lags by Cauchy's integral, with the alias subtracted.
-    fn compute_early_lags(&self) -> Vec<[f64; 8]> {
-        let lags = self.early_lags;
-        let count = self.views.len();
-        let points = lags as f64;
-        let radius = CONTOUR_RADIUS_POWER.powf(1.0 / points);
-        let frequencies = lags / 2 + 1;
-        let mut spectra = vec![Complex64::default(); 8 * count * frequencies];
-        for l in 0..frequencies {
-            let zeta = Complex64::from_polar(radius, TAU * l as f64 / points);
+    fn compute_early_blocks(&self) -> Vec<[f64; 8]> {
+        let lag_count = self.early_lag_count;
+        let view_count = self.views.len();
+        let point_count = lag_count as f64;
+        let radius = CONTOUR_RADIUS_POWER.powf(1.0 / point_count);
+        let frequency_count = lag_count / 2 + 1;
+        let mut spectra = vec![Complex64::default(); 8 * view_count * frequency_count];
+        for l in 0..frequency_count {
+            let zeta = Complex64::from_polar(radius, TAU * l as f64 / point_count);
             for (view, block) in self.blocks(zeta).enumerate() {
                 for (k, value) in block.iter().enumerate() {
                     // The inverse transform has the opposite sign in its exponent.
-                    spectra[(8 * view + k) * frequencies + l] = value.conj();
+                    spectra[(8 * view + k) * frequency_count + l] = value.conj();
                 }
             }
         }
-        let inverse = RealPlanner::new().plan_fft_inverse(lags);
+        let inverse = RealPlanner::new().plan_fft_inverse(lag_count);
         let mut series = inverse.make_output_vec();
         let mut scratch = inverse.make_scratch_vec();
-        let mut early = vec![[0.0; 8]; count * lags];
-        for (index, spectrum) in spectra.chunks_exact_mut(frequencies).enumerate() {
+        let mut early_blocks = vec![[0.0; 8]; view_count * lag_count];
+        for (index, spectrum) in spectra.chunks_exact_mut(frequency_count).enumerate() {
             if spectrum.iter().all(|value| *value == Complex64::default()) {
                 continue;
             }
             spectrum[0].im = 0.0;
-            spectrum[frequencies - 1].im = 0.0;
+            spectrum[frequency_count - 1].im = 0.0;
             // All lengths come from the plan.
             if inverse.process_with_scratch(spectrum, &mut series, &mut scratch).is_err() {
                 continue;
             }
             for (n, value) in series.iter().enumerate() {
-                early[n * count + index / 8][index % 8] = value * radius.powf(-(n as f64)) / points;
+                let block = &mut early_blocks[n * view_count + index / 8];
+                block[index % 8] = value * radius.powf(-(n as f64)) / point_count;
             }
         }
-        let mut alias = CONTOUR_RADIUS_POWER;
+        let mut alias_factor = CONTOUR_RADIUS_POWER;
         for j in 1..=ALIAS_TERM_COUNT {
-            for n in 0..lags {
-                let weights = weights(self.method, n + j * lags, self.rho);
-                for (view, block) in early[n * count..][..count].iter_mut().enumerate() {
-                    let late = self.late_block(view, &weights);
-                    for (entry, late) in block.iter_mut().zip(late) {
-                        *entry -= alias * late;
+            for n in 0..lag_count {
+                let weights = weights(self.method, n + j * lag_count, self.rho);
+                let blocks = &mut early_blocks[n * view_count..][..view_count];
+                for (view, block) in blocks.iter_mut().enumerate() {
+                    let late_block = self.late_block(view, &weights);
+                    for (entry, late_entry) in block.iter_mut().zip(late_block) {
+                        *entry -= alias_factor * late_entry;
                     }
                 }
             }
-            alias *= CONTOUR_RADIUS_POWER;
+            alias_factor *= CONTOUR_RADIUS_POWER;
         }
-        early
+        early_blocks
     }
 
     /// Late coefficients of a view, from the weights of their lag.
@@ -224,66 +226,68 @@ const ALIAS_TERM_COUNT: usize = 7;
 /// Largest number of steps across the boundary: more would need too much memory.
 const MAX_CROSSING_STEPS: f64 = 1e5;
 
-/// Different views among all pairs of elements.
+/// Difference of offsets that counts as rounding, relative to the extent of the boundary.
+const OFFSET_TOLERANCE: f64 = 1e-12;
+
+/// Distinct views among all pairs of elements.
 struct DistinctViews {
     views: Vec<ElementView>,
     /// Index of the view of each pair (row, column).
-    view_of: Vec<usize>,
+    view_indices: Vec<usize>,
 }
 
-/// Different views among all pairs, up to rounding.
+/// Distinct views among all pairs of elements, up to rounding.
 fn distinct_views(segments: &[Segment]) -> DistinctViews {
     let extent = segments
         .iter()
         .flat_map(|segment| [segment.from, segment.to])
         .flat_map(|[x, z]| [x - segments[0].from[0], z - segments[0].from[1]])
         .fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    // Offsets that agree within 1e-12 of the boundary's extent count as equal.
-    let rounding = 1e-12 * extent;
+    let tolerance = OFFSET_TOLERANCE * extent;
     let mut indices = HashMap::new();
     let mut views = vec![];
-    let mut view_of = Vec::with_capacity(segments.len() * segments.len());
-    for (row, point) in segments.iter().enumerate() {
-        let center = point.center();
-        for (column, segment) in segments.iter().enumerate() {
+    let mut view_indices = Vec::with_capacity(segments.len() * segments.len());
+    for (row, receiver) in segments.iter().enumerate() {
+        let center = receiver.center();
+        for (column, source) in segments.iter().enumerate() {
             let view = ElementView {
-                start: [segment.from[0] - center[0], segment.from[1] - center[1]],
-                end: [segment.to[0] - center[0], segment.to[1] - center[1]],
+                start: [source.from[0] - center[0], source.from[1] - center[1]],
+                end: [source.to[0] - center[0], source.to[1] - center[1]],
                 is_self: row == column,
             };
             #[allow(
                 clippy::cast_possible_truncation,
-                reason = "below 1e13 by choice of `rounding`"
+                reason = "below 1e13 by choice of `tolerance`"
             )]
             let key = [view.start, view.end]
-                .map(|point| point.map(|offset| (offset / rounding).round() as i64));
-            view_of.push(*indices.entry((key, view.is_self)).or_insert_with(|| {
+                .map(|point| point.map(|offset| (offset / tolerance).round() as i64));
+            view_indices.push(*indices.entry((key, view.is_self)).or_insert_with(|| {
                 views.push(view);
                 views.len() - 1
             }));
         }
     }
-    DistinctViews { views, view_of }
+    DistinctViews { views, view_indices }
 }
 
-/// Writes the blocks of all pairs into matrices with `width` numbers per entry.
+/// Overwrites `g` and `h`, with `WIDTH` numbers per entry, by the blocks of all pairs.
 fn scatter<const WIDTH: usize>(
-    count: usize,
-    view_of: &[usize],
-    block: impl Fn(usize) -> [[f64; WIDTH]; 8],
+    segment_count: usize,
+    view_indices: &[usize],
+    view_block: impl Fn(usize) -> [[f64; WIDTH]; 8],
     g: &mut [f64],
     h: &mut [f64],
 ) {
-    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
-    for row in 0..count {
-        for column in 0..count {
-            let block = block(view_of[row * count + column]);
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count);
+    for row in 0..segment_count {
+        for column in 0..segment_count {
+            let block = view_block(view_indices[row * segment_count + column]);
             for i in 0..2 {
                 for j in 0..2 {
-                    let place =
-                        WIDTH * (layout.place(i, row) * layout.len() + layout.place(j, column));
-                    g[place..place + WIDTH].copy_from_slice(&block[2 * i + j]);
-                    h[place..place + WIDTH].copy_from_slice(&block[4 + 2 * i + j]);
+                    let entry = layout.place(i, row) * layout.len() + layout.place(j, column);
+                    let numbers = WIDTH * entry..WIDTH * entry + WIDTH;
+                    g[numbers.clone()].copy_from_slice(&block[2 * i + j]);
+                    h[numbers].copy_from_slice(&block[4 + 2 * i + j]);
                 }
             }
         }
@@ -297,27 +301,32 @@ impl BoundaryKernel for ConvolutionQuadrature {
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
         self.check_lengths(g, h)?;
-        let count = self.segments.len();
-        let views = self.views.len();
-        if lag < self.early_lags {
-            let early = &self.early[lag * views..][..views];
-            scatter(count, &self.view_of, |view| early[view].map(|x| [x]), g, h);
+        let segment_count = self.segments.len();
+        let view_count = self.views.len();
+        if lag < self.early_lag_count {
+            let blocks = &self.early_blocks[lag * view_count..][..view_count];
+            let view_block = |view: usize| blocks[view].map(|x| [x]);
+            scatter(segment_count, &self.view_indices, view_block, g, h);
         } else {
             let weights = weights(self.method, lag, self.rho);
-            let late: Vec<_> = (0..views).map(|view| self.late_block(view, &weights)).collect();
-            scatter(count, &self.view_of, |view| late[view].map(|x| [x]), g, h);
+            let blocks: Vec<_> =
+                (0..view_count).map(|view| self.late_block(view, &weights)).collect();
+            let view_block = |view: usize| blocks[view].map(|x| [x]);
+            scatter(segment_count, &self.view_indices, view_block, g, h);
         }
         Ok(())
     }
 
     fn symbol(&self, zeta: [f64; 2], g: &mut [f64], h: &mut [f64]) -> Result<Option<[f64; 2]>> {
-        let count = self.segments.len();
-        same_length("symbol of g", g.len(), 8 * count * count)?;
-        same_length("symbol of h", h.len(), 8 * count * count)?;
+        let segment_count = self.segments.len();
+        let number_count = 8 * segment_count * segment_count;
+        same_length("symbol of g", g.len(), number_count)?;
+        same_length("symbol of h", h.len(), number_count)?;
         let zeta = Complex64::new(zeta[0], zeta[1]);
         let s = self.method.symbol(zeta) / self.time_step;
         let blocks: Vec<_> = self.blocks(zeta).collect();
-        scatter(count, &self.view_of, |view| blocks[view].map(|x| [x.re, x.im]), g, h);
+        let view_block = |view: usize| blocks[view].map(|x| [x.re, x.im]);
+        scatter(segment_count, &self.view_indices, view_block, g, h);
         Ok(Some([s.re, s.im]))
     }
 }

@@ -14,10 +14,13 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Largest growth per step for which a run may begin.
+/// Length L₀ of the static solution over the contact length; no static plane determines this length.
+const REFERENCE_LENGTH_RATIO: f64 = 10.0;
+
+/// Largest growth per step for which a run may begin: e-fold growth takes 10 000 steps.
 const MAX_GROWTH_PER_STEP: f64 = 1e-4;
 
-/// Computes the kernel for a boundary and a time step.
+/// Function that computes the kernel for a boundary and a time step.
 type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
 
 /// The soil of Patel & Spyrakos by full-plane boundary elements.
@@ -47,7 +50,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// // short to march for long.
 /// let mut ground = FullPlaneGround::strip(soil, -5.0..5.0, 10, 5)?.allow_growth();
 /// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
-/// assert!(ground.assess(1.0e-3, 1e-4)?.iter().any(|found| !found.is_bounded()));
+/// assert!(ground.assess(1.0e-3, 1e-4)?.iter().any(|stability| !stability.is_bounded()));
 /// let mut matrix = vec![0.0; 20 * 20];
 /// ground.step_compliance(&mut matrix)?;
 /// // Waves have not reached the edges of the element: p·t/(ρ c₁).
@@ -62,9 +65,9 @@ pub struct FullPlaneGround {
     incident: Option<Box<dyn IncidentField>>,
     /// Whether a run may begin although perturbations grow.
     may_grow: bool,
-    /// Last time step for which no perturbation was found to grow.
+    /// Last time step at which no perturbation grows.
     stable_time_step: Option<f64>,
-    /// Whether the scene's motion is not at rest although there is an incident field.
+    /// Whether there are both a motion of the scene and an incident field.
     has_two_motions: Cell<bool>,
     prepared: Option<PreparedBoundary>,
 }
@@ -187,10 +190,10 @@ impl FullPlaneGround {
             return Ok(());
         }
         let [uplifted, bonded] = self.assess_kernel(kernel, MAX_GROWTH_PER_STEP)?;
-        let bonded_is_worse = bonded.growth_per_step > uplifted.growth_per_step;
-        let worst = if bonded_is_worse { bonded } else { uplifted };
-        if !worst.is_bounded() {
-            let Stability { growth_per_step, growing_modes } = worst;
+        let bonded_is_faster = bonded.growth_per_step > uplifted.growth_per_step;
+        let faster_growth = if bonded_is_faster { bonded } else { uplifted };
+        if !faster_growth.is_bounded() {
+            let Stability { growth_per_step, growing_modes } = faster_growth;
             return Err(GroundError::Unstable { growth_per_step, growing_modes }.into());
         }
         self.stable_time_step = Some(time_step);
@@ -199,7 +202,7 @@ impl FullPlaneGround {
 
     /// Adds waves from below, which the boundary scatters (eq. 21).
     ///
-    /// They replace the scene's ground motion, which must then be at rest.
+    /// They replace the ground motion of the scene, which must be at rest.
     #[must_use]
     pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {
         self.incident = Some(Box::new(field));
@@ -263,7 +266,7 @@ impl Ground for FullPlaneGround {
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
-        same_length("instantaneous operator", matrix.len(), size)?;
+        same_length("step compliance", matrix.len(), size)?;
         self.boundary.compliance(&prepared.mobility.columns, matrix);
         Ok(())
     }
@@ -273,11 +276,15 @@ impl Ground for FullPlaneGround {
         if self.has_two_motions.get() {
             return Err(TWO_GROUND_MOTIONS);
         }
-        let indices = self.boundary.places();
-        same_length("displacement of the history", displacement.len(), indices.clone().count())?;
+        let contact_rows = self.boundary.contact_rows();
+        same_length(
+            "displacement of the history",
+            displacement.len(),
+            contact_rows.clone().count(),
+        )?;
         prepared.advance(&self.boundary, self.incident.as_deref())?;
-        for (value, index) in displacement.iter_mut().zip(indices) {
-            *value = prepared.history_displacement[index];
+        for (value, row) in displacement.iter_mut().zip(contact_rows) {
+            *value = prepared.history_displacement[row];
         }
         Ok(())
     }
@@ -303,38 +310,38 @@ impl Ground for FullPlaneGround {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }
         let contact_length = elements[elements.len() - 1].right() - elements[0].left();
-        let reference_length = 10.0 * contact_length;
+        let reference_length = REFERENCE_LENGTH_RATIO * contact_length;
         static_compliance(self.soil, &self.boundary, reference_length, matrix)
     }
 
-    /// The incident field at the midpoints if there is one; otherwise the scene's motion.
+    /// Overwrites `displacement` with the incident field at the midpoints, or with the motion of the scene.
     ///
-    /// Both together are an error: the values are then not finite, and the next history returns an error.
+    /// If there are both, the values are not finite, and the next history returns an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let contact = self.boundary.contact();
         let segments = self.boundary.segments();
-        let [down, along] =
+        let [down, tangential] =
             ContactLayout::new(COMPONENTS_IN_PLANE, contact.len()).split_mut(displacement);
-        for ((&e, down), along) in contact.iter().zip(down).zip(along) {
-            let center = segments[e].center();
-            let scene = motion.displacement(center[0], time);
+        for ((&index, down), tangential) in contact.iter().zip(down).zip(tangential) {
+            let center = segments[index].center();
+            let scene_motion = motion.displacement(center[0], time);
             let Some(field) = &self.incident else {
                 // The record is positive up, the contact component down.
-                *along = scene[0];
-                *down = -scene[1];
+                *tangential = scene_motion[0];
+                *down = -scene_motion[1];
                 continue;
             };
-            if scene == [0.0; 2] {
-                [*along, *down] = field.displacement(center, time);
+            if scene_motion == [0.0; 2] {
+                [*tangential, *down] = field.displacement(center, time);
             } else {
                 self.has_two_motions.set(true);
-                [*along, *down] = [f64::NAN; 2];
+                [*tangential, *down] = [f64::NAN; 2];
             }
         }
     }
 }
 
-/// A scene's ground motion together with an incident field.
+/// Error for a ground motion of the scene together with an incident field.
 const TWO_GROUND_MOTIONS: Error = Error::Scene {
     quantity: "ground motion",
     needed: "none in the scene: the full-plane ground has an incident field",

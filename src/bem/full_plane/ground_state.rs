@@ -10,8 +10,8 @@ use crate::linalg::dense_multiply_add;
 pub(super) struct PreparedBoundary {
     pub(super) history: BoundaryHistory,
     time_step: f64,
-    /// G⁰; empty unless an incident field loads the boundary.
-    first_g: Vec<f64>,
+    /// G⁰; empty without an incident field.
+    g0: Vec<f64>,
     /// Displacements of all elements due to unit tractions on the contact elements.
     pub(super) mobility: Mobility,
     /// Displacements at the end of the next step if the contact tractions of that step are zero.
@@ -19,8 +19,8 @@ pub(super) struct PreparedBoundary {
     /// Whether `history_displacement` belongs to the next step.
     is_advanced: bool,
     pub(super) displacement: Vec<f64>,
-    /// Tractions that cancel the tractions of the incident field, applied by the scattered field.
-    scattering: Vec<f64>,
+    /// Tractions of the scattered field, which cancel those of the incident field.
+    scattered_traction: Vec<f64>,
     traction: Vec<f64>,
 }
 
@@ -32,28 +32,28 @@ impl PreparedBoundary {
         time_step: f64,
         has_incident_field: bool,
     ) -> Result<Self> {
-        let count = boundary.segments().len();
+        let segment_count = boundary.segments().len();
         let layout = boundary.layout();
-        same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
-        let size = layout.len();
+        same_length("elements of the boundary kernel", kernel.segments().len(), segment_count)?;
+        let order = layout.len();
         let mut g = vec![0.0; layout.square()];
         let mut h = vec![0.0; layout.square()];
         kernel.coefficients(0, &mut g, &mut h)?;
         let mobility = boundary.mobility(&g, &h)?;
-        let mut loaded = vec![has_incident_field; size];
-        for place in boundary.places() {
-            loaded[place] = true;
+        let mut loaded = vec![has_incident_field; order];
+        for row in boundary.contact_rows() {
+            loaded[row] = true;
         }
         Ok(Self {
             history: BoundaryHistory::new(kernel, &loaded),
             time_step,
-            first_g: if has_incident_field { g } else { Vec::new() },
+            g0: if has_incident_field { g } else { Vec::new() },
             mobility,
-            history_displacement: vec![0.0; size],
+            history_displacement: vec![0.0; order],
             is_advanced: false,
-            displacement: vec![0.0; size],
-            scattering: vec![0.0; size],
-            traction: vec![0.0; size],
+            displacement: vec![0.0; order],
+            scattered_traction: vec![0.0; order],
+            traction: vec![0.0; order],
         })
     }
 
@@ -69,9 +69,9 @@ impl PreparedBoundary {
         self.history.evaluate(&mut self.history_displacement)?;
         if let Some(field) = incident {
             let time = (self.history.steps() as f64 + 0.5) * self.time_step;
-            fill_scattering(boundary, field, time, &mut self.scattering);
+            fill_scattered_traction(boundary, field, time, &mut self.scattered_traction);
             let displacement = &mut self.history_displacement;
-            dense_multiply_add(&self.first_g, 1.0, &self.scattering, displacement);
+            dense_multiply_add(&self.g0, 1.0, &self.scattered_traction, displacement);
         }
         self.mobility.factor.solve(&mut self.history_displacement);
         self.is_advanced = true;
@@ -81,11 +81,11 @@ impl PreparedBoundary {
     /// Accepts the contact tractions (2Q, Pa) of a step.
     pub(super) fn commit(&mut self, boundary: &Boundary, traction: &[f64]) {
         self.displacement.copy_from_slice(&self.history_displacement);
-        self.traction.copy_from_slice(&self.scattering);
+        self.traction.copy_from_slice(&self.scattered_traction);
         let columns = self.mobility.columns.chunks_exact(self.displacement.len());
-        for (k, (column, place)) in columns.zip(boundary.places()).enumerate() {
+        for (k, (column, row)) in columns.zip(boundary.contact_rows()).enumerate() {
             let value = traction.get(k).copied().unwrap_or(0.0);
-            self.traction[place] += value;
+            self.traction[row] += value;
             for (u, m) in self.displacement.iter_mut().zip(column) {
                 *u += m * value;
             }
@@ -96,7 +96,7 @@ impl PreparedBoundary {
 }
 
 /// Overwrites `tractions` with minus the tractions of the incident field at the midpoints.
-fn fill_scattering(
+fn fill_scattered_traction(
     boundary: &Boundary,
     field: &dyn IncidentField,
     time: f64,

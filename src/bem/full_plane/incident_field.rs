@@ -45,7 +45,7 @@ pub struct VerticalWaves {
 short_debug! { VerticalWaves; self; soil: self.soil, delay: self.delay }
 
 impl VerticalWaves {
-    /// Waves whose `surface` motion (at x = 0) is given, for points down to `depth` (m).
+    /// Waves with this `surface` motion at x = 0, for points down to `depth` (m).
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless the depth is finite and not below zero.
@@ -59,21 +59,21 @@ impl VerticalWaves {
         self.delay
     }
 
-    /// Mean of the surface displacements that up- and downgoing waves bring to a depth.
+    /// Displacement component at a depth: mean of an upgoing and a downgoing wave.
     fn displacement_component(&self, component: usize, speed: f64, depth: f64, time: f64) -> f64 {
         let record_time = time - self.delay;
-        let travel = depth / speed;
-        let upgoing = self.surface.displacement(0.0, record_time + travel)[component];
-        let downgoing = self.surface.displacement(0.0, record_time - travel)[component];
+        let travel_time = depth / speed;
+        let upgoing = self.surface.displacement(0.0, record_time + travel_time)[component];
+        let downgoing = self.surface.displacement(0.0, record_time - travel_time)[component];
         0.5 * (upgoing + downgoing)
     }
 
     /// Derivative of a displacement component with respect to depth.
     fn depth_derivative(&self, component: usize, speed: f64, depth: f64, time: f64) -> f64 {
         let record_time = time - self.delay;
-        let travel = depth / speed;
-        let upgoing = self.surface.velocity(0.0, record_time + travel)[component];
-        let downgoing = self.surface.velocity(0.0, record_time - travel)[component];
+        let travel_time = depth / speed;
+        let upgoing = self.surface.velocity(0.0, record_time + travel_time)[component];
+        let downgoing = self.surface.velocity(0.0, record_time - travel_time)[component];
         0.5 * (upgoing - downgoing) / speed
     }
 }

@@ -9,8 +9,8 @@
 //! * 2πρ rψ' = −z₂K₁(z₂)/c₂² − 2πρ χ
 //! * 2πρ rχ' = −4πρ χ − z₂K₁(z₂)/c₂² + z₁K₁(z₁)/c₁²
 //!
-//! Near the load the poles 1/z² of K₁/z, and 2/z² of K₂ = K₀ + 2K₁/z, cancel between both waves. There they
-//! are omitted from the start.
+//! Near the load the poles 1/z² of K₁/z, and 2/z² of K₂ = K₀ + 2K₁/z, cancel between both waves. The functions
+//! are computed without these poles there.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -21,7 +21,7 @@
 
 use std::f64::consts::PI;
 
-use super::bessel::{Complex64, SERIES_REACH, modified};
+use super::bessel::{Complex64, MAX_SERIES_ARGUMENT, modified_bessel};
 use crate::soil::Soil;
 
 /// The full plane of a soil at one s.
@@ -38,9 +38,9 @@ pub(super) struct LaplacePlane {
     lame_ratio: f64,
 }
 
-/// ψ, χ, rψ' and rχ' at one distance.
+/// Radial functions ψ, χ, rψ' and rχ' at one distance.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Radial {
+pub(super) struct RadialFunctions {
     pub(super) psi: Complex64,
     pub(super) chi: Complex64,
     pub(super) psi_slope: Complex64,
@@ -56,58 +56,58 @@ pub(super) struct PointKernels {
 impl LaplacePlane {
     /// The plane at the Laplace variable `s`.
     pub(super) fn new(soil: Soil, s: Complex64) -> Self {
-        let fast = soil.pressure_wave_speed();
-        let slow = soil.shear_wave_speed();
+        let pressure_speed = soil.pressure_wave_speed();
+        let shear_speed = soil.shear_wave_speed();
         let unit = 1.0 / (2.0 * PI * soil.density());
         let nu = soil.poisson();
         Self {
-            pressure: s / fast,
-            shear: s / slow,
-            weights: [unit / (fast * fast), unit / (slow * slow)],
+            pressure: s / pressure_speed,
+            shear: s / shear_speed,
+            weights: [unit / (pressure_speed * pressure_speed), unit / (shear_speed * shear_speed)],
             shear_modulus: soil.shear_modulus(),
             lame_ratio: 2.0 * nu / (1.0 - 2.0 * nu),
         }
     }
 
     /// Radial functions at the distance `r` from the load.
-    pub(super) fn radial(&self, r: f64) -> Radial {
+    pub(super) fn radial(&self, r: f64) -> RadialFunctions {
         let z = self.shear * r;
-        let regular = z.norm() <= SERIES_REACH;
-        let shear = modified(z, regular);
-        let pressure = modified(self.pressure * r, regular);
-        let fast = self.weights[0];
-        let slow = self.weights[1];
-        let psi = slow * (shear.zeroth + shear.quotient) - fast * pressure.quotient;
-        let chi = slow * (shear.zeroth + 2.0 * shear.quotient)
-            - fast * (pressure.zeroth + 2.0 * pressure.quotient);
-        let shear_product = slow * shear.product;
-        Radial {
+        let omits_poles = z.norm() <= MAX_SERIES_ARGUMENT;
+        let shear = modified_bessel(z, omits_poles);
+        let pressure = modified_bessel(self.pressure * r, omits_poles);
+        let pressure_weight = self.weights[0];
+        let shear_weight = self.weights[1];
+        let psi = shear_weight * (shear.k0 + shear.quotient) - pressure_weight * pressure.quotient;
+        let chi = shear_weight * (shear.k0 + 2.0 * shear.quotient)
+            - pressure_weight * (pressure.k0 + 2.0 * pressure.quotient);
+        let shear_product = shear_weight * shear.product;
+        RadialFunctions {
             psi,
             chi,
             psi_slope: -shear_product - chi,
-            chi_slope: -2.0 * chi - shear_product + fast * pressure.product,
+            chi_slope: -2.0 * chi - shear_product + pressure_weight * pressure.product,
         }
     }
 
-    /// Displacements at `offset` from the load, and tractions on the plane with this unit normal.
+    /// Displacements at `offset` from the load, and tractions on the plane with the unit vector `normal`.
     pub(super) fn kernels(&self, offset: [f64; 2], normal: [f64; 2]) -> PointKernels {
         let r = offset[0].hypot(offset[1]);
         let e = [offset[0] / r, offset[1] / r];
         let f = self.radial(r);
-        let along = e[0] * normal[0] + e[1] * normal[1];
+        let normal_component = e[0] * normal[0] + e[1] * normal[1];
         let scale = self.shear_modulus / r;
         let shear = scale * (f.psi_slope - f.chi);
         let chi = 2.0 * scale * f.chi;
-        let triple = 2.0 * (chi - scale * f.chi_slope) * along;
+        let triple = 2.0 * (chi - scale * f.chi_slope) * normal_component;
         let pressure = self.lame_ratio * (shear - scale * f.chi_slope);
         let mut u = [[Complex64::default(); 2]; 2];
         let mut t = u;
         for i in 0..2 {
             for j in 0..2 {
                 let psi_delta = if i == j { f.psi } else { Complex64::default() };
-                let along_delta = if i == j { along } else { 0.0 };
+                let normal_delta = if i == j { normal_component } else { 0.0 };
                 u[i][j] = psi_delta - f.chi * (e[i] * e[j]);
-                t[i][j] = shear * (along_delta + e[i] * normal[j]) + pressure * (e[j] * normal[i])
+                t[i][j] = shear * (normal_delta + e[i] * normal[j]) + pressure * (e[j] * normal[i])
                     - chi * (normal[i] * e[j])
                     + triple * (e[i] * e[j]);
             }

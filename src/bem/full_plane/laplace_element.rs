@@ -5,7 +5,7 @@
 //! the point only the logarithm remains, because tractions are odd and vanish on a straight line. The power series of
 //! the logarithm is integrated exactly.
 
-use super::bessel::{Complex64, SERIES_REACH, series};
+use super::bessel::{Complex64, MAX_SERIES_ARGUMENT, bessel_series};
 use super::laplace::LaplacePlane;
 use crate::linalg::gauss;
 
@@ -23,7 +23,7 @@ pub(super) struct ElementView {
 /// Coefficients of one view: `g` xx, xz, zx, zz, then `h` in the same order, without the free term.
 pub(super) type ViewBlock = [Complex64; 8];
 
-/// A straight element in coordinates along and across it.
+/// A straight element in coordinates along its tangent and normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BoundaryLine {
     /// ξ of the first end.
@@ -31,7 +31,7 @@ pub(super) struct BoundaryLine {
     /// ξ of the second end.
     pub(super) high: f64,
     /// Unit vector along the line, (x, z).
-    pub(super) along: [f64; 2],
+    pub(super) tangent: [f64; 2],
     /// Outward normal, (x, z).
     pub(super) normal: [f64; 2],
     /// Offset of the line from the point along the normal.
@@ -39,24 +39,24 @@ pub(super) struct BoundaryLine {
 }
 
 impl ElementView {
-    /// The element in coordinates along and across it.
+    /// The element in coordinates along its tangent and normal.
     pub(super) fn line(&self) -> BoundaryLine {
         let start = self.start;
         let step = [self.end[0] - start[0], self.end[1] - start[1]];
         let length = step[0].hypot(step[1]);
-        let along = [step[0] / length, step[1] / length];
-        let normal = [along[1], -along[0]];
+        let tangent = [step[0] / length, step[1] / length];
+        let normal = [tangent[1], -tangent[0]];
         if self.is_self {
             let high = 0.5 * length;
-            return BoundaryLine { low: -0.5 * length, high, along, normal, height: 0.0 };
+            return BoundaryLine { low: -0.5 * length, high, tangent, normal, height: 0.0 };
         }
-        let low = start[0] * along[0] + start[1] * along[1];
+        let low = start[0] * tangent[0] + start[1] * tangent[1];
         let height = start[0] * normal[0] + start[1] * normal[1];
-        BoundaryLine { low, high: low + length, along, normal, height }
+        BoundaryLine { low, high: low + length, tangent, normal, height }
     }
 
-    /// Largest distance between the point and the element.
-    pub(super) fn reach(&self) -> f64 {
+    /// Largest distance between the point and the element, m.
+    pub(super) fn max_distance(&self) -> f64 {
         self.start[0].hypot(self.start[1]).max(self.end[0].hypot(self.end[1]))
     }
 }
@@ -64,7 +64,7 @@ impl ElementView {
 impl BoundaryLine {
     /// Offset of the point ξ.
     pub(super) fn offset(&self, xi: f64) -> [f64; 2] {
-        [0, 1].map(|i| xi * self.along[i] + self.height * self.normal[i])
+        [0, 1].map(|i| xi * self.tangent[i] + self.height * self.normal[i])
     }
 }
 
@@ -87,20 +87,21 @@ pub(super) fn integrate(plane: &LaplacePlane, view: &ElementView) -> ViewBlock {
     block
 }
 
-/// Adds the integrals over the element around the point, twice over one half.
+/// Adds the integrals over the element around the point: twice the integrals over one half.
 ///
-/// The logarithm is integrated by its series, the rest by pieces.
+/// The series of the logarithm is integrated exactly, the remaining interval by pieces.
 fn add_self_integrals(plane: &LaplacePlane, line: &BoundaryLine, block: &mut ViewBlock) {
     let end = line.high;
-    let near = end.min(SERIES_REACH / plane.shear.norm());
-    let fast = plane.weights[0];
-    let slow = plane.weights[1];
-    let shear = series(plane.shear * near, true);
-    let pressure = series(plane.pressure * near, true);
-    let mut psi = near * (slow * (shear.zeroth + shear.kappa) - fast * pressure.kappa);
+    let near = end.min(MAX_SERIES_ARGUMENT / plane.shear.norm());
+    let pressure_weight = plane.weights[0];
+    let shear_weight = plane.weights[1];
+    let shear = bessel_series(plane.shear * near, true);
+    let pressure = bessel_series(plane.pressure * near, true);
+    let mut psi =
+        near * (shear_weight * (shear.k0 + shear.kappa) - pressure_weight * pressure.kappa);
     let mut chi = near
-        * (slow * (shear.zeroth + 2.0 * shear.kappa)
-            - fast * (pressure.zeroth + 2.0 * pressure.kappa));
+        * (shear_weight * (shear.k0 + 2.0 * shear.kappa)
+            - pressure_weight * (pressure.k0 + 2.0 * pressure.kappa));
     add_pieces(near, end, 0.0, plane, |xi, weight| {
         let radial = plane.radial(xi);
         psi += radial.psi * weight;
@@ -108,11 +109,11 @@ fn add_self_integrals(plane: &LaplacePlane, line: &BoundaryLine, block: &mut Vie
     });
     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let psi_delta = if i == j { psi } else { Complex64::default() };
-        block[2 * i + j] += 2.0 * (psi_delta - chi * (line.along[i] * line.along[j]));
+        block[2 * i + j] += 2.0 * (psi_delta - chi * (line.tangent[i] * line.tangent[j]));
     }
 }
 
-/// Calls `add` with the points and weights of a rule for the kernels on [`low`, `high`].
+/// Calls `add` with the points and weights of Gauss rules for the kernels on [`low`, `high`].
 fn add_pieces(
     low: f64,
     high: f64,
@@ -124,20 +125,20 @@ fn add_pieces(
     let mut pieces = vec![(low, high)];
     while let Some((low, high)) = pieces.pop() {
         let half_length = 0.5 * (high - low);
-        let nearest = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-        let decay = plane.pressure.re * nearest.hypot(height);
+        let min_distance = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+        let decay = plane.pressure.re * min_distance.hypot(height);
         if half_length <= 0.0 || decay > NEGLIGIBLE_EXPONENT {
             continue;
         }
-        let reach = gauss::ellipse_size([0.0, height], low, high)
-            .min(exponential_reach(wave_number * half_length));
-        match gauss::rule_for(reach) {
+        let ellipse_size = gauss::ellipse_size([0.0, height], low, high)
+            .min(exponential_ellipse_size(wave_number * half_length));
+        match gauss::rule_for(ellipse_size) {
             Some(rule) => {
                 for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                     add(low + half_length * (1.0 + node), half_length * weight);
                 }
             }
-            None if half_length > 1e-14 * nearest.max(low.abs()) => {
+            None if half_length > MIN_PIECE_RATIO * min_distance.max(low.abs()) => {
                 pieces.push((low, low + half_length));
                 pieces.push((low + half_length, high));
             }
@@ -149,18 +150,25 @@ fn add_pieces(
 
 /// Smallest decay exponent of negligible contributions.
 const NEGLIGIBLE_EXPONENT: f64 = 50.0;
+/// Half length of a piece relative to its distance that counts as rounding.
+const MIN_PIECE_RATIO: f64 = 1e-14;
+/// Largest number of points of a rule for the exponential; beyond, the piece is halved.
+const MAX_EXPONENTIAL_POINTS: u32 = 16;
+/// Error of a rule that counts as rounding.
+const RULE_TOLERANCE: f64 = 1e-15;
+/// [`gauss::rule_for`] selects at least n points for ellipse sizes up to the cosh of this number over n.
+const RULE_EXPONENT: f64 = 16.118;
 
-/// The reach for which [`gauss::rule_for`] selects a rule that also integrates e^{qx} on [−1, 1].
+/// Ellipse size for which [`gauss::rule_for`] selects a rule that also integrates e^{qx} on [−1, 1].
 ///
 /// The error of n points is about π q^{2n}/(4ⁿ (2n)!) [Davis & Rabinowitz 1984, § 2.7].
-fn exponential_reach(q: f64) -> f64 {
+fn exponential_ellipse_size(q: f64) -> f64 {
     let mut error = std::f64::consts::PI;
-    for n in 1..=16_u32 {
+    for n in 1..=MAX_EXPONENTIAL_POINTS {
         let even = f64::from(2 * n);
         error *= q * q / (4.0 * even * (even - 1.0));
-        if error < 1e-15 {
-            // Largest reach for which the selected rule has at least n points.
-            return (16.118 / f64::from(n)).cosh();
+        if error < RULE_TOLERANCE {
+            return (RULE_EXPONENT / f64::from(n)).cosh();
         }
     }
     1.0

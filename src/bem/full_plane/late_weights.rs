@@ -11,9 +11,9 @@
 //!
 //! * BDF1: δ = 1−ζ;
 //! * BDF2: δ = (1−ζ)(1 + (1−ζ)/2), expanded binomially; the factor ln(1 + (1−ζ)/2) is singular
-//!   only at ζ = 3 and leaves 3^{−n}.
+//!   only at ζ = 3 and contributes 3^{−n}.
 //!
-//! The smeared front is neglected: with ρ = r/(c₂Δt) a Cauchy circle of radius X bounds it
+//! The remainder of the front is neglected: with ρ = r/(c₂Δt) a Cauchy circle of radius X bounds it
 //! by e^{ρ(X−1)} X^{−n} (BDF1) and e^{ρ(X²−1)/2} X^{−n} (BDF2, 1 < X < 3).
 //!
 //! The leading term −A₀/n is Δt times the impulse response −A₀/t at t = nΔt. BDF2 departs from
@@ -30,11 +30,11 @@ pub(super) const LOG_TERM_COUNT: usize = 26;
 /// A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::ViewBlock).
 pub(super) type LogTerms = [[f64; 8]; LOG_TERM_COUNT];
 
-/// Coefficients of s^{2k} ln s; lengths in units of `unit`, and times in units of `unit`/c₂.
+/// Coefficients of s^{2k} ln s; lengths in units of `length_unit`, and times in units of `length_unit`/c₂.
 ///
 /// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
 /// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and similar terms are polynomials on the element.
-pub(super) fn log_terms(soil: Soil, view: &ElementView, unit: f64) -> LogTerms {
+pub(super) fn log_terms(soil: Soil, view: &ElementView, length_unit: f64) -> LogTerms {
     let line = view.line();
     let radial = radial_terms(soil);
     let center = 0.5 * (line.low + line.high);
@@ -45,36 +45,36 @@ pub(super) fn log_terms(soil: Soil, view: &ElementView, unit: f64) -> LogTerms {
     let mut terms = [[0.0; 8]; LOG_TERM_COUNT];
     for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
         let x = line.offset(center + half_length * node);
-        let square = (x[0] * x[0] + x[1] * x[1]) / (unit * unit);
+        let square = (x[0] * x[0] + x[1] * x[1]) / (length_unit * length_unit);
         let n = line.normal;
-        let along = x[0] * n[0] + x[1] * n[1];
+        let normal_offset = x[0] * n[0] + x[1] * n[1];
         let weight = weight * half_length;
         // (r/R)^{2k} and (r/R)^{2k−2}.
         let mut power = 1.0;
-        let mut lower = 0.0;
+        let mut lower_power = 0.0;
         for (k, term) in terms.iter_mut().enumerate() {
             let two_k = (2 * k) as f64;
             let p = radial.p[k];
             let q = radial.q[k];
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let delta = if i == j { 1.0 } else { 0.0 };
-                let product = x[i] * x[j] / (unit * unit);
-                term[2 * i + j] += weight * (p * delta * power - q * lower * product);
+                let product = x[i] * x[j] / (length_unit * length_unit);
+                term[2 * i + j] += weight * (p * delta * power - q * lower_power * product);
                 if view.is_self || k == 0 {
                     continue;
                 }
                 // Traction j on the element from load i at the point.
-                let scale = weight * soil.shear_modulus() / (unit * unit);
-                let mut value = (two_k * p - q) * (delta * along + x[j] * n[i])
+                let scale = weight * soil.shear_modulus() / (length_unit * length_unit);
+                let mut value = (two_k * p - q) * (delta * normal_offset + x[j] * n[i])
                     - 2.0 * q * n[j] * x[i]
                     + lame_ratio * (two_k * (p - q) - q) * x[i] * n[j];
                 // 4(1−k) q_k r^{2k−4} x_i x_j x_n vanishes for k = 1.
                 if k > 1 {
-                    value += (4.0 - 2.0 * two_k) * q * along * product / square;
+                    value += (4.0 - 2.0 * two_k) * q * normal_offset * product / square;
                 }
-                term[4 + 2 * i + j] += scale * lower * value;
+                term[4 + 2 * i + j] += scale * lower_power * value;
             }
-            lower = power;
+            lower_power = power;
             power *= square;
         }
     }
@@ -89,20 +89,20 @@ struct RadialTerms {
 
 /// Coefficients of the radial functions of a soil.
 fn radial_terms(soil: Soil) -> RadialTerms {
-    let ratio = soil.speed_ratio_squared();
-    let slow = soil.shear_wave_speed();
-    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * slow * slow);
+    let speed_ratio_squared = soil.speed_ratio_squared();
+    let shear_speed = soil.shear_wave_speed();
+    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * shear_speed * shear_speed);
     let mut terms = RadialTerms { p: [0.0; LOG_TERM_COUNT], q: [0.0; LOG_TERM_COUNT] };
     // 1/(4^k k!²) and (c₂/c₁)^{2k+2}.
     let mut scale = unit;
-    let mut power = ratio;
+    let mut power = speed_ratio_squared;
     for k in 0..LOG_TERM_COUNT {
-        let next = (k + 1) as f64;
-        terms.p[k] = scale * (0.5 * (1.0 - power) / next - 1.0);
+        let k_plus_one = (k + 1) as f64;
+        terms.p[k] = scale * (0.5 * (1.0 - power) / k_plus_one - 1.0);
         // 1/((k−1)!(k+1)!) = k/((k+1) k!²), from I₂.
-        terms.q[k] = -scale * (1.0 - power) * k as f64 / next;
-        scale /= 4.0 * next * next;
-        power *= ratio;
+        terms.q[k] = -scale * (1.0 - power) * k as f64 / k_plus_one;
+        scale /= 4.0 * k_plus_one * k_plus_one;
+        power *= speed_ratio_squared;
     }
     terms
 }
@@ -151,29 +151,35 @@ pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
     lag
 }
 
-/// Minus the logarithm of a negligible contribution.
+/// Minus the logarithm of a negligible contribution: e^{−37} is below rounding.
 const NEGLIGIBLE_EXPONENT: f64 = 37.0;
+/// Largest last term of the series, relative to the first, that counts as zero.
+const LAST_TERM_TOLERANCE: f64 = 1e-17;
+/// Smallest late lag over ρ: the front, at n = ρ, must have passed.
+const MIN_LATE_LAG_RATIO: f64 = 1.5;
+/// Largest radius of the Cauchy circle, inside the singularity at 3 of BDF2.
+const MAX_CIRCLE_RADIUS: f64 = 2.9;
 
 /// Whether the closed form has all digits at `lag`.
 fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
     let n = lag as f64;
-    if n <= 1.5 * rho {
+    if n <= MIN_LATE_LAG_RATIO * rho {
         return false;
     }
-    // Best radius of the circle, inside the singularity at 3 of BDF2.
-    let front = match method {
+    // Minus the logarithm of the front, with the best radius x of the circle.
+    let front_exponent = match method {
         CqMethod::Bdf1 => {
             let x = n / rho;
             n * x.ln() - rho * (x - 1.0)
         }
         CqMethod::Bdf2 => {
-            let x = (n / rho).sqrt().min(2.9);
+            let x = (n / rho).sqrt().min(MAX_CIRCLE_RADIUS);
             n * x.ln() - 0.5 * rho * (x * x - 1.0)
         }
     };
     // Last term of the series relative to the first: the largest A_k is below 1/(4^k k!²).
     let weights = weights(method, lag, rho);
     let factor: f64 = (1..LOG_TERM_COUNT).map(|k| 0.25 / (k * k) as f64).product();
-    front > NEGLIGIBLE_EXPONENT
-        && (weights[LOG_TERM_COUNT - 1] * factor).abs() < 1e-17 * weights[0].abs()
+    let last_term = (weights[LOG_TERM_COUNT - 1] * factor).abs();
+    front_exponent > NEGLIGIBLE_EXPONENT && last_term < LAST_TERM_TOLERANCE * weights[0].abs()
 }

@@ -16,7 +16,7 @@
 //! # No proof
 //!
 //! The soil of this method is not proved passive: the table below shows where it creates energy. The method is for
-//! boundaries of other shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
+//! boundaries that are not flat, such as hills and valleys. For walls below a flat surface, the weights around a trench
 #![cfg_attr(feature = "embedded", doc = "([`TrenchGround`](crate::bem::embedded::TrenchGround))")]
 //! are passive at every time step and mesh, by proof.
 //!
@@ -114,11 +114,11 @@ pub trait BoundaryKernel: Send + Sync {
     /// [`crate::Error::Size`] for slices of the wrong length.
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
 
-    /// Overwrites `g` and `h` with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, if they are known.
+    /// Overwrites `g` and `h` with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`.
     ///
     /// `g` and `h` are 2E × 2E complex numbers each, row-major, real and imaginary part alternating; |ζ| ≤ 1
-    /// and ζ ≠ 1. The series must be known as transforms at some s; the method then returns this s (1/s, real
-    /// and imaginary part). The default returns `None`.
+    /// and ζ ≠ 1. If the series are transforms at some s, the method returns this s (1/s, real and imaginary part).
+    /// Otherwise it returns `None`, as the default does.
     ///
     /// # Errors
     /// [`crate::Error::Size`] for slices of the wrong length.
@@ -130,8 +130,8 @@ pub trait BoundaryKernel: Send + Sync {
 /// Boundary condition of an element: the prescribed quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
-    /// The traction is known (zero on a free surface); the displacement is computed.
+    /// The traction is prescribed (zero on a free surface); the displacement is computed.
     TractionFree,
-    /// The displacement is known (contact that sticks); the traction is computed.
+    /// The displacement is prescribed (bonded contact); the traction is computed.
     PrescribedDisplacement,
 }

@@ -43,26 +43,29 @@ impl Segment {
         let n = self.normal();
         let y = self.center();
         let offset = [point[0] - y[0], point[1] - y[1]];
-        let along = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
-        along.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])
+        let overhang = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
+        overhang.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])
     }
 }
 
 /// Memory for each pair of elements, bytes: eight dense operators of 2 × 2 numbers.
 const BYTES_PER_PAIR: f64 = 256.0;
 
-/// Error if the operators between so many elements would not fit into memory.
-pub(super) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
-    let count = count as f64;
+/// Error if the operators between `segment_count` elements exceed the memory limit.
+pub(super) fn check_segment_count(segment_count: usize) -> std::result::Result<(), MemoryError> {
+    let count = segment_count as f64;
     memory::check("boundary elements", count, BYTES_PER_PAIR * count * count)
 }
+
+/// Smallest distance from a midpoint of another element, relative to the shorter length.
+const MIN_DISTANCE_RATIO: f64 = 1e-6;
 
 /// Error unless there are elements, all have length, and none passes through the midpoint of another.
 pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     if segments.is_empty() {
         return Err(Error::Size { quantity: "list of boundary elements", found: 0, needed: 1 });
     }
-    check_count(segments.len())?;
+    check_segment_count(segments.len())?;
     for segment in segments {
         for coordinate in segment.from.into_iter().chain(segment.to) {
             finite("end of a boundary element", coordinate)?;
@@ -72,10 +75,10 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     for (q, source) in segments.iter().enumerate() {
         for (p, receiver) in segments.iter().enumerate() {
             let distance = source.distance(receiver.center());
-            let min_distance = 1e-6 * source.length().min(receiver.length());
+            let min_distance = MIN_DISTANCE_RATIO * source.length().min(receiver.length());
             let quantity = "distance of a boundary element from the midpoint of another";
-            let fits = p == q || distance >= min_distance;
-            require(quantity, distance, fits, "at least 1e-6 of the shorter")?;
+            let is_separate = p == q || distance >= min_distance;
+            require(quantity, distance, is_separate, "at least 1e-6 of the shorter")?;
         }
     }
     Ok(())

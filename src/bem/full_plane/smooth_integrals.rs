@@ -21,20 +21,20 @@ enum PassedWaves {
     Both,
 }
 
-/// Rules of one element and step.
+/// Gauss rules of one element and step.
 struct SmoothRules {
-    passed: PassedWaves,
-    space: &'static Rule,
-    time: &'static Rule,
+    passed_waves: PassedWaves,
+    space_rule: &'static Rule,
+    time_rule: &'static Rule,
 }
 
-/// Response to an impulse at (`s`, `h`) after one wave or `both` have passed.
+/// Response to an impulse at (`s`, `h`) after the pressure wave, or both waves, have passed.
 fn impulse_response(
     waves: &WaveConstants,
     s: f64,
     h: f64,
     time: f64,
-    both: bool,
+    is_past_both: bool,
 ) -> SegmentIntegrals {
     let c1 = waves.speeds[0];
     let c2 = waves.speeds[1];
@@ -47,7 +47,7 @@ fn impulse_response(
     let l;
     let q2;
     let w;
-    if both {
+    if is_past_both {
         let r2 = (t2 * t2 - square).sqrt();
         let sums = [t1 + r1, t2 + r2];
         q2 = -1.0 / (c2 * r2 * r2 * r2);
@@ -83,41 +83,45 @@ fn smooth_rules(
     begin: f64,
     end: f64,
 ) -> Option<SmoothRules> {
-    let largest_distance = ends[0].abs().max(ends[1].abs()).hypot(h);
-    let smallest_distance = if ends[0] <= 0.0 && ends[1] >= 0.0 {
+    let max_distance = ends[0].abs().max(ends[1].abs()).hypot(h);
+    let min_distance = if ends[0] <= 0.0 && ends[1] >= 0.0 {
         h.abs()
     } else {
         ends[0].abs().min(ends[1].abs()).hypot(h)
     };
-    let mut passed = PassedWaves::None;
+    let mut passed_waves = PassedWaves::None;
     // The singularities nearest to the intervals determine the rules.
-    let mut space_reach = f64::INFINITY;
-    let mut time_reach = f64::INFINITY;
-    let passed_by_wave = [PassedWaves::Pressure, PassedWaves::Both];
-    for (c, passed_with_wave) in waves.speeds.into_iter().zip(passed_by_wave) {
-        if c * end <= smallest_distance {
+    let mut space_ellipse_size = f64::INFINITY;
+    let mut time_ellipse_size = f64::INFINITY;
+    let waves_by_front = [PassedWaves::Pressure, PassedWaves::Both];
+    for (c, waves_after_front) in waves.speeds.into_iter().zip(waves_by_front) {
+        if c * end <= min_distance {
             break;
         }
-        if c * begin <= largest_distance {
+        if c * begin <= max_distance {
             return None;
         }
-        passed = passed_with_wave;
+        passed_waves = waves_after_front;
         let front = ((c * begin - h.abs()) * (c * begin + h.abs())).sqrt();
         for point in [front, -front] {
-            space_reach = space_reach.min(gauss::ellipse_size([point, 0.0], ends[0], ends[1]));
+            let ellipse_size = gauss::ellipse_size([point, 0.0], ends[0], ends[1]);
+            space_ellipse_size = space_ellipse_size.min(ellipse_size);
         }
-        time_reach = time_reach.min(gauss::ellipse_size([largest_distance / c, 0.0], begin, end));
+        let ellipse_size = gauss::ellipse_size([max_distance / c, 0.0], begin, end);
+        time_ellipse_size = time_ellipse_size.min(ellipse_size);
     }
-    if passed == PassedWaves::Pressure {
-        space_reach = space_reach.min(gauss::ellipse_size([0.0, h], ends[0], ends[1]));
+    if passed_waves == PassedWaves::Pressure {
+        let ellipse_size = gauss::ellipse_size([0.0, h], ends[0], ends[1]);
+        space_ellipse_size = space_ellipse_size.min(ellipse_size);
     }
-    if passed == PassedWaves::None {
+    if passed_waves == PassedWaves::None {
         // Any rule integrates zero.
-        return Some(SmoothRules { passed, space: gauss::largest(), time: gauss::largest() });
+        let rule = gauss::largest();
+        return Some(SmoothRules { passed_waves, space_rule: rule, time_rule: rule });
     }
-    let space = gauss::rule_for(space_reach)?;
-    let time = gauss::rule_for(time_reach)?;
-    Some(SmoothRules { passed, space, time })
+    let space_rule = gauss::rule_for(space_ellipse_size)?;
+    let time_rule = gauss::rule_for(time_ellipse_size)?;
+    Some(SmoothRules { passed_waves, space_rule, time_rule })
 }
 
 /// Integrals over the element for an impulse spread between two times.
@@ -131,18 +135,18 @@ pub(super) fn smooth_integrals(
 ) -> Option<SegmentIntegrals> {
     let rules = smooth_rules(waves, ends, h, times[0], times[1])?;
     let mut sum = SegmentIntegrals::default();
-    if rules.passed == PassedWaves::None {
+    if rules.passed_waves == PassedWaves::None {
         return Some(sum);
     }
-    let both = rules.passed == PassedWaves::Both;
+    let is_past_both = rules.passed_waves == PassedWaves::Both;
     let half_length = 0.5 * (ends[1] - ends[0]);
     let half_step = 0.5 * (times[1] - times[0]);
-    for (x, time_weight) in rules.time.nodes.iter().zip(&rules.time.weights) {
+    for (x, time_weight) in rules.time_rule.nodes.iter().zip(&rules.time_rule.weights) {
         let time = times[0] + half_step * (1.0 + x);
-        for (y, space_weight) in rules.space.nodes.iter().zip(&rules.space.weights) {
+        for (y, space_weight) in rules.space_rule.nodes.iter().zip(&rules.space_rule.weights) {
             let s = ends[0] + half_length * (1.0 + y);
-            let value = impulse_response(waves, s, h, time, both);
-            sum.add(half_length * half_step * time_weight * space_weight, &value);
+            let value = impulse_response(waves, s, h, time, is_past_both);
+            sum.add_scaled(half_length * half_step * time_weight * space_weight, &value);
         }
     }
     Some(sum)

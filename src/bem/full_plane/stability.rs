@@ -1,9 +1,9 @@
 //! Stability of a boundary equation in time: growth of perturbations, before the run.
 //!
 //! The degrees of freedom x are displacements of traction-free elements, and tractions of elements with
-//! prescribed displacement. The equation Σ F^{N−m} xᵐ = known has the symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of
-//! H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The smallest zero gives the
-//! growth factor 1/|ζ| per step. Zeros are counted by the argument principle on circles (F has no poles
+//! prescribed displacement. Prescribed values form the right-hand side b. The equation Σ F^{N−m} xᵐ = bᴺ has the
+//! symbol F(ζ) = Σ Fⁿ ζⁿ, with columns of H and −G. Perturbations grow if and only if det F has a zero in |ζ| < 1. The
+//! growth factor per step is 1/|ζ| of the smallest zero. Zeros are counted by the argument principle on circles (F has no poles
 //! there, since its coefficients do not grow), and the smallest modulus is found by bisection.
 
 use super::stability_symbol::BoundarySymbol;
@@ -70,12 +70,12 @@ impl Stability {
 
     /// Stability of a boundary equation with this symbol.
     pub(super) fn from_symbol(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Self> {
-        let fits = (1e-7..=0.5).contains(&smallest_growth);
-        require("growth looked for", smallest_growth, fits, "between 1e-7 and 0.5 per step")?;
-        let found = smallest_zero(symbol, smallest_growth)?;
+        let is_in_range = (1e-7..=0.5).contains(&smallest_growth);
+        require("smallest growth", smallest_growth, is_in_range, "between 1e-7 and 0.5 per step")?;
+        let zeros = smallest_zero(symbol, smallest_growth)?;
         Ok(Self {
-            growth_per_step: found.zero.map_or(0.0, |zero| 1.0 / zero.norm() - 1.0),
-            growing_modes: found.count,
+            growth_per_step: zeros.smallest_zero.map_or(0.0, |zero| 1.0 / zero.norm() - 1.0),
+            growing_modes: zeros.zero_count,
         })
     }
 

@@ -19,8 +19,12 @@ pub(super) const TAIL_POWERS: usize = 10;
 
 /// Step of ln y in the trapezoidal rule.
 const LOGARITHM_STEP: f64 = 0.125;
+/// First step of the rule: y = e^{−35} is below rounding.
+const FIRST_STEP: i32 = -280;
+/// Last step of the rule: e^{−y} with y = e⁴ is below rounding.
+const LAST_STEP: i32 = 32;
 
-/// Lag of the Chebyshev point `k`; numbers between integers lie between the points.
+/// Lag of the Chebyshev point `k`; the lag is between two points for a `k` between two integers.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "n ≥ N")]
 pub(super) fn interpolation_lag(first: f64, k: f64) -> usize {
     let point = 0.5 + 0.5 * (PI * (k + 0.5) / TAIL_POWERS as f64).cos();
@@ -30,11 +34,11 @@ pub(super) fn interpolation_lag(first: f64, k: f64) -> usize {
 /// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`TAIL_POWERS`].
 pub(super) fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; TAIL_POWERS] {
     let mut sums = [Complex64::default(); TAIL_POWERS];
-    let front = (zeta.ln() * first).exp() * LOGARITHM_STEP;
-    for k in -280..=32 {
+    let factor = (zeta.ln() * first).exp() * LOGARITHM_STEP;
+    for k in FIRST_STEP..=LAST_STEP {
         let y = (LOGARITHM_STEP * f64::from(k)).exp();
         // dy = y d(ln y)
-        let mut term = front * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
+        let mut term = factor * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
         for (p, sum) in sums.iter_mut().enumerate() {
             *sum += term;
             term *= y / (p + 1) as f64;

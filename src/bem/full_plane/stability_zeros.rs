@@ -25,15 +25,25 @@ const SECANT_BRACKET_WIDTH: f64 = 0.25;
 /// Half width of the bracket over its middle, below which the search ends.
 const FINAL_BRACKET_WIDTH: f64 = 0.01;
 
+/// Relative distance of the first two points of the secant method.
+const SECANT_START_STEP: f64 = 1e-4;
+
+/// Largest number of steps of the secant method.
+const MAX_SECANT_STEPS: usize = 40;
+
+/// Last change of ζ in the secant method.
+const SECANT_TOLERANCE: f64 = 1e-11;
+
+/// Margin of the search for smaller zeros, over the distance of the zero from the unit circle.
+const SMALLEST_ZERO_MARGIN: f64 = 1e-3;
+
 /// ln of the largest growth factor that is searched for.
 const MAX_LOG_GROWTH: f64 = 4.0;
 
-/// Zeros inside a circle: their number, and the smallest.
+/// Zeros inside a circle.
 pub(super) struct Zeros {
-    /// Number of zeros inside.
-    pub(super) count: usize,
-    /// Smallest zero inside.
-    pub(super) zero: Option<Complex64>,
+    pub(super) zero_count: usize,
+    pub(super) smallest_zero: Option<Complex64>,
 }
 
 /// Counts zeros with 1/|ζ| > 1 + `smallest_growth` and finds the smallest one.
@@ -41,50 +51,51 @@ pub(super) fn smallest_zero(symbol: &BoundarySymbol, smallest_growth: f64) -> Re
     let mut search = ZeroSearch {
         symbol,
         factor: DenseFactor::with_capacity(symbol.order()),
-        sum: vec![],
+        symbol_sum: vec![],
         operator: vec![],
     };
     // At ζ = 0 the operator equals the operator of lag 0.
     search.log_determinant(Complex64::default())?;
     let circle = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
-    let count = circle.count;
-    if count == 0 {
-        return Ok(Zeros { count, zero: None });
+    let zero_count = circle.zero_count;
+    if zero_count == 0 {
+        return Ok(Zeros { zero_count, smallest_zero: None });
     }
     let mut seed = circle.fastest_point;
-    let mut low = -MAX_LOG_GROWTH;
-    let mut high = -smallest_growth.ln_1p();
+    let mut low_log = -MAX_LOG_GROWTH;
+    let mut high_log = -smallest_growth.ln_1p();
     for _ in 0..MAX_BISECTIONS {
-        let middle = 0.5 * (low + high);
-        let circle = search.zeros_inside(middle.exp())?;
-        if circle.count == 0 {
-            low = middle;
+        let middle_log = 0.5 * (low_log + high_log);
+        let circle = search.zeros_inside(middle_log.exp())?;
+        if circle.zero_count == 0 {
+            low_log = middle_log;
             seed = circle.fastest_point;
         } else {
-            high = middle;
+            high_log = middle_log;
         }
         // The secant method starts on the inner circle, at the angle where the phase of the determinant
         // changes fastest.
-        let width = (high - low) / (low + high).abs();
+        let width = (high_log - low_log) / (low_log + high_log).abs();
         if width < SECANT_BRACKET_WIDTH
             && let Some(zero) = search.secant(seed)
             && search.is_smallest(zero)?
         {
-            return Ok(Zeros { count, zero: Some(zero) });
+            return Ok(Zeros { zero_count, smallest_zero: Some(zero) });
         }
         if width < FINAL_BRACKET_WIDTH {
             break;
         }
     }
     // Several zeros of nearly the same modulus, or a multiple zero: return the bracket's middle.
-    let modulus = (0.5 * (low + high)).exp();
-    Ok(Zeros { count, zero: Some(Complex64::from_polar(modulus, seed.arg())) })
+    let modulus = (0.5 * (low_log + high_log)).exp();
+    let smallest_zero = Some(Complex64::from_polar(modulus, seed.arg()));
+    Ok(Zeros { zero_count, smallest_zero })
 }
 
 /// Result of the argument principle for a circle.
 struct CircleZeros {
     /// Number of zeros inside.
-    count: usize,
+    zero_count: usize,
     /// Point of the circle where the phase of det F changes fastest: nearest to a zero.
     fastest_point: Complex64,
 }
@@ -101,15 +112,16 @@ struct FastestPhase {
 struct ZeroSearch<'a> {
     symbol: &'a BoundarySymbol<'a>,
     factor: DenseFactor<Complex64>,
-    sum: Vec<Complex64>,
+    /// Buffer for the symbols of G and H.
+    symbol_sum: Vec<Complex64>,
     operator: Vec<Complex64>,
 }
 
 impl ZeroSearch<'_> {
     /// ln det F at one ζ.
     fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
-        self.symbol.at(zeta, &mut self.sum)?;
-        self.symbol.operator(&self.sum, &mut self.operator);
+        self.symbol.at(zeta, &mut self.symbol_sum)?;
+        self.symbol.operator(&self.symbol_sum, &mut self.operator);
         log_determinant(&mut self.factor, &self.operator, self.symbol.order())
     }
 
@@ -120,8 +132,8 @@ impl ZeroSearch<'_> {
         let operators = self.symbol.operators_on(radius, CIRCLE_POINT_COUNT);
         let factor = &mut self.factor;
         let order = self.symbol.order();
-        let values = operators.iter().map(|operator| log_determinant(factor, operator, order));
-        let values: Vec<_> = values.collect::<Result<_>>()?;
+        let results = operators.iter().map(|operator| log_determinant(factor, operator, order));
+        let values: Vec<_> = results.collect::<Result<_>>()?;
         let step = TAU / CIRCLE_POINT_COUNT as f64;
         let mut phase = 0.0;
         let mut fastest = FastestPhase::default();
@@ -132,9 +144,9 @@ impl ZeroSearch<'_> {
         }
         let half_turns = (phase / PI).round();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counted")]
-        let count = if half_turns > 0.0 { half_turns as usize } else { 0 };
+        let zero_count = if half_turns > 0.0 { half_turns as usize } else { 0 };
         let fastest_point = Complex64::from_polar(radius, fastest.angle);
-        Ok(CircleZeros { count, fastest_point })
+        Ok(CircleZeros { zero_count, fastest_point })
     }
 
     /// Phase change of the determinant between two angles.
@@ -161,22 +173,22 @@ impl ZeroSearch<'_> {
             return Ok(phase_change);
         }
         let value = self.log_determinant(Complex64::from_polar(radius, middle))?;
-        let first = [angles[0], middle];
-        let second = [middle, angles[1]];
-        Ok(self.phase_change(radius, first, [values[0], value], depth + 1, fastest)?
-            + self.phase_change(radius, second, [value, values[1]], depth + 1, fastest)?)
+        let lower_half = [angles[0], middle];
+        let upper_half = [middle, angles[1]];
+        Ok(self.phase_change(radius, lower_half, [values[0], value], depth + 1, fastest)?
+            + self.phase_change(radius, upper_half, [value, values[1]], depth + 1, fastest)?)
     }
 
     /// Zero of det F near `seed` by the secant method.
     fn secant(&mut self, seed: Complex64) -> Option<Complex64> {
         let mut previous = seed;
-        let mut zeta = seed * (1.0 + 1e-4);
+        let mut zeta = seed * (1.0 + SECANT_START_STEP);
         let reference = self.log_determinant(previous).ok()?;
         let mut previous_value = Complex64::new(1.0, 0.0);
-        for _ in 0..40 {
+        for _ in 0..MAX_SECANT_STEPS {
             // If a pivot is zero, `zeta` is the zero of the determinant.
-            let Ok(log) = self.log_determinant(zeta) else { return Some(zeta) };
-            let value = (log - reference).exp();
+            let Ok(log_determinant) = self.log_determinant(zeta) else { return Some(zeta) };
+            let value = (log_determinant - reference).exp();
             let change = (zeta - previous) * value / (value - previous_value);
             if !change.is_finite() {
                 return None;
@@ -187,17 +199,17 @@ impl ZeroSearch<'_> {
             if zeta.norm() >= 1.0 {
                 return None;
             }
-            if change.norm() < 1e-11 {
+            if change.norm() < SECANT_TOLERANCE {
                 return Some(zeta);
             }
         }
         None
     }
 
-    /// Whether `zero` is a zero, and no other is smaller by more than a thousandth.
+    /// Whether no zero is smaller than `zero` by more than a thousandth of its distance from the unit circle.
     fn is_smallest(&mut self, zero: Complex64) -> Result<bool> {
-        let margin = 1e-3 * (1.0 - zero.norm());
-        Ok(self.zeros_inside(zero.norm() - margin)?.count == 0)
+        let margin = SMALLEST_ZERO_MARGIN * (1.0 - zero.norm());
+        Ok(self.zeros_inside(zero.norm() - margin)?.zero_count == 0)
     }
 }
 

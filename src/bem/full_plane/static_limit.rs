@@ -1,14 +1,14 @@
 //! Static limit of the boundary equation (Kelvin's solution).
 //!
 //! With time the functions of [`super::step_integrals`] tend to D = (c₂⁻²−c₁⁻²)/2, Q = c⁻², and
-//! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀), L₀ a length that no static plane fixes.
+//! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀). The static plane does not determine the length L₀.
 
 use super::Boundary;
 use super::pair_classes::SegmentPairClasses;
 use crate::error::Result;
 use crate::soil::Soil;
 
-/// The primitives of displacement (dd, dn, nn; 1/2πρ) and traction (μ/2πρ) at one end.
+/// Primitives of displacement (dd, dn, nn; in 1/2πρ) and traction (dd, dn, nd, nn; in μ/2πρ) at one end.
 ///
 /// `slowness_squared` is c₁⁻² and c₂⁻², `reference_length` is L₀.
 fn primitive(
@@ -20,11 +20,11 @@ fn primitive(
 ) -> [f64; 7] {
     let r = s.hypot(h);
     let d = 0.5 * (slowness_squared[1] - slowness_squared[0]);
-    let growth = -(slowness_squared[0] + slowness_squared[1]);
+    let log_factor = -(slowness_squared[0] + slowness_squared[1]);
     let logarithm = (r / reference_length).ln();
     let angle = if h == 0.0 { 0.0 } else { (s / h).atan() };
     let logarithm_integral = s * logarithm - s + h * angle;
-    let isotropic_part = 0.5 * (growth * logarithm_integral - d * s);
+    let isotropic_part = 0.5 * (log_factor * logarithm_integral - d * s);
     let dd = isotropic_part + d * (s - h * angle);
     let nn = isotropic_part + d * h * angle;
     let dn = d * h * logarithm;
@@ -65,12 +65,12 @@ pub(super) fn static_compliance(
     let mut g = vec![0.0; layout.square()];
     let mut h = vec![0.0; layout.square()];
     SegmentPairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |view| {
-        let at_ends = view
+        let end_values = view
             .ends
             .map(|s| primitive(slowness_squared, lame_ratio, s, view.height, reference_length));
         let mut integrals = [0.0; 7];
         for (k, integral) in integrals.iter_mut().enumerate() {
-            *integral = unit * (at_ends[1][k] - at_ends[0][k]);
+            *integral = unit * (end_values[1][k] - end_values[0][k]);
         }
         let [dd, dn, nn, t_dd, t_dn, t_nd, t_nn] = integrals;
         let mu = soil.shear_modulus();
@@ -94,7 +94,7 @@ mod tests {
         let slowness_squared = speeds.map(|c| 1.0 / (c * c));
         let waves = WaveConstants { speeds, lame_ratio: 0.4 / 0.6 };
         for (ends, h) in [([0.3, 1.1], 0.0), ([-0.4, 0.9], 0.6), ([1.0, 2.0], -0.5)] {
-            let at_ends = ends.map(|s| primitive(slowness_squared, waves.lame_ratio, s, h, 1.0));
+            let end_values = ends.map(|s| primitive(slowness_squared, waves.lame_ratio, s, h, 1.0));
             let late = step_integrals(&waves, ends, h, 1e4);
             let t = late.traction.as_flattened();
             let u = late.displacement;
@@ -102,11 +102,12 @@ mod tests {
             let growth: f64 =
                 (0..2).map(|k| 0.5 * slowness_squared[k] * (2e4 * speeds[k]).ln()).sum();
             let growth_integral = growth * (ends[1] - ends[0]);
-            let found =
+            let computed =
                 [u[0] - growth_integral, u[1], u[2] - growth_integral, t[0], t[1], t[2], t[3]];
             for k in 0..7 {
-                let wanted = at_ends[1][k] - at_ends[0][k];
-                assert!((found[k] - wanted).abs() < 2e-7, "{ends:?} {k}: {} {wanted}", found[k]);
+                let expected = end_values[1][k] - end_values[0][k];
+                let value = computed[k];
+                assert!((value - expected).abs() < 2e-7, "{ends:?} {k}: {value} {expected}");
             }
         }
     }

@@ -32,7 +32,7 @@ pub(super) struct SegmentIntegrals {
 
 impl SegmentIntegrals {
     /// Adds `factor` times `other`.
-    pub(super) fn add(&mut self, factor: f64, other: &Self) {
+    pub(super) fn add_scaled(&mut self, factor: f64, other: &Self) {
         for (a, b) in self.displacement.iter_mut().zip(other.displacement) {
             *a += factor * b;
         }
@@ -43,7 +43,7 @@ impl SegmentIntegrals {
     }
 }
 
-/// Constants of the soil in the kernel.
+/// Wave speeds and elastic constants of the kernel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WaveConstants {
     /// c₁, c₂.
@@ -56,11 +56,11 @@ pub(super) struct WaveConstants {
 #[derive(Clone, Copy)]
 struct Front {
     /// Whether the wave has passed the point of the element's line nearest to the load.
-    present: bool,
+    is_present: bool,
     /// Whether the wave has passed this end.
-    covered: bool,
+    is_past_end: bool,
     /// T.
-    reach: f64,
+    travel: f64,
     /// R.
     root: f64,
     /// arcosh(T/r).
@@ -73,27 +73,40 @@ struct Front {
 
 impl Front {
     fn new(speed: f64, time: f64, s: f64, height: f64, r: f64) -> Self {
-        let reach = speed * time;
-        let present = reach > height;
-        let covered = r < reach;
-        if covered {
-            let root = ((reach - r) * (reach + r)).sqrt();
+        let travel = speed * time;
+        let is_present = travel > height;
+        let is_past_end = r < travel;
+        if is_past_end {
+            let root = ((travel - r) * (travel + r)).sqrt();
             let arc = s.atan2(root);
-            let angle = (s * reach).atan2(height * root);
+            let angle = (s * travel).atan2(height * root);
             return Self {
-                present,
-                covered,
-                reach,
+                is_present,
+                is_past_end,
+                travel,
                 root,
                 logarithm: (root / r).asinh(),
                 arc,
                 angle,
             };
         }
-        let quarter = if present { FRAC_PI_2.copysign(s) } else { 0.0 };
-        Self { present, covered, reach, root: 0.0, logarithm: 0.0, arc: quarter, angle: quarter }
+        let quarter_turn = if is_present { FRAC_PI_2.copysign(s) } else { 0.0 };
+        Self {
+            is_present,
+            is_past_end,
+            travel,
+            root: 0.0,
+            logarithm: 0.0,
+            arc: quarter_turn,
+            angle: quarter_turn,
+        }
     }
 }
+
+/// Number of terms of the series of (y − atan y)/y³.
+///
+/// The error is 1e-17 at y = ½.
+const DEFECT_TERM_COUNT: u32 = 26;
 
 /// (y − atan y)/y³.
 fn arctangent_defect(y: f64) -> f64 {
@@ -101,11 +114,13 @@ fn arctangent_defect(y: f64) -> f64 {
         return (y - y.atan()) / (y * y * y);
     }
     let square = y * y;
-    // Σ (−y²)^k/(2k+3); the error of 26 terms is 1e-17 at ½.
-    (0..26).rev().fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 3) - square * sum)
+    // Σ (−y²)^k/(2k+3).
+    (0..DEFECT_TERM_COUNT)
+        .rev()
+        .fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 3) - square * sum)
 }
 
-/// Weighs the values of the two waves by ±1/c² and adds them.
+/// Difference between the two waves' values over c².
 fn wave_difference(slowness_squared: [f64; 2], values: [f64; 2]) -> f64 {
     slowness_squared[0] * values[0] - slowness_squared[1] * values[1]
 }
@@ -115,74 +130,69 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
     let p = &fronts[0];
     let q = &fronts[1];
     let square = time * time;
-    if !p.present {
+    if !p.is_present {
         return [0.0; 2];
     }
-    if !q.present {
+    if !q.is_present {
         // Only here may A be a quarter turn that does not cancel; h is not small then.
         let pole = square * p.angle / height;
         return [pole, (pole + s * d) / (2.0 * height)];
     }
-    if !p.covered {
+    if !p.is_past_end {
         return [0.0; 2];
     }
-    if !q.covered {
-        let slope = p.root / (s.abs() * p.reach);
+    if !q.is_past_end {
+        let slope = p.root / (s.abs() * p.travel);
         let w = height * slope;
         let defect = slope * w * slope * arctangent_defect(w);
         let pole = -(slope - height * height * slope * slope * slope * arctangent_defect(w));
         let half_sum = 0.5 * (defect - w / (r * r));
-        return [(square * pole).copysign_of(s), (square * half_sum).copysign_of(s)];
+        return [square * pole, square * half_sum]
+            .map(|value| if s < 0.0 { -value } else { value });
     }
-    let reach_product = p.reach * q.reach;
+    let travel_product = p.travel * q.travel;
     let root_product = p.root * q.root;
-    let denominator = height * height * root_product + s * s * reach_product;
+    let denominator = height * height * root_product + s * s * travel_product;
     // −X of tan(A₁ − A₂) = h X; D = t² k/(q₁+q₂).
-    let x = -s * (r * r) * d * reach_product / (square * denominator);
+    let x = -s * (r * r) * d * travel_product / (square * denominator);
     let y = height * x;
     let cubic = x * y * y * arctangent_defect(y);
     // T₁T₂ − R₁R₂ without cancellation.
-    let u1 = (r / p.reach).powi(2);
-    let u2 = (r / q.reach).powi(2);
+    let u1 = (r / p.travel).powi(2);
+    let u2 = (r / q.travel).powi(2);
     let product_difference =
-        reach_product * (u1 + u2 - u1 * u2) / (1.0 + root_product / reach_product);
+        travel_product * (u1 + u2 - u1 * u2) / (1.0 + root_product / travel_product);
     let cubic_over_height = x * x * y * arctangent_defect(y);
     let half_sum =
         -0.5 * (square * cubic_over_height + s * d * height * product_difference / denominator);
     [square * (x - cubic), half_sum]
 }
 
-/// Changes the sign of `self` if the other number is negative.
-trait CopySignOf {
-    fn copysign_of(self, sign: f64) -> f64;
-}
-
-impl CopySignOf for f64 {
-    fn copysign_of(self, sign: f64) -> f64 {
-        if sign < 0.0 { -self } else { self }
+/// D at one end.
+fn end_value(fronts: &[Front; 2], slowness_squared: [f64; 2], r: f64) -> f64 {
+    match (fronts[0].is_past_end, fronts[1].is_past_end) {
+        (true, true) => {
+            let q = [0, 1].map(|k| fronts[k].root / fronts[k].travel);
+            (slowness_squared[1] - slowness_squared[0]) / (q[0] + q[1])
+        }
+        (true, false) => slowness_squared[0] * fronts[0].travel / r * (fronts[0].root / r),
+        _ => 0.0,
     }
 }
 
-/// The primitives at one end.
+/// Primitives at one end.
 fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegrals {
     let height = h.abs();
     let sign = if h == 0.0 { 0.0 } else { h.signum() };
     let r = s.hypot(height);
     let fronts = waves.speeds.map(|c| Front::new(c, time, s, height, r));
     let slowness_squared = waves.speeds.map(|c| 1.0 / (c * c));
-    let d = match (fronts[0].covered, fronts[1].covered) {
-        (true, true) => {
-            let q = fronts.map(|f| f.root / f.reach);
-            (slowness_squared[1] - slowness_squared[0]) / (q[0] + q[1])
-        }
-        (true, false) => slowness_squared[0] * fronts[0].reach / r * (fronts[0].root / r),
-        _ => 0.0,
-    };
+    let d = end_value(&fronts, slowness_squared, r);
     let pole_terms = pole_terms(&fronts, time, s, height, r, d);
     let pole = pole_terms[0];
 
     let angles = wave_difference(slowness_squared, fronts.map(|f| f.angle));
-    let arcs = wave_difference(slowness_squared, fronts.map(|f| f.reach * f.arc));
+    let arcs = wave_difference(slowness_squared, fronts.map(|f| f.travel * f.arc));
     let logarithms = wave_difference(slowness_squared, fronts.map(|f| f.logarithm));
     // ∫ D, ∫ D s²/r², ∫ D s h/r².
     let d0 = pole - arcs;
@@ -191,7 +201,7 @@ fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegra
     let growth: f64 = (0..2)
         .map(|k| {
             let f = &fronts[k];
-            slowness_squared[k] * (s * f.logarithm + f.reach * f.arc - height * f.angle)
+            slowness_squared[k] * (s * f.logarithm + f.travel * f.arc - height * f.angle)
         })
         .sum();
     let isotropic_part = 0.5 * (growth - d0);
@@ -202,19 +212,20 @@ fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegra
     let ds = 0.5 * (logarithms - d);
     let sin2 = (height / r).powi(2);
     let sin_cos = height * s / (r * r);
-    let sh2 = fronts.map(|f| sin2 * f.root / f.reach + (height / f.reach).powi(2) * f.logarithm);
+    let sh2 = fronts.map(|f| sin2 * f.root / f.travel + (height / f.travel).powi(2) * f.logarithm);
     let sh2 = wave_difference(slowness_squared, sh2);
     let dsh2 = -0.25 * sin2 * d + 0.125 * sh2;
-    let reduced_angles = fronts.map(|f| (1.0 - (height / f.reach).powi(2)) * f.angle);
+    let reduced_angles = fronts.map(|f| (1.0 - (height / f.travel).powi(2)) * f.angle);
     let reduced_angles = wave_difference(slowness_squared, reduced_angles);
-    let root_ratios = wave_difference(slowness_squared, fronts.map(|f| f.root / f.reach));
+    let root_ratios = wave_difference(slowness_squared, fronts.map(|f| f.root / f.travel));
     let dh3 = 0.75 * dh + 0.125 * sign * (sin_cos * (2.0 * d - root_ratios) + reduced_angles);
     // The same of Q₁, Q₂ and of Q₁ − Q₂.
     let qh = [0, 1].map(|k| sign * slowness_squared[k] * fronts[k].angle);
     let qs = [0, 1].map(|k| -slowness_squared[k] * fronts[k].logarithm);
     let qsh2 = -0.5 * sh2;
-    let h3 = fronts
-        .map(|f| 0.5 * (sin_cos * f.root / f.reach + (1.0 + (height / f.reach).powi(2)) * f.angle));
+    let h3 = fronts.map(|f| {
+        0.5 * (sin_cos * f.root / f.travel + (1.0 + (height / f.travel).powi(2)) * f.angle)
+    });
     let qh3 = sign * wave_difference(slowness_squared, h3);
     let shear_part = 2.0 * ds - 8.0 * dsh2 - 2.0 * qsh2;
     let lame_ratio = waves.lame_ratio;
@@ -238,7 +249,7 @@ pub(super) fn step_integrals(
     time: f64,
 ) -> SegmentIntegrals {
     let mut integrals = primitive(waves, ends[1], h, time);
-    integrals.add(-1.0, &primitive(waves, ends[0], h, time));
+    integrals.add_scaled(-1.0, &primitive(waves, ends[0], h, time));
     integrals
 }
 
@@ -253,10 +264,10 @@ mod tests {
     fn singular_integral(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {
         let rule = gauss::largest();
         let mut sum = [0.0; 7];
-        let pieces = 12;
-        for k in 0..pieces {
-            let a = f64::from(k) / f64::from(pieces);
-            let b = f64::from(k + 1) / f64::from(pieces);
+        let piece_count = 12;
+        for k in 0..piece_count {
+            let a = f64::from(k) / f64::from(piece_count);
+            let b = f64::from(k + 1) / f64::from(piece_count);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 // The substitution s = low + (high − low) sin²θ removes both singularities.
                 let theta = FRAC_PI_2 * (a + 0.5 * (b - a) * (1.0 + node));
@@ -271,7 +282,7 @@ mod tests {
     }
 
     /// Integrals of an element and a step by quadrature of the fundamental solution between its fronts.
-    fn by_quadrature(soil: Soil, ends: [f64; 2], h: f64, time: f64) -> [f64; 7] {
+    fn integrals_by_quadrature(soil: Soil, ends: [f64; 2], h: f64, time: f64) -> [f64; 7] {
         let plane = FullPlane::new(soil);
         let mut nodes = vec![ends[0], ends[1]];
         if h == 0.0 {
@@ -287,12 +298,12 @@ mod tests {
         nodes.sort_by(f64::total_cmp);
         let mut sum = [0.0; 7];
         for pair in nodes.windows(2) {
-            let part = singular_integral(pair[0], pair[1], &|s| {
+            let piece_integral = singular_integral(pair[0], pair[1], &|s| {
                 let u = plane.displacement([s, h], time, LoadHistory::Step).unwrap();
                 let t = plane.traction([s, h], [0.0, 1.0], time, LoadHistory::Step).unwrap();
                 [u[0][0], u[0][1], u[1][1], t[0][0], t[0][1], t[1][0], t[1][1]]
             });
-            sum.iter_mut().zip(part).for_each(|(a, b)| *a += b);
+            sum.iter_mut().zip(piece_integral).for_each(|(a, b)| *a += b);
         }
         sum
     }
@@ -320,15 +331,15 @@ mod tests {
                     let u = integrals.displacement.map(|v| v * unit);
                     let scale = unit * soil.shear_modulus();
                     let t = integrals.traction.map(|row| row.map(|v| scale * v));
-                    let found = [u[0], u[1], u[2], t[0][0], t[0][1], t[1][0], t[1][1]];
-                    let wanted = by_quadrature(soil, ends, h, time);
+                    let computed = [u[0], u[1], u[2], t[0][0], t[0][1], t[1][0], t[1][1]];
+                    let expected = integrals_by_quadrature(soil, ends, h, time);
                     for k in 0..7 {
-                        let size = if k < 3 { 0.5 } else { 1.0 };
+                        let magnitude = if k < 3 { 0.5 } else { 1.0 };
                         assert!(
-                            (found[k] - wanted[k]).abs() < 1e-11 * size,
+                            (computed[k] - expected[k]).abs() < 1e-11 * magnitude,
                             "nu {poisson} ends {ends:?} h {h} t {time}: {k}: {} {}",
-                            found[k],
-                            wanted[k]
+                            computed[k],
+                            expected[k]
                         );
                     }
                 }

@@ -40,7 +40,7 @@ pub struct TimeKernel {
     soil: Soil,
     waves: WaveConstants,
     time_step: f64,
-    /// Replaces exact integrals in space.
+    /// Rule in place of exact integrals over the element.
     subelements: Option<SubelementRule>,
 }
 
@@ -48,9 +48,9 @@ pub struct TimeKernel {
 #[derive(Debug, Clone, Copy)]
 struct SubelementRule {
     /// Number of sub-elements.
-    count: usize,
-    /// Number of points of each.
-    points: usize,
+    subelement_count: usize,
+    /// Number of points of each sub-element.
+    point_count: usize,
 }
 
 impl TimeKernel {
@@ -91,10 +91,15 @@ impl TimeKernel {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for no sub-elements, or a number of points outside 1 to 8.
     pub fn with_gauss_subelements(mut self, count: usize, points: usize) -> Result<Self> {
-        let fits = (1..=8).contains(&points);
-        require("number of Gauss points of a sub-element", points as f64, fits, "from 1 to 8")?;
+        let is_in_range = (1..=8).contains(&points);
+        require(
+            "number of Gauss points of a sub-element",
+            points as f64,
+            is_in_range,
+            "from 1 to 8",
+        )?;
         require("number of sub-elements", count as f64, count > 0, "at least 1")?;
-        self.subelements = Some(SubelementRule { count, points });
+        self.subelements = Some(SubelementRule { subelement_count: count, point_count: points });
         Ok(self)
     }
 
@@ -125,12 +130,12 @@ impl TimeKernel {
         }
         let mut integrals = step_integrals(&self.waves, ends, h, times[1]);
         if times[0] > 0.0 {
-            integrals.add(-1.0, &step_integrals(&self.waves, ends, h, times[0]));
+            integrals.add_scaled(-1.0, &step_integrals(&self.waves, ends, h, times[0]));
         }
         integrals
     }
 
-    /// The same by Gauss rules; sub-elements next to the load remain exact.
+    /// Integrals between two times by Gauss rules, exact on sub-elements next to the load.
     fn subelement_integrals(
         &self,
         ends: [f64; 2],
@@ -138,20 +143,21 @@ impl TimeKernel {
         times: [f64; 2],
         rule: SubelementRule,
     ) -> SegmentIntegrals {
-        let length = (ends[1] - ends[0]) / rule.count as f64;
+        let length = (ends[1] - ends[0]) / rule.subelement_count as f64;
         // Positions and weights on a sub-element from −½ to ½.
-        let points: Vec<[f64; 2]> = if rule.points == 1 {
+        let points: Vec<[f64; 2]> = if rule.point_count == 1 {
             vec![[0.0, 1.0]]
         } else {
-            let gauss = gauss::rule(rule.points);
-            gauss.nodes.iter().zip(&gauss.weights).map(|(x, w)| [0.5 * x, 0.5 * w]).collect()
+            let gauss_rule = gauss::rule(rule.point_count);
+            let points = gauss_rule.nodes.iter().zip(&gauss_rule.weights);
+            points.map(|(x, w)| [0.5 * x, 0.5 * w]).collect()
         };
         let mut sum = SegmentIntegrals::default();
-        for k in 0..rule.count {
-            let first = ends[0] + k as f64 * length;
-            let middle = first + 0.5 * length;
+        for k in 0..rule.subelement_count {
+            let start = ends[0] + k as f64 * length;
+            let middle = start + 0.5 * length;
             if middle.hypot(h) < length {
-                sum.add(1.0, &self.exact_integrals([first, first + length], h, times));
+                sum.add_scaled(1.0, &self.exact_integrals([start, start + length], h, times));
                 continue;
             }
             for [position, weight] in &points {
@@ -173,16 +179,16 @@ impl TimeKernel {
         let plane = FullPlane::new(self.soil);
         let unit = 2.0 * std::f64::consts::PI * self.soil.density() * length;
         for (sign, time) in [(1.0, times[1]), (-1.0, times[0])] {
-            let step = LoadHistory::Step;
+            let load = LoadHistory::Step;
             let (Ok(u), Ok(t)) = (
-                plane.displacement(offset, time, step),
-                plane.traction(offset, [0.0, 1.0], time, step),
+                plane.displacement(offset, time, load),
+                plane.traction(offset, [0.0, 1.0], time, load),
             ) else {
                 continue;
             };
             let t = t.map(|row| row.map(|t| t / self.soil.shear_modulus()));
             let value = SegmentIntegrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
-            sum.add(sign * unit, &value);
+            sum.add_scaled(sign * unit, &value);
         }
     }
 }
@@ -193,17 +199,17 @@ impl BoundaryKernel for TimeKernel {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len()).square();
-        same_length("displacement coefficients", g.len(), size)?;
-        same_length("traction coefficients", h.len(), size)?;
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len());
+        same_length("displacement coefficients", g.len(), layout.square())?;
+        same_length("traction coefficients", h.len(), layout.square())?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
-        let scales = [unit, unit * self.soil.shear_modulus()];
-        let free = if lag == 0 { 0.5 } else { 0.0 };
-        self.pairs.fill(&self.segments, g, h, free, |view| {
+        let traction_unit = unit * self.soil.shear_modulus();
+        let free_term = if lag == 0 { 0.5 } else { 0.0 };
+        self.pairs.fill(&self.segments, g, h, free_term, |view| {
             let integrals = self.lag_integrals(view.ends, view.height, lag);
-            let u = integrals.displacement.map(|u| u * scales[0]);
-            let t = integrals.traction.map(|row| row.map(|t| t * scales[1]));
-            // The index of the boundary equation's load is the row.
+            let u = integrals.displacement.map(|u| u * unit);
+            let t = integrals.traction.map(|row| row.map(|t| t * traction_unit));
+            // In the boundary equation the row is the component of the load.
             [[[u[0], u[1]], [u[1], u[2]]], [[t[0][0], t[1][0]], [t[0][1], t[1][1]]]]
         });
         Ok(())

@@ -49,7 +49,5 @@ pub(super) use runge_kutta::{CirclePoint, on_circle};
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{rounded_panel_count, surface_series};
 pub(super) use threads::{on_threads, thread_count};
-pub(super) use wavenumber::{
-    Compliances, append_surface_surrogate, top_layer_wavenumber, unresolved,
-};
+pub(super) use wavenumber::{Compliances, SurrogateLengths, top_layer_wavenumber, unresolved};
 pub(super) use weights::{QuadratureWeights, StripWeights};

@@ -29,6 +29,15 @@ const MAX_PANEL_COUNT: f64 = 65_536.0;
 /// Largest number of panels required by short elements: their errors are small relative to longer elements.
 const MAX_PANELS_FOR_SHORT_ELEMENTS: f64 = 100.0;
 
+/// Lengths of a patch that determine the surrogate of its compliances, m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SurrogateLengths {
+    /// Length of the shortest element.
+    pub(crate) min_element_length: f64,
+    /// Length of the patch.
+    pub(crate) span: f64,
+}
+
 /// Element compliances F(s) of classes of pairs, with `KINDS` components for each class.
 pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Workspace of one thread.
@@ -62,6 +71,15 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         values: &mut [[Complex; KINDS]],
     ) -> Result<()>;
 
+    /// Lengths of the patch for which [`append_surrogate`](Self::append_surrogate) computes waves.
+    fn surrogate_lengths(&self) -> SurrogateLengths;
+
+    /// Surface compliance in the workspace.
+    fn surface_compliance(workspace: &mut Self::Workspace) -> &mut LayeredCompliance;
+
+    /// Counts evaluations of the surface compliance, if the workspace has a counter.
+    fn count_evaluations(_workspace: &mut Self::Workspace, _evaluation_count: usize) {}
+
     /// Appends a surrogate of the compliances at `s` that needs a hundredth of their time.
     ///
     /// The surrogate is the surface compliance at a few wavenumbers, [`SURROGATE_COMPONENTS`] numbers for each.
@@ -74,7 +92,14 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         s: Complex,
         workspace: &mut Self::Workspace,
         values: &mut Vec<Complex>,
-    ) -> Result<()>;
+    ) -> Result<()> {
+        let compliance = Self::surface_compliance(workspace);
+        compliance.set(profile, s)?;
+        let lengths = self.surrogate_lengths();
+        let evaluation_count = append_surface_surrogate(profile, compliance, lengths, values);
+        Self::count_evaluations(workspace, evaluation_count);
+        Ok(())
+    }
 }
 
 /// Wavenumbers of a surrogate, times the span of the elements.
@@ -151,31 +176,29 @@ impl Compliances<STRIP_KINDS> for Wavenumbers {
         Ok(())
     }
 
-    fn append_surrogate(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        workspace: &mut Self::Workspace,
-        values: &mut Vec<Complex>,
-    ) -> Result<()> {
-        workspace.compliance.set(profile, s)?;
-        let lengths = [self.min_length, self.span];
-        workspace.panels.evaluation_count +=
-            append_surface_surrogate(profile, &mut workspace.compliance, lengths, values);
-        Ok(())
+    fn surrogate_lengths(&self) -> SurrogateLengths {
+        SurrogateLengths { min_element_length: self.min_length, span: self.span }
+    }
+
+    fn surface_compliance(workspace: &mut StripWorkspace) -> &mut LayeredCompliance {
+        &mut workspace.compliance
+    }
+
+    fn count_evaluations(workspace: &mut StripWorkspace, evaluation_count: usize) {
+        workspace.panels.evaluation_count += evaluation_count;
     }
 }
 
 /// Appends the surrogate of the compliances of elements: surface compliances, weighted by waves along the elements.
 ///
-/// `lengths`: of the shortest element and of all elements, m. Returns the number of evaluations.
-pub(crate) fn append_surface_surrogate(
+/// Returns the number of evaluations.
+fn append_surface_surrogate(
     profile: &SoilProfile,
     compliance: &mut LayeredCompliance,
-    lengths: [f64; 2],
+    lengths: SurrogateLengths,
     values: &mut Vec<Complex>,
 ) -> usize {
-    let span = lengths[1];
+    let SurrogateLengths { min_element_length, span } = lengths;
     let mut wavenumbers = &SURROGATE_WAVENUMBERS[..1];
     if let Some((top, (lower_soil, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
         // A slab that is stiffer along the elements than the ground below transmits waves along them.
@@ -186,7 +209,7 @@ pub(crate) fn append_surface_surrogate(
     }
     let root = compliance.top().q2.sqrt();
     let one = Complex::real(1.0);
-    let waves = lengths.map(|distance| {
+    let waves = [min_element_length, span].map(|distance| {
         let exponent = root.scale(distance);
         (-exponent).exp() / (one + exponent)
     });
@@ -281,7 +304,7 @@ impl Wavenumbers {
                     }
                     PanelResult::Moments(moments) => {
                         forms.with_legendre(panel.index, |rows| {
-                            accumulate(rows, moments, &mut sums)
+                            accumulate(rows, moments, &mut sums);
                         });
                     }
                 }

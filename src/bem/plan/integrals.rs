@@ -19,8 +19,8 @@ use super::form_table::{FormRows, FormTable, TAIL_TERMS};
 use super::forms::FORM_COUNT;
 use crate::bem::layered::{
     Compliances, LEGENDRE_DEGREES, LayeredCompliance, PANEL_POINTS, PANEL_TOLERANCE_EXPONENT,
-    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, append_surface_surrogate, by_halves,
-    last_coefficients, legendre, median, surface_series, top_layer_wavenumber, unresolved,
+    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, SurrogateLengths, by_halves, last_coefficients,
+    legendre, median, surface_series, top_layer_wavenumber, unresolved,
 };
 use crate::error::{GroundError, ProgressReporter, Result};
 use crate::geometry::{Lattice, SERIES_PER_OFFSET};
@@ -142,18 +142,16 @@ impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
         Ok(())
     }
 
-    fn append_surrogate(
-        &self,
-        profile: &SoilProfile,
-        s: Complex,
-        workspace: &mut CellWorkspace,
-        values: &mut Vec<Complex>,
-    ) -> Result<()> {
-        workspace.ground.set(profile, s)?;
-        let lengths = [self.shorter_side, self.table.span()];
-        workspace.panels.evaluation_count +=
-            append_surface_surrogate(profile, &mut workspace.ground, lengths, values);
-        Ok(())
+    fn surrogate_lengths(&self) -> SurrogateLengths {
+        SurrogateLengths { min_element_length: self.shorter_side, span: self.table.span() }
+    }
+
+    fn surface_compliance(workspace: &mut CellWorkspace) -> &mut LayeredCompliance {
+        &mut workspace.ground
+    }
+
+    fn count_evaluations(workspace: &mut CellWorkspace, evaluation_count: usize) {
+        workspace.panels.evaluation_count += evaluation_count;
     }
 }
 

@@ -97,7 +97,9 @@ fn forces(
             (0, (NormalState::Capped, _)) => {
                 // p = cap + hardening (offset − y).
                 moves(bounds.offset);
-                row.iter_mut().for_each(|entry| *entry *= bounds.hardening);
+                for entry in row.iter_mut() {
+                    *entry *= bounds.hardening;
+                }
                 row[i] += 1.0;
                 row[size] += bounds.interval[1];
             }

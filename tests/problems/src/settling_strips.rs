@@ -128,9 +128,9 @@ impl SettlingStrips {
             let middle = 0.5 * (low + high);
             let settled = self.virgin_settlement(strip, middle) - start;
             if compliance * middle + settled < penetration {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         0.5 * (low + high)

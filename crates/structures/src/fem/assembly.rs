@@ -48,7 +48,7 @@ pub(crate) fn assemble(
                 }
             }
             MatrixKind::Mass(mass_kind) => {
-                element.mass(&coordinates, mass_kind, &mut element_matrix)
+                element.mass(&coordinates, mass_kind, &mut element_matrix);
             }
             MatrixKind::Damping => element.damping(&coordinates, &mut element_matrix),
         }

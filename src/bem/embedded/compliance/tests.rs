@@ -9,15 +9,15 @@ fn soil(speed: f64, density: f64) -> Soil {
     Soil::from_shear_wave_speed(speed, 1.0 / 3.0, density).unwrap()
 }
 
-/// Columns one by one, and 2³ by three doublings.
+/// Eight columns joined one by one, and by three doublings.
 #[test]
 fn doubled_columns_are_columns_side_by_side() {
     let s = Complex64::new(0.3, 2.0);
     let stack = Stack(
         [(0.3, 0, 3), (0.7, 0, 3), (1.5, 1, 4)]
-            .map(|(height, soil, degree)| {
+            .map(|(height, soil_index, degree)| {
                 let height = Complex64::from(height);
-                StackElement { height, soil, degree }
+                StackElement { height, soil_index, degree }
             })
             .to_vec(),
     );
@@ -26,21 +26,23 @@ fn doubled_columns_are_columns_side_by_side() {
         lame: Complex64::new(1.5 * shear, 0.15 * shear),
         inertia: s * s,
     });
-    let elements = Elements::new(3, [3, 4]);
-    let column = elements.column(0.4, &stack, &soils, EdgeLoads::NO_LOADS).unwrap();
-    let nodes = stack.nodes();
-    let mut side = SideStiffness { matrix: column.mean(1.0), nodes, loads: 0 };
+    let functions = ElementBasis::new(3, 4);
+    let column = functions.column(0.4, &stack, &soils, EdgeLoads::NO_LOADS).unwrap();
+    let node_count = stack.node_count();
+    let mut side = SideStiffness { matrix: column.mean(1.0), node_count, load_count: 0 };
     for _ in 1..8 {
-        side = side.beside(&column, nodes, 0, None).unwrap();
+        side = side.with_column(&column, node_count, 0, None).unwrap();
     }
-    let mut row = column;
+    let mut doubled_column = column;
     for _ in 0..3 {
-        row = double_column(&row.mean(1.0), &row.mean(-1.0), nodes).unwrap();
+        let stiffness = doubled_column.mean(1.0);
+        let cross_stiffness = doubled_column.mean(-1.0);
+        doubled_column = double_column(&stiffness, &cross_stiffness, node_count).unwrap();
     }
-    let found = row.mean(1.0);
-    let entries = found.values().iter().zip(side.matrix.values());
-    let worst = entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-    assert!(worst < 1e-12 * found.largest(), "{worst:e}");
+    let doubled_stiffness = doubled_column.mean(1.0);
+    let entries = doubled_stiffness.values().iter().zip(side.matrix.values());
+    let max_difference = entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(max_difference < 1e-12 * doubled_stiffness.largest(), "{max_difference:e}");
 }
 
 /// Coarse elements on rigid bedrock, with layers and backfill: the mobility is positive real at any s.
@@ -58,14 +60,16 @@ fn mobility_is_positive_at_random_places() {
             .unwrap();
         let elements = Trench::new(-1.0..1.0, depth).unwrap().elements(6, 4).unwrap();
         let ground = TrenchSoil::new(profile, elements).unwrap();
-        let filled = ground.clone().with_backfill(0.5, soil(0.5, 1.0), law.clone()).unwrap();
-        for ground in [ground, filled] {
+        let backfilled = ground.clone().with_backfill(0.5, soil(0.5, 1.0), law.clone()).unwrap();
+        for ground in [ground, backfilled] {
             for _ in 0..5 {
                 let s = Complex::new(random.log_within(1e-3, 10.0), random.within(-20.0, 20.0));
-                let found = ground.compliances(s, &ground.mesh_of_depth(s, 24.0, 2)).unwrap();
-                for half in [found.symmetric, found.antisymmetric] {
+                let mesh = ground.mesh_of_depth(s, 24.0, 2);
+                let compliances = ground.compliances(s, &mesh).unwrap();
+                for half in [compliances.symmetric, compliances.antisymmetric] {
                     let order = half.rows();
-                    let mobility: Vec<_> = half.values().iter().map(|f| f * s.inner()).collect();
+                    let compliances = half.values().iter();
+                    let mobility: Vec<_> = compliances.map(|value| value * s.inner()).collect();
                     for i in 0..order {
                         for j in 0..i {
                             assert_eq!(half[(i, j)], half[(j, i)]);
@@ -99,17 +103,19 @@ fn strips_on_damped_layers_match_the_tables() {
         for a0 in ["0.785398163", "2"] {
             let row = table.row("a0", a0, names);
             let s = Complex::new(0.0, a0.parse().unwrap());
-            let responses = [16, 32].map(|count| {
-                let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(count, 0).unwrap();
+            let responses = [16, 32].map(|base_count| {
+                let elements =
+                    Trench::new(-1.0..1.0, 0.0).unwrap().elements(base_count, 0).unwrap();
                 let ground = TrenchSoil::new(profile.clone(), elements).unwrap();
                 ground.response(s, &ground.mesh_of_depth(s, 24.0, 6)).unwrap().stiffness
             });
-            let wanted: Vec<Complex> = row.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
+            let pairs = row.chunks(2);
+            let expected: Vec<Complex> = pairs.map(|pair| Complex::new(pair[0], pair[1])).collect();
             for k in 0..4 {
-                let found = (responses[1][k].scale(4.0) - responses[0][k]).scale(1.0 / 3.0);
-                let mean = (wanted[0].abs() * wanted[2].abs()).sqrt();
-                let size = if k == 3 { mean } else { wanted[k].abs() };
-                let error = (found - wanted[k]).abs() / size;
+                let extrapolated = (responses[1][k].scale(4.0) - responses[0][k]).scale(1.0 / 3.0);
+                let mean = (expected[0].abs() * expected[2].abs()).sqrt();
+                let reference = if k == 3 { mean } else { expected[k].abs() };
+                let error = (extrapolated - expected[k]).abs() / reference;
                 println!("{file} {a0} {k}: {error:e}");
                 assert!(error < 1e-6, "{file} {a0} {k}: {error:e}");
             }
@@ -117,9 +123,9 @@ fn strips_on_damped_layers_match_the_tables() {
     }
 }
 
-/// An elastic layer on rock three times as fast: guided waves decay as Re s only, and need a deep bottom.
+/// An elastic layer on rock with three times its wave speed: only Re s damps guided waves, which need a deep bottom.
 ///
-/// 48 frequencies around a cut-off, at which a shallow bottom is wrong in eleven.
+/// 48 frequencies around a cut-off; a shallow bottom is inaccurate at eleven of them.
 #[test]
 fn the_bottom_is_as_deep_as_guided_waves_need() {
     let profile = SoilProfile::on_half_plane(soil(3.0, 1.2))
@@ -128,19 +134,19 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         .unwrap();
     let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(8, 4).unwrap();
     let ground = TrenchSoil::new(profile, elements).unwrap();
-    let mut wrong = 0;
-    for k in 0..48 {
-        let s = Complex::new(1e-3, 3.5 + 0.0125 * f64::from(k));
-        let of_depths = [24.0, 48.0, 64.0]
+    let mut inaccurate_count = 0;
+    for sample in 0..48 {
+        let s = Complex::new(1e-3, 3.5 + 0.0125 * f64::from(sample));
+        let compliances_by_depth = [24.0, 48.0, 64.0]
             .map(|depth| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap());
-        let deepest = &of_depths[2];
-        wrong += usize::from(of_depths[0].difference(deepest) > 1e-3);
-        let change = of_depths[1].difference(deepest);
-        assert!(change < 1e-8, "{k}: {change:e}");
+        let deepest = &compliances_by_depth[2];
+        inaccurate_count += usize::from(compliances_by_depth[0].difference(deepest) > 1e-3);
+        let change = compliances_by_depth[1].difference(deepest);
+        assert!(change < 1e-8, "{sample}: {change:e}");
         let chosen = ground.compliances(s, &ground.mesh(s).unwrap().mesh).unwrap();
         let change = chosen.difference(deepest);
-        assert!(change < 1e-6, "{k}: {change:e}");
+        assert!(change < 1e-6, "{sample}: {change:e}");
     }
-    println!("{wrong} points");
-    assert!((8..=16).contains(&wrong), "{wrong}");
+    println!("{inaccurate_count} points");
+    assert!((8..=16).contains(&inaccurate_count), "{inaccurate_count}");
 }

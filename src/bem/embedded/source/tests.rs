@@ -40,29 +40,35 @@ fn weights_are_the_coefficients_of_the_mobility() {
     let compliances = source.soil.static_compliances().unwrap();
     let mut at_rest = vec![[Complex::default(); TRENCH_KINDS]; weights.classes.count()];
     TrenchPairs::new(source.soil.clone(), ELEMENT_DEGREE).fill_classes(&compliances, &mut at_rest);
-    let place = [0.8_f64.ln(), 0.7];
-    let CirclePoint { z, one_less_z } = on_circle(place[0], place[1]);
+    let log_radius_and_angle = [0.8_f64.ln(), 0.7];
+    let CirclePoint { z, one_less_z } = on_circle(log_radius_and_angle[0], log_radius_and_angle[1]);
     let mut mobility = at_rest.clone();
     let mut work = crate::bem::layered::LayeredCompliance::default();
     let mut scratch = at_rest.clone();
-    weights.quadrature.mobility(place, &mut work, &mut scratch, &mut mobility).unwrap();
+    weights
+        .quadrature
+        .mobility(log_radius_and_angle, &mut work, &mut scratch, &mut mobility)
+        .unwrap();
     let largest = at_rest.iter().flatten().map(|value| value.re.abs()).fold(0.0, f64::max);
-    let mut worst = [0.0_f64; 2];
+    let mut max_error_at_rest = 0.0_f64;
+    let mut max_mobility_error = 0.0_f64;
     for class in 0..weights.classes.count() {
         for (kind, lags) in lags(&weights, class).iter().enumerate() {
             let sum: f64 = lags.iter().sum();
-            worst[0] = worst[0].max((sum - at_rest[class][kind].re).abs());
+            max_error_at_rest = max_error_at_rest.max((sum - at_rest[class][kind].re).abs());
             let mut power = one_less_z;
-            let mut sum = Complex::default();
+            let mut power_sum = Complex::default();
             for lag in lags {
-                sum += power.scale(*lag);
+                power_sum += power.scale(*lag);
                 power = power * z;
             }
-            worst[1] = worst[1].max((sum - mobility[class][kind]).abs());
+            let error = (power_sum - mobility[class][kind]).abs();
+            max_mobility_error = max_mobility_error.max(error);
         }
     }
-    println!("{:e} {:e}", worst[0] / largest, worst[1] / largest);
-    assert!(worst[0] < 1e-5 * largest && worst[1] < 1e-6 * largest, "{worst:?}");
+    println!("{:e} {:e}", max_error_at_rest / largest, max_mobility_error / largest);
+    assert!(max_error_at_rest < 1e-5 * largest, "{max_error_at_rest:e}");
+    assert!(max_mobility_error < 1e-6 * largest, "{max_mobility_error:e}");
 }
 
 /// The work of any tractions is not negative where these eigenvalues are not.
@@ -79,8 +85,12 @@ fn symbols_are_positive_at_short_and_long_steps() {
         let mut scratch = sums.clone();
         let mut smallest_ratio = f64::INFINITY;
         for k in 0..12 {
-            let place = [0.0, std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0];
-            weights.quadrature.mobility(place, &mut work, &mut scratch, &mut sums).unwrap();
+            let angle = std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0;
+            let log_radius_and_angle = [0.0, angle];
+            weights
+                .quadrature
+                .mobility(log_radius_and_angle, &mut work, &mut scratch, &mut sums)
+                .unwrap();
             let mut matrix = vec![Complex::default(); classes.layout().square()];
             classes.scatter(&mut matrix, |_, pair| sums[pair.class]);
             let matrix: Vec<_> = matrix.iter().map(|value| value.inner()).collect();
@@ -100,21 +110,22 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
     let weights = source.weights(TIME_STEP).unwrap();
     let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
     let strip = strip.with_stages(source.stages(TIME_STEP)).weights(TIME_STEP).unwrap();
-    let found = matrix_of_sums(&weights.classes, |class, values| {
+    let computed = matrix_of_sums(&weights.classes, |class, values| {
         weights.coefficients(class, 1, values).unwrap();
     });
-    let wanted = matrix_of_sums(strip.classes(), |class, values| {
+    let expected = matrix_of_sums(strip.classes(), |class, values| {
         strip.coefficients(class, 1, values).unwrap();
     });
-    let largest = wanted.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let worst = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    println!("{:e}", worst / largest);
-    assert!(worst < 2e-3 * largest, "{:e}", worst / largest);
+    let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let differences = computed.iter().zip(&expected).map(|(a, b)| (a - b).abs());
+    let max_difference = differences.fold(0.0, f64::max);
+    println!("{:e}", max_difference / largest);
+    assert!(max_difference < 2e-3 * largest, "{:e}", max_difference / largest);
 }
 
 /// Matrix of all pairs: sums over lags with the factor cos(0.3 n).
 ///
-/// `fill` gets a class, and overwrites one list of lags for each kind.
+/// `fill` overwrites one list of lags for each kind of a class.
 fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])) -> Vec<f64> {
     let layout = classes.layout();
     let mut matrix = vec![0.0; layout.square()];
@@ -133,7 +144,7 @@ fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])
     matrix
 }
 
-/// Without depth on a half-plane: the strip's closed form, but for a translation down and one to the right.
+/// Without depth on a half-plane: the strip's closed form up to a translation down and a translation to the right.
 #[test]
 fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     let half_plane = Soil::new(1.0, 0.3, 1.0).unwrap();
@@ -141,32 +152,33 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     let soil = TrenchSoil::new(half_plane.into(), trench).unwrap();
     let source = TrenchSource { soil, stages: None, file: None };
     let strip = Strip::graded(-1.0..1.0, 8).unwrap();
-    let count = 8;
-    let size = 16;
-    let mut found = vec![0.0; size * size];
-    let mut wanted = vec![0.0; size * size];
-    source.static_compliance(&strip.elements(), &mut found).unwrap();
+    let element_count = 8;
+    let order = 16;
+    let mut computed = vec![0.0; order * order];
+    let mut expected = vec![0.0; order * order];
+    source.static_compliance(&strip.elements(), &mut computed).unwrap();
     let ground = ElasticGround::new(half_plane, strip).unwrap();
-    crate::bem::Ground::static_compliance(&ground, &mut wanted).unwrap();
+    crate::bem::Ground::static_compliance(&ground, &mut expected).unwrap();
     // Tractions of the same force are compared: a translation is proportional to the force.
     let lengths: Vec<f64> =
         source.soil.elements().elements().iter().map(ContactElement::length).collect();
-    let mut worst = 0.0_f64;
-    for i in 0..size {
-        for j in 0..size {
-            let first = j / count * count;
-            let in_direction_of_force = i / count == j / count;
-            let per_force = [&found, &wanted].map(|matrix| {
-                let datum = matrix[first * size + first] / lengths[first % count];
-                let value = matrix[i * size + j] / lengths[j % count];
-                if in_direction_of_force { value - datum } else { value }
+    let mut max_difference = 0.0_f64;
+    for i in 0..order {
+        for j in 0..order {
+            let first_row = j / element_count * element_count;
+            let is_in_direction_of_force = i / element_count == j / element_count;
+            let compliances = [&computed, &expected].map(|matrix| {
+                let translation =
+                    matrix[first_row * order + first_row] / lengths[first_row % element_count];
+                let value = matrix[i * order + j] / lengths[j % element_count];
+                if is_in_direction_of_force { value - translation } else { value }
             });
-            worst = worst.max((per_force[0] - per_force[1]).abs());
+            max_difference = max_difference.max((compliances[0] - compliances[1]).abs());
         }
     }
     // Finite elements of degree 4; the largest entry is about 1.
-    println!("{worst:e}");
-    assert!(worst < 5e-3, "{worst:e}");
+    println!("{max_difference:e}");
+    assert!(max_difference < 5e-3, "{max_difference:e}");
 }
 
 /// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
@@ -174,42 +186,43 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
 fn rigid_body_has_the_static_impedance() {
     let source = source(1.2, 4, 3);
     let elements = source.soil.elements().elements();
-    let count = elements.len();
-    let size = 2 * elements.len();
-    let mut matrix = vec![0.0; size * size];
+    let element_count = elements.len();
+    let order = 2 * element_count;
+    let mut matrix = vec![0.0; order * order];
     source.static_compliance(&elements, &mut matrix).unwrap();
     // To the right, down, and a rotation about the middle of the base that lowers the right end.
     let mut rows: Vec<[f64; 3]> = vec![];
-    for place in 0..size {
-        let element = &elements[place % count];
+    for row in 0..order {
+        let element = &elements[row % element_count];
         let center = element.center();
-        let direction = element.directions()[place / count];
+        let direction = element.directions()[row / element_count];
         let moment = direction[0] * (1.2 + center[2]) - direction[2] * center[0];
         rows.push([direction[0], -direction[2], moment]);
     }
-    let mut factor = crate::linalg::DenseFactor::with_columns(size, 1);
-    assert!(factor.factor(&matrix, size));
+    let mut factor = crate::linalg::DenseFactor::with_columns(order, 1);
+    assert!(factor.factor(&matrix, order));
     let mut stiffness = [[0.0; 3]; 3];
     for k in 0..3 {
-        let mut solved: Vec<f64> = rows.iter().map(|row| row[k]).collect();
-        factor.solve(&mut solved);
+        let mut tractions: Vec<f64> = rows.iter().map(|row| row[k]).collect();
+        factor.solve(&mut tractions);
         for i in 0..3 {
-            let parts = (0..size).map(|p| rows[p][i] * elements[p % count].length() * solved[p]);
-            stiffness[i][k] = parts.sum();
+            let terms = (0..order)
+                .map(|p| rows[p][i] * elements[p % element_count].length() * tractions[p]);
+            stiffness[i][k] = terms.sum();
         }
     }
-    let wanted = source.soil.response(
+    let response = source.soil.response(
         Complex::default(),
         &source.soil.mesh_of_depth(Complex::default(), 24.0, ELEMENT_DEGREE),
     );
-    let wanted = wanted.unwrap().stiffness.map(|value| value.re);
-    for (found, wanted) in [
-        (stiffness[0][0], wanted[0]),
-        (stiffness[1][1], wanted[1]),
-        (stiffness[2][2], wanted[2]),
-        (stiffness[0][2], wanted[3]),
-        (stiffness[2][0], wanted[3]),
+    let expected = response.unwrap().stiffness.map(|value| value.re);
+    for (computed, expected) in [
+        (stiffness[0][0], expected[0]),
+        (stiffness[1][1], expected[1]),
+        (stiffness[2][2], expected[2]),
+        (stiffness[0][2], expected[3]),
+        (stiffness[2][0], expected[3]),
     ] {
-        assert!((found - wanted).abs() < 1e-9 * stiffness[2][2], "{found} {wanted}");
+        assert!((computed - expected).abs() < 1e-9 * stiffness[2][2], "{computed} {expected}");
     }
 }
