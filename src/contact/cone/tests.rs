@@ -97,7 +97,7 @@ fn forces(
             (0, (NormalState::Capped, _)) => {
                 // p = cap + hardening (offset − y).
                 moves(bounds.offset);
-                for entry in row.iter_mut() {
+                for entry in &mut row {
                     *entry *= bounds.hardening;
                 }
                 row[i] += 1.0;
