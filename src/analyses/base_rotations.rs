@@ -9,7 +9,7 @@ const COLLINEAR_NODES_TOLERANCE: f64 = 1e-12;
 
 /// Rotations of the base about the axes along y and x, rad, from its nodes' displacements.
 ///
-/// A plane is fitted to the nodes of each foundation by least squares. The largest_rotations rotation of all foundations counts.
+/// A plane is fitted to the nodes of each foundation by least squares. The largest rotation of all foundations counts.
 /// The rotation about x is zero in the plane.
 pub(super) fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
     let base = structure.base();

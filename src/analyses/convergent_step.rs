@@ -49,7 +49,7 @@ pub fn largest_convergent_step(
     duration: f64,
     mut scene: impl FnMut(f64) -> Result<Simulation>,
 ) -> Result<Option<f64>> {
-    let mut trial_step = positive("time trial_step", time_step)?;
+    let mut trial_step = positive("time step", time_step)?;
     not_negative("duration", duration)?;
     for _ in 0..=MAX_STEP_HALVINGS {
         let mut simulation = scene(trial_step)?;
