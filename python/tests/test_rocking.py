@@ -87,6 +87,9 @@ def test_pictures_show_measured_points() -> None:
     low, high = axes.get_ylim()
     assert low > high
     np.testing.assert_allclose(axes.get_lines()[0].get_xydata(), run_pairs(run, "settlement", 1e3, 1e3))
+    # What is drawn later into the same axes is not cut off.
+    run.plot_settlement_rotation(axes, measured=([0.0], [1.0]))
+    assert axes.get_ylim()[0] > 1000.0 > 0.0 > axes.get_ylim()[1]
 
 
 def run_pairs(run: bm.Run, name: str, rotation: float, factor: float) -> np.ndarray:

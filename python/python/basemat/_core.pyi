@@ -408,8 +408,8 @@ class Plan:
         """
     def without_overhang(self) -> Plan:
         """The plan with cells that end at the edges of the faces: for springs, for prescribed pressures and for flexible
-    faces.
-    """
+        faces.
+        """
     def __len__(self) -> int: ...
     def impedances(
         self,
@@ -1473,8 +1473,8 @@ class Interaction:
     @property
     def probe_ratios(self) -> dict[str, float]:
         """Ratios of the largest magnitudes of the probes on the ground to those on the fixed base: dict of numbers by the
-    names of the probes.
-    """
+        names of the probes.
+        """
     def ratio(self, name: str) -> float:
         """Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
         NaN where both are zero.
@@ -1989,8 +1989,8 @@ class DeformedShape:
     @property
     def points(self) -> NDArray[np.float64]:
         """Coordinates of the points at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height
-    in space.
-    """
+        in space.
+        """
     @property
     def cells(self) -> list[list[int]]:
         """Outlines: list of the points of each line or polygon, by their numbers."""
@@ -2633,8 +2633,8 @@ class State:
     @property
     def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
         """Search method of the modes in this step: "active_set", "gauss_seidel", "path", and in plan "newton" or
-    "proximal".
-    """
+        "proximal".
+        """
     def value(self, quantity: _Quantity) -> float:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
@@ -4132,6 +4132,8 @@ def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = Fa
     width ``sigma`` (s), time ``center`` (s).
     """
 
+def _restored(kind: str, data: bytes) -> Any: ...
+
 @overload
 def refine(
     elements: int,
@@ -4182,8 +4184,6 @@ def sensitivity(
     finer setting makes them converge. The twins show how many digits of a peak can be quoted, and cost less than two
     further runs.
     """
-
-def _restored(kind: str, data: bytes) -> Any: ...
 
 def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     """Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.

@@ -236,8 +236,8 @@ def plot_settlement_rotation(
     """
     panel = _over_rotation(self, "settlement", 1e3, foundation, across, between, measured, axes, label, color, title)
     label_axes(panel, "rotation, mrad", "settlement, mm")
-    low, high = sorted(panel.get_ylim())
-    panel.set_ylim(high, low)
+    # Limits set by hand would cut off the paths of further runs.
+    panel.yaxis.set_inverted(True)
     return panel
 
 
