@@ -22,6 +22,8 @@ SERIES = [
     "mean_slip",
     "largest_slip",
     "base_rotation",
+    "settlement",
+    "rocking_work",
     "free_field_horizontal",
     "free_field_vertical",
     "sliding_safety",
@@ -94,7 +96,7 @@ def test_scenes_in_plan(reference: Path, scene, steps: int) -> None:
     rust = rusts(reference, scene.__name__, "0.15", str(steps))
     run = scene(0.15).run(steps)
     names = list(run.series)
-    assert len(names) == 22 and rust.shape == (steps + 1, len(names) + 1)
+    assert len(names) == 25 and rust.shape == (steps + 1, len(names) + 1)
     for column, key in enumerate(names):
         assert same_bits(run[key], np.ascontiguousarray(rust[:, column])), key
     # It twisted, lifted and slid.

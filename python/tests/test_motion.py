@@ -289,4 +289,4 @@ def test_a_filter_adds_the_quiet_time_that_its_text_says() -> None:
     record = bm.el_centro_1940()
     filtered = record.high_pass(0.2)
     assert filtered.duration == pytest.approx(record.duration + 2.0 * 1.5 * 4.0 / 0.2, abs=0.05)
-    assert "1.5 ``order / corner`` s before and after" in " ".join(bm.Record.high_pass.__doc__.split())
+    assert "1.5 ``order / corner`` s is added before and after" in " ".join(bm.Record.high_pass.__doc__.split())
