@@ -13,8 +13,8 @@ const MAX_STEP_HALVINGS: usize = 10;
 /// [`StepError::Newton`]. The result is `None` if the tenth halving fails too.
 ///
 /// A simulation cannot change its step, since the soil's convolution weights and its history belong to one step.
-/// This function therefore runs whole simulations, each with twice as many steps as the one before. Use the time of
-/// the failed step as `duration`.
+/// This function therefore runs whole simulations, each with twice as many steps as the previous simulation. To
+/// save run time, pass the time of the failed step as `duration`.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Grading, Strip};
@@ -24,8 +24,8 @@ const MAX_STEP_HALVINGS: usize = 10;
 /// use basemat::structure::RigidBlock;
 /// use basemat::{Simulation, Soil};
 ///
-/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
-/// // in which waves cross five elements.
+/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper. Waves
+/// // cross five elements in one step.
 /// let scene = |step: f64| {
 ///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 ///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
@@ -60,7 +60,7 @@ pub fn largest_convergent_step(
                     StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
                 ..
             }) => trial_step *= 0.5,
-            Err(other) => return Err(other),
+            Err(error) => return Err(error),
         }
     }
     Ok(None)

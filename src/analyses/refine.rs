@@ -141,11 +141,11 @@ pub fn refine(
     time_step: f64,
     mut scene: impl FnMut(usize, f64) -> Result<Vec<f64>>,
 ) -> Result<Refinement> {
-    settings(elements, time_step, &mut scene).map(Refinement::from_settings)
+    run_settings(elements, time_step, &mut scene).map(Refinement::from_settings)
 }
 
 /// Runs the scene at the six settings; their errors are not yet set.
-pub(crate) fn settings(
+pub(crate) fn run_settings(
     elements: usize,
     time_step: f64,
     scene: &mut dyn FnMut(usize, f64) -> Result<Vec<f64>>,

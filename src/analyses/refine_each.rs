@@ -1,14 +1,16 @@
-//! Error against run time of several peaks of one scene.
+//! Discretization errors and run times of several peak responses.
 
 use std::fmt;
 
-use crate::analyses::refine::{Refinement, Setting, settings, table};
+use crate::analyses::refine::{Refinement, Setting, run_settings, table};
 use crate::error::{Error, Result, at_least, same_length};
 
-/// Name of a scene's peaks in errors.
-pub(crate) const PEAKS_NAME: &str = "list of a scene's peaks";
+/// Label of the peak list in error messages.
+pub(crate) const PEAK_LIST_LABEL: &str = "list of a scene's peaks";
 
-/// Error against run time of several peaks, made by [`refine_each`]; it prints as one table.
+/// Discretization errors and run times of several peaks, from [`refine_each`].
+///
+/// They print as one table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -23,11 +25,14 @@ pub struct Refinements {
 pub(crate) struct PeakNames(pub(crate) Vec<String>);
 
 impl PeakNames {
-    /// Returns the values of one run's peaks.
+    /// Checks the names of one run's peaks, and returns the values.
     ///
     /// The first call stores the names. Later calls return an error for other names.
-    pub(crate) fn values<N: Into<String>>(&mut self, peaks: Vec<(N, f64)>) -> Result<Vec<f64>> {
-        at_least(PEAKS_NAME, peaks.len(), 1)?;
+    pub(crate) fn check_and_take_values<N: Into<String>>(
+        &mut self,
+        peaks: Vec<(N, f64)>,
+    ) -> Result<Vec<f64>> {
+        at_least(PEAK_LIST_LABEL, peaks.len(), 1)?;
         let (names, values): (Vec<String>, Vec<f64>) =
             peaks.into_iter().map(|(name, value)| (name.into(), value)).unzip();
         if self.0.is_empty() {
@@ -39,7 +44,7 @@ impl PeakNames {
             self.0 = names;
             return Ok(values);
         }
-        same_length(PEAKS_NAME, names.len(), self.0.len())?;
+        same_length(PEAK_LIST_LABEL, names.len(), self.0.len())?;
         match names.iter().zip(&self.0).find(|(name, expected)| name != expected) {
             None => Ok(values),
             Some((name, _)) => Err(Error::no_name("peak", name, self.0.iter())),
@@ -47,12 +52,13 @@ impl PeakNames {
     }
 }
 
-/// Estimates the errors of several peaks of a scene from six settings.
+/// Estimates the errors of several peaks of a scene.
 ///
-/// [`refine`](super::refine()) does this for one result.
+/// The estimates follow from six runs with different meshes and time steps. [`refine`](super::refine()) does this for
+/// one result.
 ///
 /// `scene` builds and runs with a number of elements and a time step (s), and returns peaks by name. Each peak is
-/// extrapolated alone. Their units may differ, and a peak that does not converge does not affect the others.
+/// extrapolated separately. Their units may differ, and a peak that does not converge does not affect the others.
 ///
 /// ```
 /// use basemat::bem::ElasticGround;
@@ -88,8 +94,8 @@ pub fn refine_each<N: Into<String>>(
     mut scene: impl FnMut(usize, f64) -> Result<Vec<(N, f64)>>,
 ) -> Result<Refinements> {
     let mut names = PeakNames::default();
-    let mut run = |elements: usize, step: f64| names.values(scene(elements, step)?);
-    let settings = settings(elements, time_step, &mut run)?;
+    let mut run = |elements: usize, step: f64| names.check_and_take_values(scene(elements, step)?);
+    let settings = run_settings(elements, time_step, &mut run)?;
     Ok(Refinements::from_settings(names.0, &settings))
 }
 
@@ -145,7 +151,7 @@ impl fmt::Display for Refinements {
 mod tests {
     use super::*;
 
-    /// Each peak has the refinement that `refine` computes for it alone.
+    /// Each peak has the refinement that `refine` computes for this peak.
     #[test]
     fn peaks_are_refined_one_by_one() {
         let value = |k: usize, elements: usize, step: f64| match k {
@@ -157,18 +163,18 @@ mod tests {
         })
         .unwrap();
         for k in 0..2 {
-            let alone =
+            let separate =
                 super::super::refine(10, 0.1, |elements, step| Ok(vec![value(k, elements, step)]));
-            let mut together = refinements.peaks[k].1.clone();
-            let mut alone = alone.unwrap();
-            for setting in together.settings.iter_mut().chain(&mut alone.settings) {
+            let mut joint = refinements.peaks[k].1.clone();
+            let mut separate = separate.unwrap();
+            for setting in joint.settings.iter_mut().chain(&mut separate.settings) {
                 setting.wall = std::time::Duration::ZERO;
             }
-            assert_eq!(together, alone);
+            assert_eq!(joint, separate);
         }
-        let page = refinements.to_string();
+        let report = refinements.to_string();
         for text in ["peak 0", "peak 1", "extrapolated", "peak 1: order of convergence: 1.0"] {
-            assert!(page.contains(text), "{page}");
+            assert!(report.contains(text), "{report}");
         }
         assert!(refinements.peak("peak 1").is_ok() && refinements.peak("peak").is_err());
     }
@@ -176,13 +182,13 @@ mod tests {
     #[test]
     fn names_must_be_one_list() {
         let mut calls = 0;
-        let mut next = |_, _| {
+        let mut renamed_peak_scene = |_, _| {
             calls += 1;
             Ok(vec![(["a", "a", "b"][calls.min(2)], 1.0)])
         };
-        assert!(matches!(refine_each(1, 0.1, &mut next), Err(Error::Name { .. })));
-        let twice = refine_each(1, 0.1, |_, _| Ok(vec![("a", 1.0), ("a", 2.0)]));
-        assert!(matches!(twice, Err(Error::DuplicateName { .. })));
+        assert!(matches!(refine_each(1, 0.1, &mut renamed_peak_scene), Err(Error::Name { .. })));
+        let duplicate_result = refine_each(1, 0.1, |_, _| Ok(vec![("a", 1.0), ("a", 2.0)]));
+        assert!(matches!(duplicate_result, Err(Error::DuplicateName { .. })));
         assert!(refine_each(1, 0.1, |_, _| Ok(Vec::<(&str, f64)>::new())).is_err());
         let peak_per_element = |n: usize, _| Ok((0..n).map(|k| (k.to_string(), 1.0)).collect());
         assert!(matches!(refine_each(1, 0.1, peak_per_element), Err(Error::Size { .. })));

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::analyses::refine_each::{PEAKS_NAME, PeakNames};
+use crate::analyses::refine_each::{PEAK_LIST_LABEL, PeakNames};
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
@@ -123,8 +123,8 @@ pub fn sensitivity<N: Into<String>>(
     positive("time step", time_step)?;
     let mut names = PeakNames::default();
     let mut run = |elements: usize, step: f64| -> Result<Vec<f64>> {
-        let values = names.values(scene(elements, step)?)?;
-        all_finite(PEAKS_NAME, &values)?;
+        let values = names.check_and_take_values(scene(elements, step)?)?;
+        all_finite(PEAK_LIST_LABEL, &values)?;
         Ok(values)
     };
     let value = run(elements, time_step)?;

@@ -1,4 +1,4 @@
-//! The contact problem in the plane with the mode of every element fixed: a linear system.
+//! Linear system of plane contact for prescribed contact modes (stick, slip, open).
 
 use super::delassus::Delassus;
 use super::problem::ContactInput;
@@ -8,14 +8,19 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, InterfaceLaw, Mode, PreviousContacts, Tolerance};
 use crate::linalg::{DenseFactor, dense_condition, largest};
 
-/// Solver for fixed modes in the plane; it stores the factors while the modes stay the same.
-pub(super) struct FixedModeSolver {
-    /// Tractions, jumps and states of the last trial.
+/// Rounding error of a jump relative to the largest jump.
+const JUMP_ROUNDING_FACTOR: f64 = 1e-13;
+/// Rounding error of a traction relative to the largest traction.
+const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
+
+/// Solver for prescribed modes in the plane; stores the factors while the modes stay the same.
+pub(super) struct ContactModeSolver {
+    /// Tractions, jumps and states of the last solution.
     pub(super) response: ContactResponse,
-    /// Conditions of the last trial, two per element.
+    /// Conditions of the last solution, two per element.
     conditions: Vec<[Condition; 2]>,
-    /// The conditions whose factors are stored; the values of these conditions do not matter.
-    factored: Vec<[Condition; 2]>,
+    /// Conditions of the stored factors. The factors are independent of [`Condition::value`].
+    factored_conditions: Vec<[Condition; 2]>,
     factor: DenseFactor,
     has_valid_factor: bool,
     matrix: Vec<f64>,
@@ -28,21 +33,21 @@ pub(super) struct FixedModeSolver {
 /// Row of the reduced system.
 struct ReducedRow {
     element: usize,
-    /// Number of the element's condition, 0 or 1.
+    /// Index of the condition within the element, 0 or 1.
     condition: usize,
     /// Factor that makes the largest entry of the row 1.
     scale: f64,
 }
 
-impl FixedModeSolver {
-    /// Solver for `count` elements.
-    pub(super) fn new(count: usize) -> Self {
-        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
+impl ContactModeSolver {
+    /// Solver for `element_count` elements.
+    pub(super) fn new(element_count: usize) -> Self {
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, element_count);
         let size = layout.len();
         Self {
             response: ContactResponse::new(layout),
-            conditions: vec![[Condition::default(); 2]; count],
-            factored: vec![[Condition::default(); 2]; count],
+            conditions: vec![[Condition::default(); 2]; element_count],
+            factored_conditions: vec![[Condition::default(); 2]; element_count],
             factor: DenseFactor::with_capacity(size),
             has_valid_factor: false,
             matrix: Vec::with_capacity(size * size),
@@ -58,7 +63,7 @@ impl FixedModeSolver {
     }
 
     /// Condition number of the system with every element in its law's mode of rest; infinite if singular.
-    pub(super) fn condition_at_rest(
+    pub(super) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,
         static_traction: &[f64],
@@ -85,8 +90,7 @@ impl FixedModeSolver {
         if !is_regular {
             return Ok(f64::INFINITY);
         }
-        // The condition number scales by the diagonal. The scaling of rows by their largest entries is
-        // therefore undone.
+        // The condition estimate scales by the diagonal. Undo the row scaling.
         let order = self.dofs.len();
         for (values, row) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
             for value in values {
@@ -100,7 +104,7 @@ impl FixedModeSolver {
     ///
     /// # Errors
     /// If a law returns a number that is not finite.
-    pub(super) fn trial(
+    pub(super) fn solve_for_modes(
         &mut self,
         input: &ContactInput<'_>,
         modes: &[Mode],
@@ -109,11 +113,9 @@ impl FixedModeSolver {
             self.conditions[e] = input.conditions(e, mode)?;
         }
         let is_factored = self.has_valid_factor
-            && self
-                .conditions
-                .iter()
-                .zip(&self.factored)
-                .all(|(a, b)| has_same_row(&a[0], &b[0]) && has_same_row(&a[1], &b[1]));
+            && self.conditions.iter().zip(&self.factored_conditions).all(|(a, b)| {
+                have_equal_coefficients(&a[0], &b[0]) && have_equal_coefficients(&a[1], &b[1])
+            });
         if !is_factored && !self.assemble(input) {
             self.has_valid_factor = false;
             return Ok(false);
@@ -132,7 +134,7 @@ impl FixedModeSolver {
         if self.rows.len() != order || !self.fill_matrix(input) {
             return false;
         }
-        self.factored.copy_from_slice(&self.conditions);
+        self.factored_conditions.copy_from_slice(&self.conditions);
         self.has_valid_factor = self.factor.factor(&self.matrix, order);
         self.has_valid_factor
     }
@@ -141,15 +143,15 @@ impl FixedModeSolver {
     fn list_rows_and_dofs(&mut self) {
         self.rows.clear();
         self.dofs.clear();
-        for (element, pair) in self.conditions.iter().enumerate() {
-            let fixed = pair.map(|condition| condition.fixed_component());
+        for (element, element_conditions) in self.conditions.iter().enumerate() {
+            let fixed_components = element_conditions.map(|condition| condition.fixed_component());
             for component in 0..COMPONENTS_IN_PLANE {
-                if !fixed.contains(&Some(component)) {
+                if !fixed_components.contains(&Some(component)) {
                     self.dofs.push(self.response.layout.place(component, element));
                 }
             }
-            for (condition, fixed) in fixed.iter().enumerate() {
-                if fixed.is_none() {
+            for (condition, fixed_component) in fixed_components.iter().enumerate() {
+                if fixed_component.is_none() {
                     self.rows.push(ReducedRow { element, condition, scale: 1.0 });
                 }
             }
@@ -164,7 +166,7 @@ impl FixedModeSolver {
         for row in &mut self.rows {
             let condition = self.conditions[row.element][row.condition];
             let [normal, tangential] = layout.places(row.element);
-            let begin = self.matrix.len();
+            let row_start = self.matrix.len();
             for &j in &self.dofs {
                 let mut value = condition.gap * input.delassus[normal * size + j]
                     - condition.slip * input.delassus[tangential * size + j];
@@ -175,12 +177,12 @@ impl FixedModeSolver {
                 }
                 self.matrix.push(value);
             }
-            let values = &mut self.matrix[begin..];
-            let largest = largest(values);
-            if !(largest > 0.0 && largest.is_finite()) {
+            let values = &mut self.matrix[row_start..];
+            let max_entry = largest(values);
+            if !(max_entry > 0.0 && max_entry.is_finite()) {
                 return false;
             }
-            row.scale = 1.0 / largest;
+            row.scale = 1.0 / max_entry;
             for value in values {
                 *value *= row.scale;
             }
@@ -192,12 +194,12 @@ impl FixedModeSolver {
     fn solve(&mut self, input: &ContactInput<'_>) {
         let ContactResponse { layout, traction, jump, .. } = &mut self.response;
         traction.fill(0.0);
-        for (e, pair) in self.conditions.iter().enumerate() {
-            for condition in pair {
+        for (e, element_conditions) in self.conditions.iter().enumerate() {
+            for condition in element_conditions {
                 if let Some(component) = condition.fixed_component() {
                     let i = layout.place(component, e);
-                    let total = condition.value / (condition.pressure + condition.shear);
-                    traction[i] = total - input.static_traction[i];
+                    let total_traction = condition.value / (condition.pressure + condition.shear);
+                    traction[i] = total_traction - input.static_traction[i];
                 }
             }
         }
@@ -210,10 +212,10 @@ impl FixedModeSolver {
         for row in &self.rows {
             let condition = self.conditions[row.element][row.condition];
             let [n, t] = layout.places(row.element);
-            let fixed_part = condition.gap * jump[n] - condition.slip * jump[t]
+            let fixed_traction_term = condition.gap * jump[n] - condition.slip * jump[t]
                 + condition.pressure * (input.static_traction[n] + traction[n])
                 + condition.shear * (input.static_traction[t] + traction[t]);
-            self.rhs.push(row.scale * (condition.value - fixed_part));
+            self.rhs.push(row.scale * (condition.value - fixed_traction_term));
         }
         self.factor.solve_small(&mut self.rhs);
         for (&i, value) in self.dofs.iter().zip(&self.rhs) {
@@ -221,30 +223,35 @@ impl FixedModeSolver {
         }
     }
 
-    /// Whether an element yields in a `mode` of the last trial on soil whose pressure grows with the settlement.
-    pub(super) fn hardens(&self, element: usize, mode: Mode) -> bool {
+    /// Whether an element yields in `mode`, and its pressure grows with the settlement.
+    ///
+    /// `mode`: of the last solution.
+    pub(super) fn yields_with_hardening(&self, element: usize, mode: Mode) -> bool {
         mode.is_yield() && self.conditions[element][0].gap != 0.0
     }
 
-    /// Tolerance of comparisons, from the rounding of the last trial.
+    /// Tolerance of comparisons, from the rounding of the last solution.
     pub(super) fn tolerance(&self, input: &ContactInput<'_>) -> Tolerance {
-        let traction = self
+        let max_traction = self
             .response
             .states
             .iter()
             .map(|state| state.pressure.abs().max(state.shear.abs()))
             .chain(input.static_traction.iter().map(|traction| traction.abs()))
             .fold(0.0, f64::max);
-        let jump = self
+        let max_jump = self
             .response
             .jump
             .iter()
-            .fold(input.length_scale, |largest, jump| largest.max(jump.abs()));
-        Tolerance { length: 1e-13 * jump, traction: 1e-12 * traction }
+            .fold(input.length_scale, |max_jump, jump| max_jump.max(jump.abs()));
+        Tolerance {
+            length: JUMP_ROUNDING_FACTOR * max_jump,
+            traction: TRACTION_ROUNDING_FACTOR * max_traction,
+        }
     }
 }
 
-/// Whether two conditions differ at most in their values.
-fn has_same_row(a: &Condition, b: &Condition) -> bool {
+/// Whether two conditions have equal coefficients; their values may differ.
+fn have_equal_coefficients(a: &Condition, b: &Condition) -> bool {
     (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
 }

@@ -14,7 +14,7 @@
 //! nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not distinguish the points
 //! of the path. After a break, the next attempt begins elsewhere, also with all elements pressed shut.
 
-use super::fixed_modes::FixedModeSolver;
+use super::fixed_modes::ContactModeSolver;
 use super::problem::ContactInput;
 use crate::error::LawError;
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
@@ -67,7 +67,7 @@ impl Path {
     /// Returns the number of trials. Each `attempt` begins elsewhere, since a path may break.
     pub(crate) fn follow(
         &mut self,
-        solver: &mut FixedModeSolver,
+        solver: &mut ContactModeSolver,
         input: &ContactInput<'_>,
         attempt: usize,
         modes: &mut [Mode],
@@ -229,7 +229,7 @@ impl Path {
     /// Computes states at `lambda` and their rates, for fixed modes; false if the modes are singular.
     fn line(
         &mut self,
-        solver: &mut FixedModeSolver,
+        solver: &mut ContactModeSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
         lambda: f64,
@@ -239,7 +239,7 @@ impl Path {
                 *jump = input.free_jump[i] + (1.0 - at) * self.offset[i];
             }
             let there = ContactInput { free_jump: &self.jump, ..*input };
-            if !solver.trial(&there, modes)? {
+            if !solver.solve_for_modes(&there, modes)? {
                 return Ok(false);
             }
             if at == lambda {

@@ -18,7 +18,7 @@
 use std::cell::Cell;
 
 use super::element::local_mode;
-use super::fixed_modes::FixedModeSolver;
+use super::fixed_modes::ContactModeSolver;
 use super::linearisation::Linearisation;
 use super::path::Path;
 use super::problem::{Bond, ContactInput};
@@ -42,7 +42,7 @@ const BREAKING_OVERLOAD_RATIO: f64 = 0.5;
 /// Search for the modes of a step in the plane.
 pub(crate) struct ModeSearch {
     /// Solver for fixed modes; it holds the solution after a search.
-    pub(super) solver: FixedModeSolver,
+    pub(super) solver: ContactModeSolver,
     visited: Vec<Mode>,
     next: Vec<Mode>,
     before: Vec<Mode>,
@@ -62,7 +62,7 @@ impl ModeSearch {
     /// Search for `count` elements by the method `search`.
     pub(super) fn new(count: usize, search: ContactSearch) -> Self {
         Self {
-            solver: FixedModeSolver::new(count),
+            solver: ContactModeSolver::new(count),
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],
             before: vec![Mode::Stick; count],
@@ -87,7 +87,7 @@ impl ModeSearch {
         self.trials = 0;
         // Laws with a single mode need no search: one solve, with the factors of the first step.
         let is_bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
-        if is_bonded && self.solver.trial(input, modes)? {
+        if is_bonded && self.solver.solve_for_modes(input, modes)? {
             return Ok((1, SearchMethod::ActiveSet));
         }
         let trial_settlements = std::mem::take(&mut self.trial_settlements);
@@ -237,12 +237,12 @@ impl ModeSearch {
     ///
     /// Returns 1 if either set of modes is singular.
     fn disagreement(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> Result<f64, LawError> {
-        if !self.solver.trial(input, modes)? {
+        if !self.solver.solve_for_modes(input, modes)? {
             return Ok(1.0);
         }
         self.update_next_modes(input, modes)?;
         let before = self.solver.response.states.clone();
-        if !self.solver.trial(input, &self.next)? {
+        if !self.solver.solve_for_modes(input, &self.next)? {
             return Ok(1.0);
         }
         let mut largest = f64::MIN_POSITIVE;
@@ -262,7 +262,7 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &[Mode],
     ) -> Result<bool, LawError> {
-        Ok(self.solver.trial(input, modes)? && self.update_next_modes(input, modes)?)
+        Ok(self.solver.solve_for_modes(input, modes)? && self.update_next_modes(input, modes)?)
     }
 
     /// Updates the next modes of all elements after a trial; returns whether all equal `modes`.
@@ -295,7 +295,7 @@ impl ModeSearch {
         let mut linearisation = Linearisation::new();
         for _ in 0..max_trials {
             self.trials += 1;
-            if !self.solver.trial(input, modes)? {
+            if !self.solver.solve_for_modes(input, modes)? {
                 return Ok(false);
             }
             let is_admissible = self.update_next_modes(input, modes)?;

@@ -78,7 +78,7 @@ impl ContactSolver {
     /// Condition number of the system with every element in its law's mode of rest; infinite if singular.
     ///
     /// In space it is the condition number of W.
-    pub(crate) fn condition_at_rest(
+    pub(crate) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,
         static_traction: &[f64],
@@ -87,7 +87,7 @@ impl ContactSolver {
     ) -> Result<f64, LawError> {
         match self {
             Self::Plane(search) => {
-                search.solver.condition_at_rest(delassus, static_traction, start, laws)
+                search.solver.condition_number_at_rest(delassus, static_traction, start, laws)
             }
             Self::Space(search) => Ok(delassus.condition(search.response.layout.len())),
         }

@@ -95,7 +95,7 @@ pub(crate) fn conditioning(
         Some(_) => 1.0,
         None => dense_condition(&scene.step_compliance, order),
     };
-    let delassus = contact.condition_at_rest(
+    let delassus = contact.condition_number_at_rest(
         &operators.delassus,
         &scene.static_state.traction,
         start,

@@ -20,7 +20,7 @@ use crate::interface::{
 use crate::linalg::CompressedMatrix;
 use crate::linalg::matrix;
 use crate::motion::FreeField;
-use crate::structure::{Structure, check_probes, is_nonlinear};
+use crate::structure::{Structure, check_nonlinear_force, check_probes};
 
 /// All parts of a simulation, and the operators of ground and time scheme.
 pub(crate) struct Parts {
@@ -55,7 +55,7 @@ impl Parts {
         let needed = "give one to the builder with `structure`";
         let missing_structure = Error::Scene { quantity: "structure", needed };
         let mut structure = builder.structure.take().ok_or(missing_structure)?;
-        is_nonlinear(structure.as_mut())?;
+        check_nonlinear_force(structure.as_mut())?;
         let needed = "give one to the builder with `ground`";
         let missing_ground = Error::Scene { quantity: "ground", needed };
         let mut ground = builder.ground.take().ok_or(missing_ground)?;

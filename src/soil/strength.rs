@@ -6,9 +6,9 @@ use crate::error::{Result, not_negative, require};
 
 /// Strength of drained soil: friction angle φ, cohesion c, and friction angle δ between soil and a wall.
 ///
-/// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from it.
-/// The wall pressures are those of Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
-/// friction they are Rankine's. Strengths and stresses are effective values.
+/// The bearing capacity of a [`ShallowFooting`](crate::soil::ShallowFooting) and the pressures on a wall follow from
+/// this strength. The wall pressures are those of Coulomb's wedges with plane slip surfaces, beside a vertical wall
+/// under level ground; without wall friction they are Rankine's. Strengths and stresses are effective values.
 ///
 /// ```
 /// use basemat::soil::SoilStrength;
@@ -64,19 +64,21 @@ impl SoilStrength {
 
     /// Sets the friction angle (rad) between soil and wall, from 0 to the friction angle of the soil.
     ///
-    /// Plane wedges overestimate the passive pressure from about a third of the soil's angle on, where surfaces of
-    /// sliding are curved (Terzaghi 1943): take no larger angle, unless the wall's friction is certain to act.
+    /// Plane wedges overestimate the passive pressure from about a third of the soil's angle on, where slip surfaces
+    /// are curved (Terzaghi 1943): take no larger angle, unless the wall's friction is certain to act.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for an angle below zero, above the soil's, or with which no plane wedge
+    /// [`Error::Input`](crate::Error::Input) for an angle below zero, above the soil's, or so large that no plane wedge
     /// slides at the passive limit.
-    pub fn with_wall_friction(self, angle: f64) -> Result<Self> {
-        let is_in_range = (0.0..=self.friction_angle).contains(&angle);
-        let needed = "from 0 to the friction angle of the soil";
-        require("friction angle of the wall (rad)", angle, is_in_range, needed)?;
-        let strength = Self { wall_friction_angle: angle, ..self };
-        let needed = "smaller: no plane wedge slides at the passive limit";
-        require("friction angle of the wall (rad)", angle, strength.wall_factor() < 1.0, needed)?;
+    pub fn with_wall_friction(self, wall_friction_angle: f64) -> Result<Self> {
+        let quantity = "friction angle of the wall (rad)";
+        let is_in_range = (0.0..=self.friction_angle).contains(&wall_friction_angle);
+        let range_requirement = "from 0 to the friction angle of the soil";
+        require(quantity, wall_friction_angle, is_in_range, range_requirement)?;
+        let strength = Self { wall_friction_angle, ..self };
+        let has_sliding_wedge = strength.coulomb_root() < 1.0;
+        let wedge_requirement = "smaller: no plane wedge slides at the passive limit";
+        require(quantity, wall_friction_angle, has_sliding_wedge, wedge_requirement)?;
         Ok(strength)
     }
 
@@ -90,8 +92,8 @@ impl SoilStrength {
         self.cohesion
     }
 
-    /// √(sin(φ + δ) sin φ / cos δ).
-    fn wall_factor(&self) -> f64 {
+    /// Root term of Coulomb's earth-pressure coefficients, √(sin(φ + δ) sin φ / cos δ).
+    fn coulomb_root(&self) -> f64 {
         let Self { friction_angle: phi, wall_friction_angle: delta, .. } = *self;
         ((phi + delta).sin() * phi.sin() / delta.cos()).sqrt()
     }
@@ -99,12 +101,12 @@ impl SoilStrength {
     /// Active and passive horizontal pressure over the vertical pressure, without cohesion.
     ///
     /// K = (cos φ/(1 ± √(sin(φ + δ) sin φ/cos δ)))²: the components across the wall of Coulomb's thrust (1776, in the
-    /// form of Müller-Breslau 1906), which is inclined at δ and 1/cos δ times as large. Without wall friction
-    /// tan²(π/4 ∓ φ/2) (Rankine 1857).
+    /// form of Müller-Breslau 1906), which is inclined at δ and larger by the factor 1/cos δ. Without wall
+    /// friction tan²(π/4 ∓ φ/2) (Rankine 1857).
     pub fn pressure_ratios(&self) -> [f64; 2] {
-        let wall_factor = self.wall_factor();
-        [1.0 + wall_factor, 1.0 - wall_factor]
-            .map(|factor| (self.friction_angle.cos() / factor).powi(2))
+        let coulomb_root = self.coulomb_root();
+        [1.0 + coulomb_root, 1.0 - coulomb_root]
+            .map(|denominator| (self.friction_angle.cos() / denominator).powi(2))
     }
 
     /// Active and passive pressure on a wall (Pa) under a `vertical` pressure of the soil, Pa.

@@ -27,7 +27,7 @@ pub mod internal {
         proportional_factors,
     };
     pub use crate::structure::nonlinear::{
-        MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
+        MassAndStiffness, Tangent, check_nonlinear_force, mass_and_stiffness, nonlinear_state,
         restore_variables, save_variables,
     };
     pub use crate::structure::probe::{Probe, check_probes, probe_index};

@@ -96,7 +96,7 @@ impl ModeSearch {
         let mut has_moved = false;
         for (e, mode) in modes.iter().enumerate() {
             let Some(trial_settlement) = input.trial_settlements.get(e) else { continue };
-            if !self.solver.hardens(e, *mode) && trial_settlement.get() == 0.0 {
+            if !self.solver.yields_with_hardening(e, *mode) && trial_settlement.get() == 0.0 {
                 continue;
             }
             let tolerance = *tolerance.get_or_insert_with(|| self.solver.tolerance(input));

@@ -269,7 +269,7 @@ impl ExponentialHistory {
                 self.window_blocks.add_effects(m);
             }
             let slot = self.slot(m);
-            self.window_blocks.write(m, &self.recent_inputs[slot]);
+            self.window_blocks.write_traction(m, &self.recent_inputs[slot]);
         }
         self.input_is_pending = self.steps > 0;
     }
@@ -311,14 +311,15 @@ impl ConvolutionHistory for ExponentialHistory {
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         same_length("displacement of the history", displacement.len(), self.traction_count())?;
         self.complete_output();
-        self.window_blocks.read(self.steps, displacement);
+        self.window_blocks.read_displacement(self.steps, displacement);
         self.tail.add_displacement(displacement);
         Ok(())
     }
 
     fn memory(&self) -> usize {
         self.tail.memory()
-            + (self.window_blocks.numbers() + self.recent_inputs.len()) * size_of::<f64>()
+            + (self.window_blocks.stored_value_count() + self.recent_inputs.len())
+                * size_of::<f64>()
     }
 
     fn push(&mut self, traction: &[f64]) {
@@ -330,7 +331,7 @@ impl ConvolutionHistory for ExponentialHistory {
             }
         });
         let slot = self.slot(now);
-        self.window_blocks.write(now, &self.recent_inputs[slot]);
+        self.window_blocks.write_traction(now, &self.recent_inputs[slot]);
         self.input_is_pending = true;
     }
 

@@ -3,7 +3,7 @@
 use crate::error::{ProgressReporter, Result};
 use crate::history::convolution_weights::ConvolutionWeights;
 
-/// Number of parts in which the computation of spectra is observed.
+/// Largest number of progress notifications while spectra are computed.
 pub(super) const SPECTRA_PROGRESS_PARTS: usize = 100;
 
 /// Inputs and outputs so far, and the computation of blocks of outputs from blocks of inputs.
@@ -13,64 +13,65 @@ pub(crate) trait HistoryBlocks: Send {
     /// If it is not a power of two, the outputs of the last blocks end there: they are missing when the capacity grows.
     fn capacity(&self) -> usize;
 
-    /// Number of real numbers stored.
-    fn numbers(&self) -> usize;
+    /// Number of stored real values.
+    fn stored_value_count(&self) -> usize;
 
-    /// Makes the blocks ready for at least `steps` steps; `reporter` is notified in [`SPECTRA_PROGRESS_PARTS`].
+    /// Makes the blocks ready for at least `steps` steps; `reporter` is notified up to
+    /// [`SPECTRA_PROGRESS_PARTS`] times.
     ///
     /// Inputs and outputs are unchanged on an error.
-    fn grow(
+    fn extend_capacity(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         steps: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()>;
 
     /// Makes the blocks ready for any number of steps, in memory that does not grow.
     ///
-    /// The coefficients after d = `last_delay`, a leaf times a power of two, must be zero; of a lattice they are ignored.
-    /// Call this before the first step, in place of [`HistoryBlocks::grow`], or while the capacity is at most
+    /// Weights after `last_delay` (`LEAF_STEPS` times a power of two) must be zero; lattice blocks ignore later weights.
+    /// Call this before the first step, in place of [`HistoryBlocks::extend_capacity`], or while the capacity is at most
     /// 2 `last_delay`.
-    fn bound(
+    fn limit_history(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         last_delay: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()>;
 
-    /// Adds the effect of the last input, so that the output of `now` is complete.
+    /// Adds the effect of the last input, so that the output of `step` is complete.
     ///
-    /// The last input is of step `now` − 1.
-    fn add_effects(&mut self, now: usize);
+    /// The last input is that of step `step` − 1.
+    fn add_effects(&mut self, step: usize);
 
-    /// Accepts the input of step `now`.
-    fn write(&mut self, now: usize, traction: &[f64]);
+    /// Accepts the input of `step`.
+    fn write_traction(&mut self, step: usize, traction: &[f64]);
 
     /// Number of values that store the input of a step.
-    fn width(&self) -> usize;
+    fn values_per_step(&self) -> usize;
 
     /// Appends the stored input of `step`; the effects of inputs before `effects_end` have been added.
     fn input(&self, step: usize, effects_end: usize, values: &mut Vec<f64>);
 
-    /// Accepts for step `now` an input returned by [`HistoryBlocks::input`].
-    fn write_input(&mut self, now: usize, input: &[f64]);
+    /// Accepts for `step` an input returned by [`HistoryBlocks::input`].
+    fn write_input(&mut self, step: usize, input: &[f64]);
 
     /// Removes all inputs and outputs.
     fn clear(&mut self);
 
-    /// Overwrites `displacement` with the output of step `now`.
-    fn read(&mut self, now: usize, displacement: &mut [f64]);
+    /// Overwrites `displacement` with the output of `step`.
+    fn read_displacement(&mut self, step: usize, displacement: &mut [f64]);
 }
 
-/// Writes `inputs` from step `first` on into empty blocks, and adds their effects.
+/// Writes `inputs` from `first_step` on into empty blocks, and adds their effects.
 ///
 /// The effect of the last input is still to be added.
-pub(super) fn replay_inputs(blocks: &mut dyn HistoryBlocks, first: usize, inputs: &[f64]) {
-    for (input_index, input) in inputs.chunks_exact(blocks.width()).enumerate() {
-        let now = first + input_index;
+pub(super) fn replay_inputs(blocks: &mut dyn HistoryBlocks, first_step: usize, inputs: &[f64]) {
+    for (input_index, input) in inputs.chunks_exact(blocks.values_per_step()).enumerate() {
+        let step = first_step + input_index;
         if input_index > 0 {
-            blocks.add_effects(now);
+            blocks.add_effects(step);
         }
-        blocks.write_input(now, input);
+        blocks.write_input(step, input);
     }
 }

@@ -186,8 +186,8 @@ impl ElementGrid {
         }
     }
 
-    /// Number of real numbers stored.
-    pub(super) fn numbers(&self) -> usize {
+    /// Number of stored real values.
+    pub(super) fn stored_value_count(&self) -> usize {
         self.real.len() + 2 * (self.spectrum.len() + self.spectra.len() + self.scratch.len())
     }
 

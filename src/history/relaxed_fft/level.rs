@@ -37,8 +37,8 @@ pub(super) struct TransformScratch {
 }
 
 impl TransformScratch {
-    /// Number of real numbers stored.
-    pub(super) fn numbers(&self) -> usize {
+    /// Number of stored real values.
+    pub(super) fn stored_value_count(&self) -> usize {
         self.real.capacity()
             + 2 * (self.spectra.capacity() + self.scratch.capacity())
             + self.inputs.capacity()
@@ -86,8 +86,8 @@ pub(super) struct BlockRows<'a> {
 }
 
 impl PairLevel {
-    /// Number of real numbers stored.
-    pub(super) fn numbers(&self) -> usize {
+    /// Number of stored real values.
+    pub(super) fn stored_value_count(&self) -> usize {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 

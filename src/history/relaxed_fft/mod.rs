@@ -217,8 +217,8 @@ impl RelaxedFftHistory {
                 (0..self.steps).for_each(|step| blocks.input(step, effects_end, &mut inputs));
             }
             match self.last_lag {
-                Some(LastLag { lag, .. }) => blocks.bound(kernel, lag, reporter)?,
-                None => blocks.grow(kernel, steps, reporter)?,
+                Some(LastLag { lag, .. }) => blocks.limit_history(kernel, lag, reporter)?,
+                None => blocks.extend_capacity(kernel, steps, reporter)?,
             }
             if !inputs.is_empty() {
                 blocks.clear();
@@ -292,7 +292,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
             return Err(error.clone());
         }
         let now = self.steps;
-        self.complete_output()?.read(now, displacement);
+        self.complete_output()?.read_displacement(now, displacement);
         Ok(())
     }
 
@@ -303,7 +303,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn memory(&self) -> usize {
-        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
+        self.blocks.as_ref().map_or(0, |blocks| blocks.stored_value_count()) * size_of::<f64>()
     }
 
     fn push(&mut self, traction: &[f64]) {
@@ -320,7 +320,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
             }
             match self.complete_output() {
                 Ok(blocks) => {
-                    blocks.write(now, &padded_traction);
+                    blocks.write_traction(now, &padded_traction);
                     self.input_is_pending = true;
                 }
                 Err(error) => self.input_error = Some(error),
@@ -352,7 +352,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
-        let input_width = self.grow(1, &mut ProgressReporter::unobserved())?.width();
+        let input_width = self.grow(1, &mut ProgressReporter::unobserved())?.values_per_step();
         let saved = SavedState::new(values, self.neglected_fraction.is_some())?;
         let first_saved = Self::first_needed(saved.last_lag, steps);
         check_inputs(steps - first_saved, input_width, saved.inputs)?;
@@ -389,6 +389,6 @@ pub(super) fn bounded_blocks(
         Some(grid) => Box::new(WaveBlocks::new(grid, kernel)?),
         None => Box::new(PairBlocks::bounded(kernel)?),
     };
-    blocks.bound(kernel, last_delay, &mut ProgressReporter::unobserved())?;
+    blocks.limit_history(kernel, last_delay, &mut ProgressReporter::unobserved())?;
     Ok(blocks)
 }

@@ -45,21 +45,21 @@ pub(super) struct PairBlocks {
 }
 
 impl PairBlocks {
-    /// Makes empty blocks of `kernel`.
-    pub(super) fn new(kernel: &dyn ConvolutionWeights) -> Result<Self> {
-        Self::with_coupling(kernel, MAX_DIRECT_COUPLING)
+    /// Makes empty blocks of `weights`.
+    pub(super) fn new(weights: &dyn ConvolutionWeights) -> Result<Self> {
+        Self::with_coupling(weights, MAX_DIRECT_COUPLING)
     }
 
     /// Makes empty blocks for rows whose columns are used again.
     ///
     /// No coupling beyond a leaf is summed directly.
-    pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
-        Self::with_coupling(kernel, 0)
+    pub(super) fn bounded(weights: &dyn ConvolutionWeights) -> Result<Self> {
+        Self::with_coupling(weights, 0)
     }
 
-    fn with_coupling(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
+    fn with_coupling(weights: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(kernel, max_direct)?,
+            coefficients: Coefficients::new(weights, max_direct)?,
             levels: Vec::new(),
             planner: RealPlanner::new(),
             scratch: TransformScratch::default(),
@@ -84,12 +84,12 @@ impl PairBlocks {
             && (block_size == LEAF_STEPS || block_size / 2 < coefficients.coupling_reach)
     }
 
-    /// Makes the levels of these numbers, and the short lags unless they are there.
+    /// Makes the levels of these indices, and the short lags unless they are there.
     ///
-    /// The kernel is evaluated once for all of them.
+    /// The weights are evaluated once for all of them.
     fn make_levels(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         level_indices: Range<usize>,
         short_lags: &mut Option<Arc<ShortLagTables>>,
         reporter: &mut ProgressReporter,
@@ -128,7 +128,7 @@ impl PairBlocks {
                 // The first weight is the step compliance, which does not belong to the history.
                 let series = values.iter_mut().take(kind_count);
                 let mut slices: Vec<_> = series.map(|series| &mut series[1..]).collect();
-                kernel.coefficients(class, 2, &mut slices)?;
+                weights.coefficients(class, 2, &mut slices)?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }
@@ -143,27 +143,27 @@ impl PairBlocks {
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
 
-    /// Takes the smallest `level_count` levels and the short lags from the kernel's store, or makes them.
+    /// Takes the smallest `level_count` levels and the short lags from the store of the weights, or makes them.
     ///
     /// Allocates scratch for their blocks.
     fn take_levels(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         level_count: usize,
         lags: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
         let element_count = self.element_count();
-        // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
-        kernel.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
-        let spectra = kernel.spectra().filter(|s| s.belong_to(kernel.classes().elements()));
+        // The weights are prepared before the spectra are locked: their threads must not wait for the lock.
+        weights.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
+        let spectra = weights.spectra().filter(|s| s.belong_to(weights.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
         let mut shared = shared.as_deref().map(lock);
         let short_lags = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.short_lags));
         let mut private_store = Levels { levels: self.levels.clone(), leaf: short_lags };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
-        let levels = store.smallest(level_count, |numbers, short_lags| {
-            self.make_levels(kernel, numbers, short_lags, reporter)
+        let levels = store.smallest(level_count, |level_indices, short_lags| {
+            self.make_levels(weights, level_indices, short_lags, reporter)
         })?;
         self.levels = levels.levels;
         self.coefficients.short_lags = levels.leaf.unwrap_or_default();
@@ -185,16 +185,16 @@ impl HistoryBlocks for PairBlocks {
         self.capacity
     }
 
-    fn numbers(&self) -> usize {
+    fn stored_value_count(&self) -> usize {
         self.rows.capacity()
             + self.coefficients.short_lags.iter().flatten().map(Vec::len).sum::<usize>()
-            + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
-            + self.scratch.numbers()
+            + self.levels.iter().map(|level| level.stored_value_count()).sum::<usize>()
+            + self.scratch.stored_value_count()
     }
 
-    fn grow(
+    fn extend_capacity(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         steps: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
@@ -204,7 +204,7 @@ impl HistoryBlocks for PairBlocks {
         }
         let element_count = self.element_count();
         let level_count = (capacity / LEAF_STEPS).ilog2() as usize;
-        self.take_levels(kernel, level_count, capacity, reporter)?;
+        self.take_levels(weights, level_count, capacity, reporter)?;
         // Only a coupling that is summed directly has outputs beyond the capacity.
         let column_count = capacity + self.coefficients.coupling_direct;
         let stride = column_count.next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
@@ -214,14 +214,14 @@ impl HistoryBlocks for PairBlocks {
         Ok(())
     }
 
-    fn bound(
+    fn limit_history(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         last_delay: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
         self.take_levels(
-            kernel,
+            weights,
             (last_delay / LEAF_STEPS).ilog2() as usize + 1,
             2 * last_delay,
             reporter,
@@ -233,8 +233,8 @@ impl HistoryBlocks for PairBlocks {
         Ok(())
     }
 
-    fn add_effects(&mut self, now: usize) {
-        let Some(last) = now.checked_sub(1) else { return };
+    fn add_effects(&mut self, step: usize) {
+        let Some(last) = step.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
         let leaf_outputs = LEAF_STEPS - 1 - last % LEAF_STEPS;
         let coupled_outputs =
@@ -250,20 +250,20 @@ impl HistoryBlocks for PairBlocks {
             ahead: leaf_outputs,
             coupled: coupled_outputs,
         });
-        if !now.is_multiple_of(LEAF_STEPS) {
+        if !step.is_multiple_of(LEAF_STEPS) {
             return;
         }
-        if let Some(stale_range) = ring.stale_range(now) {
+        if let Some(stale_range) = ring.stale_range(step) {
             let rows = self.rows.chunks_exact_mut(self.stride);
             rows.for_each(|row| row[stale_range.clone()].fill(0.0));
         }
-        let level_index = ring.level_index(now, self.levels.len());
+        let level_index = ring.level_index(step, self.levels.len());
         let Some(level) = self.levels.get(level_index) else { return };
         let has_coupling = self.has_coupling_spectra(level.block_size);
         let coupled_level =
             self.levels.iter().rfind(|level| self.has_coupling_spectra(level.block_size));
         let rows = &mut self.rows[..];
-        let mut block = BlockRows { rows, stride, ring, now, classes: &coefficients.classes };
+        let mut block = BlockRows { rows, stride, ring, now: step, classes: &coefficients.classes };
         let components = if has_coupling { Components::All } else { Components::Even };
         level.apply(&mut block, components, &mut self.scratch);
         if let Some(level) = coupled_level.filter(|_| !has_coupling) {
@@ -271,14 +271,14 @@ impl HistoryBlocks for PairBlocks {
         }
     }
 
-    fn write(&mut self, now: usize, traction: &[f64]) {
-        let column = self.ring.column(now);
+    fn write_traction(&mut self, step: usize, traction: &[f64]) {
+        let column = self.ring.column(step);
         for (row, value) in self.rows.chunks_exact_mut(self.stride).zip(traction) {
             row[column] = *value;
         }
     }
 
-    fn width(&self) -> usize {
+    fn values_per_step(&self) -> usize {
         2 * self.element_count()
     }
 
@@ -286,16 +286,16 @@ impl HistoryBlocks for PairBlocks {
         values.extend(self.rows.chunks_exact(self.stride).map(|row| row[step]));
     }
 
-    fn write_input(&mut self, now: usize, input: &[f64]) {
-        self.write(now, input);
+    fn write_input(&mut self, step: usize, input: &[f64]) {
+        self.write_traction(step, input);
     }
 
     fn clear(&mut self) {
         self.rows.fill(0.0);
     }
 
-    fn read(&mut self, now: usize, displacement: &mut [f64]) {
-        let column = self.ring.column(now);
+    fn read_displacement(&mut self, step: usize, displacement: &mut [f64]) {
+        let column = self.ring.column(step);
         for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
             *value = row[column];
         }

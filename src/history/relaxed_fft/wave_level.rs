@@ -62,8 +62,8 @@ impl WaveLevel {
         }
     }
 
-    /// Number of real numbers stored.
-    pub(super) fn numbers(&self) -> usize {
+    /// Number of stored real values.
+    pub(super) fn stored_value_count(&self) -> usize {
         2 * self.spectra.iter().map(Vec::len).sum::<usize>()
     }
 

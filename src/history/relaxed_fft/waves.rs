@@ -54,10 +54,10 @@ pub(super) struct WaveBlocks {
 
 impl WaveBlocks {
     /// Makes empty blocks of elements on a lattice.
-    pub(super) fn new(grid: ElementGrid, kernel: &dyn ConvolutionWeights) -> Result<Self> {
-        let input_width = width(&grid);
+    pub(super) fn new(grid: ElementGrid, weights: &dyn ConvolutionWeights) -> Result<Self> {
+        let input_width = values_per_step(&grid);
         Ok(Self {
-            coupling_reach: grid.last_coupling_lag(kernel)?.saturating_sub(1),
+            coupling_reach: grid.last_coupling_lag(weights)?.saturating_sub(1),
             grid,
             leaf: Arc::default(),
             levels: Vec::new(),
@@ -83,10 +83,10 @@ impl WaveBlocks {
             && (block_size == LEAF_STEPS || block_size / 2 < self.coupling_reach)
     }
 
-    /// Makes the levels of these numbers, and the coefficients of a leaf unless they are there.
+    /// Makes the levels of these indices, and the coefficients of a leaf unless they are there.
     fn make_levels(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         level_indices: Range<usize>,
         leaf: &mut Option<Arc<LeafCoefficients>>,
         reporter: &mut ProgressReporter,
@@ -99,7 +99,8 @@ impl WaveBlocks {
             let kinds = (0..self.grid.kinds()).map(|kind| kind != COUPLING_KIND || has_coupling);
             levels.push(WaveLevel::new(block_size, waves, kinds, &mut self.planner));
         }
-        let leaf_coefficients = self.fill_spectra(kernel, &mut levels, leaf.is_none(), reporter)?;
+        let leaf_coefficients =
+            self.fill_spectra(weights, &mut levels, leaf.is_none(), reporter)?;
         leaf.get_or_insert(Arc::new(leaf_coefficients));
         Ok(levels.into_iter().map(Arc::new).collect())
     }
@@ -107,7 +108,7 @@ impl WaveBlocks {
     /// Fills the spectra of `levels`, and returns the coefficients of a leaf if `with_leaf`.
     fn fill_spectra(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         levels: &mut [WaveLevel],
         with_leaf: bool,
         reporter: &mut ProgressReporter,
@@ -127,7 +128,7 @@ impl WaveBlocks {
         let coupled_lags = kind_lags(COUPLING_KIND).min(self.coupling_reach.saturating_add(1));
         let mut leaf_tables = vec![vec![0.0; leaf_steps * wave_count]; kind_count];
         let computed_lags = lag_count.min(self.last_lag.unwrap_or(lag_count));
-        self.grid.coefficients(kernel, computed_lags, coupled_lags, |kind, d, values| {
+        self.grid.coefficients(weights, computed_lags, coupled_lags, |kind, d, values| {
             if kind == 0 && d.is_multiple_of(LEAF_STEPS) {
                 reporter.reach(SPECTRA_PROGRESS_PARTS / 2 * d / computed_lags)?;
             }
@@ -167,7 +168,7 @@ impl WaveBlocks {
     fn finish_leaf(&mut self, now: usize) {
         let wave_count = self.grid.waves().count;
         let ring = self.ring;
-        let input_width = width(&self.grid);
+        let input_width = values_per_step(&self.grid);
         let input_range = ring.input_range(now, LEAF_STEPS);
         let stale_range = ring.stale_range(now);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
@@ -206,32 +207,32 @@ impl WaveBlocks {
 
     /// Lengthens all rows to `stride`, with their values.
     fn widen(&mut self, stride: usize) {
-        self.rows = widened(&self.rows, width(&self.grid) / 2, self.stride, stride);
+        self.rows = widened(&self.rows, values_per_step(&self.grid) / 2, self.stride, stride);
         self.stride = stride;
     }
 
-    /// Takes the smallest `level_count` levels and a leaf's coefficients from the kernel's store, or makes them.
+    /// Takes the smallest `level_count` levels and a leaf's coefficients from the store of the weights, or makes them.
     ///
     /// Allocates scratch for their blocks.
     fn take_levels(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         level_count: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
-        // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
+        // The weights are prepared before the spectra are locked: their threads must not wait for the lock.
         let lags = LEAF_STEPS << level_count;
-        kernel.prepare(lags.min(self.last_lag.unwrap_or(lags)), &mut unobserved)?;
+        weights.prepare(lags.min(self.last_lag.unwrap_or(lags)), &mut unobserved)?;
         // If late lags are neglected, the spectra do not include all lags, and the store is not used.
-        let spectra = kernel.spectra().filter(|_| self.last_lag.is_none());
-        let spectra = spectra.filter(|s| s.belong_to(kernel.classes().elements()));
+        let spectra = weights.spectra().filter(|_| self.last_lag.is_none());
+        let spectra = spectra.filter(|s| s.belong_to(weights.classes().elements()));
         let shared = spectra.map(SharedSpectra::tables::<Levels<WaveLevel, LeafCoefficients>>);
         let mut shared = shared.as_deref().map(lock);
         let leaf = (self.capacity > 0).then(|| Arc::clone(&self.leaf));
         let mut private_store = Levels { levels: self.levels.clone(), leaf };
         let store = shared.as_deref_mut().unwrap_or(&mut private_store);
         let levels = store.smallest(level_count, |level_indices, leaf| {
-            self.make_levels(kernel, level_indices, leaf, reporter)
+            self.make_levels(weights, level_indices, leaf, reporter)
         })?;
         self.levels = levels.levels;
         self.leaf = levels.leaf.unwrap_or_default();
@@ -254,19 +255,19 @@ impl HistoryBlocks for WaveBlocks {
         self.capacity
     }
 
-    fn numbers(&self) -> usize {
+    fn stored_value_count(&self) -> usize {
         let leaf: usize = self.leaf.iter().map(Vec::len).sum();
-        leaf + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
+        leaf + self.levels.iter().map(|level| level.stored_value_count()).sum::<usize>()
             + 2 * (self.rows.len() + self.blocks.len() + self.scratch.len())
             + self.inputs.len()
             + self.earlier_effects.len()
             + self.sum.len()
-            + self.grid.numbers()
+            + self.grid.stored_value_count()
     }
 
-    fn grow(
+    fn extend_capacity(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         steps: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
@@ -278,7 +279,7 @@ impl HistoryBlocks for WaveBlocks {
         // The first request is met exactly; later requests double the memory.
         let capacity = LEAF_STEPS * if self.capacity == 0 { leaves } else { largest };
         let level_count = largest.ilog2() as usize;
-        self.take_levels(kernel, level_count, reporter)?;
+        self.take_levels(weights, level_count, reporter)?;
         if capacity > LEAF_STEPS {
             self.widen(capacity + ROW_PADDING);
         }
@@ -286,30 +287,30 @@ impl HistoryBlocks for WaveBlocks {
         Ok(())
     }
 
-    fn bound(
+    fn limit_history(
         &mut self,
-        kernel: &dyn ConvolutionWeights,
+        weights: &dyn ConvolutionWeights,
         last_delay: usize,
         reporter: &mut ProgressReporter,
     ) -> Result<()> {
         self.last_lag = Some(last_delay);
-        self.take_levels(kernel, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
+        self.take_levels(weights, (last_delay / LEAF_STEPS).ilog2() as usize + 1, reporter)?;
         self.widen(2 * last_delay + ROW_PADDING);
         self.ring = Ring(2 * last_delay);
         self.capacity = usize::MAX;
         Ok(())
     }
 
-    fn add_effects(&mut self, now: usize) {
-        if now.is_multiple_of(LEAF_STEPS) {
-            self.finish_leaf(now);
+    fn add_effects(&mut self, step: usize) {
+        if step.is_multiple_of(LEAF_STEPS) {
+            self.finish_leaf(step);
         }
     }
 
-    fn write(&mut self, now: usize, traction: &[f64]) {
+    fn write_traction(&mut self, step: usize, traction: &[f64]) {
         let waves = self.grid.waves().count;
-        let input_width = width(&self.grid);
-        let input = &mut self.inputs[now % LEAF_STEPS * input_width..][..input_width];
+        let input_width = values_per_step(&self.grid);
+        let input = &mut self.inputs[step % LEAF_STEPS * input_width..][..input_width];
         let components = traction.chunks_exact(traction.len() / self.grid.components());
         for (component, (values, complex_values)) in
             components.zip(input.chunks_exact_mut(2 * waves)).enumerate()
@@ -319,13 +320,13 @@ impl HistoryBlocks for WaveBlocks {
         }
     }
 
-    fn width(&self) -> usize {
-        width(&self.grid)
+    fn values_per_step(&self) -> usize {
+        values_per_step(&self.grid)
     }
 
     fn input(&self, step: usize, effects_end: usize, values: &mut Vec<f64>) {
         let waves = self.grid.waves().count;
-        let input_width = self.width();
+        let input_width = self.values_per_step();
         if step >= effects_end - effects_end % LEAF_STEPS {
             let begin = step % LEAF_STEPS * input_width;
             values.extend_from_slice(&self.inputs[begin..begin + input_width]);
@@ -339,8 +340,8 @@ impl HistoryBlocks for WaveBlocks {
         }
     }
 
-    fn write_input(&mut self, now: usize, input: &[f64]) {
-        self.inputs[now % LEAF_STEPS * input.len()..][..input.len()].copy_from_slice(input);
+    fn write_input(&mut self, step: usize, input: &[f64]) {
+        self.inputs[step % LEAF_STEPS * input.len()..][..input.len()].copy_from_slice(input);
     }
 
     fn clear(&mut self) {
@@ -349,11 +350,11 @@ impl HistoryBlocks for WaveBlocks {
         self.earlier_effects.fill(0.0);
     }
 
-    fn read(&mut self, now: usize, displacement: &mut [f64]) {
+    fn read_displacement(&mut self, step: usize, displacement: &mut [f64]) {
         let waves = self.grid.waves();
-        let input_width = width(&self.grid);
+        let input_width = values_per_step(&self.grid);
         let components = self.grid.components();
-        let leaf_step = now % LEAF_STEPS;
+        let leaf_step = step % LEAF_STEPS;
         self.sum.copy_from_slice(
             &self.earlier_effects[leaf_step * input_width..(leaf_step + 1) * input_width],
         );
@@ -377,7 +378,7 @@ impl HistoryBlocks for WaveBlocks {
 }
 
 /// Length of a step's contact vector over the wavenumbers of a lattice.
-fn width(grid: &ElementGrid) -> usize {
+fn values_per_step(grid: &ElementGrid) -> usize {
     2 * grid.components() * grid.waves().count
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::kind::ElementKind;
-use super::raw::{FileCell, FileMesh, FileNode, given_twice};
+use super::raw::{FileCell, FileMesh, FileNode, duplicate_fault};
 use crate::error::{Error, FileFault};
 
 /// An element of a mesh.
@@ -72,7 +72,7 @@ pub(super) fn numbered_mesh(
         {
             let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
             let item = format!("{} of nodes {}", cell.kind.name(), tags.join(" "));
-            return Err((cell.line, given_twice(item)));
+            return Err((cell.line, duplicate_fault(item)));
         }
         let groups = mesh.groups(cell);
         cells.push(MeshCell { kind: cell.kind, groups, nodes, tag: cell.tag, line: cell.line });

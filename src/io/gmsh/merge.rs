@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::cell::{MeshCell, sorted_nodes};
-use super::raw::given_twice;
+use super::raw::duplicate_fault;
 use crate::error::{Error, Result};
 use crate::fem::first_coincident_points;
 
@@ -56,7 +56,7 @@ impl NodeMerge {
                 && let Some(other_tag) = tags_by_corners.insert(corners, cell.tag)
             {
                 let item = format!("{} {} by element {other_tag}", cell.kind.name(), cell.tag);
-                return Err(given_twice(item).of(file, cell.line));
+                return Err(duplicate_fault(item).of(file, cell.line));
             }
         }
         Ok(())

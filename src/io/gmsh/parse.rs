@@ -1,56 +1,62 @@
-//! A `.msh` file, version 2.2 or 4.1, as text or binary (Gmsh reference manual, "MSH file format").
+//! Reads a `.msh` file of version 2.2 or 4.1, as text or binary (Gmsh reference manual, "MSH file format").
 
 use std::io::Read;
 
 use super::fields::{LineResult, MshFields};
 use super::kind::AcceptedKinds;
-use super::raw::{FileMesh, given_twice};
+use super::raw::{FileMesh, duplicate_fault};
 use super::{version2, version4};
 use crate::error::FileFault;
 use crate::text::decimal::excerpt;
 
-/// Main version of the format.
+/// Major version of the format.
 #[derive(Clone, Copy, PartialEq)]
-enum Version {
+enum MshVersion {
     Two,
     Four,
 }
 
 /// Reads the nodes and elements of a file; an error for other kinds of elements.
-pub(super) fn read(source: impl Read, accepted_kinds: &AcceptedKinds) -> LineResult<FileMesh> {
+pub(super) fn read(
+    source: impl Read,
+    accepted_element_kinds: &AcceptedKinds,
+) -> LineResult<FileMesh> {
     let mut fields = MshFields::new(source);
     let mut mesh = FileMesh::default();
-    let mut read_sections = Vec::new();
+    let mut completed_sections = Vec::new();
     // Sections before the format are read as those of version 4.
     let mut version = None;
     while let Some(section) = fields.section()? {
-        if read_sections.contains(&section) {
-            return Err(fields.fault(given_twice(format!("section ${section}"))));
+        if completed_sections.contains(&section) {
+            return Err(fields.fault(duplicate_fault(format!("section ${section}"))));
         }
-        let may_be_version_4 = version != Some(Version::Two);
+        let may_be_version_4 = version != Some(MshVersion::Two);
         match section.as_str() {
-            "MeshFormat" => version = Some(format_version(&mut fields)?),
-            "PhysicalNames" => physical_names(&mut fields, &mut mesh)?,
-            "Entities" if may_be_version_4 => version4::entities(&mut fields, &mut mesh, false)?,
+            "MeshFormat" => version = Some(read_format_version(&mut fields)?),
+            "PhysicalNames" => read_physical_names(&mut fields, &mut mesh)?,
+            "Entities" if may_be_version_4 => {
+                let is_partitioned = false;
+                version4::entities(&mut fields, &mut mesh, is_partitioned)?;
+            }
             "PartitionedEntities" if may_be_version_4 => {
                 version4::partitioned_entities(&mut fields, &mut mesh)?;
             }
             "Nodes" if may_be_version_4 => version4::nodes(&mut fields, &mut mesh)?,
             "Elements" if may_be_version_4 => {
-                version4::elements(&mut fields, &mut mesh, accepted_kinds)?;
+                version4::elements(&mut fields, &mut mesh, accepted_element_kinds)?;
             }
             "Nodes" => version2::nodes(&mut fields, &mut mesh)?,
-            "Elements" => version2::elements(&mut fields, &mut mesh, accepted_kinds)?,
+            "Elements" => version2::elements(&mut fields, &mut mesh, accepted_element_kinds)?,
             _ => {
                 fields.skip_section(&section)?;
                 continue;
             }
         }
         fields.end_section(&section)?;
-        read_sections.push(section);
+        completed_sections.push(section);
     }
     for section in ["MeshFormat", "Nodes", "Elements"] {
-        if !read_sections.iter().any(|name| name == section) {
+        if !completed_sections.iter().any(|name| name == section) {
             return Err((0, FileFault::missing(format!("section ${section}"))));
         }
     }
@@ -58,21 +64,21 @@ pub(super) fn read(source: impl Read, accepted_kinds: &AcceptedKinds) -> LineRes
 }
 
 /// Reads the section with the version of the format.
-fn format_version(fields: &mut MshFields<impl Read>) -> LineResult<Version> {
+fn read_format_version(fields: &mut MshFields<impl Read>) -> LineResult<MshVersion> {
     let version_text: String = fields.text("version of the format")?;
     let binary_flag: u8 = fields.text("0 for text, 1 for binary")?;
-    let number_bytes: u8 = fields.text("bytes of a number")?;
+    let bytes_per_number: u8 = fields.text("bytes of a number")?;
     let version = match version_text.as_str() {
-        "4.1" => Version::Four,
-        "2.2" | "2.1" | "2" => Version::Two,
+        "4.1" => MshVersion::Four,
+        "2.2" | "2.1" | "2" => MshVersion::Two,
         _ => {
             let found = format!("format {}", excerpt(&version_text));
             return Err(fields.fault(FileFault::format(found, "format 4.1 or 2.2")));
         }
     };
     if binary_flag > 0 {
-        if number_bytes != 8 {
-            let found = format!("binary numbers of {number_bytes} bytes");
+        if bytes_per_number != 8 {
+            let found = format!("binary numbers of {bytes_per_number} bytes");
             return Err(fields.fault(FileFault::format(found, "numbers of 8 bytes")));
         }
         fields.begin_binary()?;
@@ -81,14 +87,14 @@ fn format_version(fields: &mut MshFields<impl Read>) -> LineResult<Version> {
 }
 
 /// Reads the section with the names of groups.
-fn physical_names(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
+fn read_physical_names(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
     let count: usize = fields.text("number of names")?;
     for _ in 0..count {
-        let key = (fields.text("dimension")?, fields.text("tag of a group")?);
+        let group_key = (fields.text("dimension")?, fields.text("tag of a group")?);
         let name = fields.quoted_text()?;
-        if mesh.group_names.insert(key, name).is_some() {
-            let item = format!("name of group {} of dimension {}", key.1, key.0);
-            return Err(fields.fault(given_twice(item)));
+        if mesh.group_names.insert(group_key, name).is_some() {
+            let item = format!("name of group {} of dimension {}", group_key.1, group_key.0);
+            return Err(fields.fault(duplicate_fault(item)));
         }
     }
     Ok(())

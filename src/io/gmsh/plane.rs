@@ -8,7 +8,7 @@ use super::cell::{self, MeshCell, group_names};
 use super::kind::{ElementKind, KINDS_IN_PLANE};
 use super::merge::NodeMerge;
 use super::parse;
-use super::raw::given_twice;
+use super::raw::duplicate_fault;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 use crate::text::file::open_file;
@@ -165,7 +165,9 @@ impl GmshMesh {
         }
         for (index, (name, _)) in materials.iter().enumerate() {
             if materials[..index].iter().any(|(other, _)| other == name) {
-                return Err(self.file_error(given_twice(format!("material of surface '{name}'"))));
+                return Err(
+                    self.file_error(duplicate_fault(format!("material of surface '{name}'")))
+                );
             }
         }
         let mut mesh = Mesh::new();
@@ -196,7 +198,7 @@ impl GmshMesh {
                     "material of element {}, which is in the surfaces '{name}' and '{other_name}',",
                     quad.tag
                 );
-                Err(given_twice(item).of(&self.file, quad.line))
+                Err(duplicate_fault(item).of(&self.file, quad.line))
             }
             (None, _) => {
                 let surfaces = quad.groups.join("' or '");

@@ -67,6 +67,6 @@ impl FileMesh {
 }
 
 /// Fault of an item that the file may have only once.
-pub(super) fn given_twice(item: impl Into<String>) -> FileFault {
+pub(super) fn duplicate_fault(item: impl Into<String>) -> FileFault {
     FileFault::value(item, "given twice", "given once")
 }

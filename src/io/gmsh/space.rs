@@ -8,7 +8,7 @@ use super::cell::{self, MeshCell, group_names, sorted_nodes};
 use super::kind::{ElementKind, KINDS_IN_SPACE};
 use super::merge::NodeMerge;
 use super::parse;
-use super::raw::given_twice;
+use super::raw::duplicate_fault;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
 use crate::text::file::open_file;
@@ -231,7 +231,7 @@ impl GmshSpaceMesh {
                 other_name == name && other_part.dimension() == part.dimension()
             });
             if is_repeated {
-                return Err(given_twice(format!("part of group '{name}'")).of(&self.file, 0));
+                return Err(duplicate_fault(format!("part of group '{name}'")).of(&self.file, 0));
             }
         }
         Ok(())
@@ -252,7 +252,7 @@ impl GmshSpaceMesh {
                 (Some((name, _)), Some((other_name, _))) => {
                     let item =
                         format!("part of {}, in '{name}' and '{other_name}',", element_name(cell));
-                    return Err(given_twice(item).of(&self.file, cell.line));
+                    return Err(duplicate_fault(item).of(&self.file, cell.line));
                 }
             }
         }

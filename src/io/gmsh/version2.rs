@@ -5,7 +5,7 @@ use std::io::Read;
 
 use super::fields::{LineResult, MshFields};
 use super::kind::{AcceptedKinds, ElementKind};
-use super::raw::{FileCell, FileMesh, FileNode, given_twice};
+use super::raw::{FileCell, FileMesh, FileNode, duplicate_fault};
 
 /// Reads the section of nodes.
 pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
@@ -13,7 +13,7 @@ pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> L
     for (_, node_index) in (0..node_count).zip(0..) {
         let tag = fields.whole_number("tag of a node")?;
         if mesh.node_indices.insert(tag, node_index).is_some() {
-            return Err(fields.fault(given_twice(format!("node {tag}"))));
+            return Err(fields.fault(duplicate_fault(format!("node {tag}"))));
         }
         let mut coordinates = [0.0; 3];
         for coordinate in &mut coordinates {
@@ -30,7 +30,7 @@ pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> L
 pub(super) fn elements(
     fields: &mut MshFields<impl Read>,
     mesh: &mut FileMesh,
-    accepted_kinds: &AcceptedKinds,
+    accepted_element_kinds: &AcceptedKinds,
 ) -> LineResult<()> {
     let announced_count: u64 = fields.text("number of elements")?;
     let mut grouped_cells = GroupedCells::default();
@@ -44,8 +44,9 @@ pub(super) fn elements(
         let block_size: u64 =
             if single_tag.is_some() { 1 } else { fields.whole_number("number of elements")? };
         let tag_count: u64 = fields.whole_number("number of tags")?;
-        let kind =
-            accepted_kinds.kind(kind_number, block_size).map_err(|fault| fields.fault(fault))?;
+        let kind = accepted_element_kinds
+            .kind(kind_number, block_size)
+            .map_err(|fault| fields.fault(fault))?;
         for _ in 0..block_size {
             let tag = match single_tag {
                 Some(tag) => tag,

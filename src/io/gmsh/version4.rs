@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::fields::{LineResult, MshFields};
 use super::kind::AcceptedKinds;
-use super::raw::{FileCell, FileMesh, FileNode, given_twice};
+use super::raw::{FileCell, FileMesh, FileNode, duplicate_fault};
 
 /// Reads the parts of a partitioned mesh: separate entities, with the groups of their parents.
 pub(super) fn partitioned_entities(
@@ -55,7 +55,7 @@ pub(super) fn entities(
                 earlier_groups.is_some_and(|earlier| *earlier != groups && !groups.is_empty());
             if has_other_groups && !is_partitioned {
                 let item = format!("group of entity {tag} of dimension {dimension}");
-                return Err(fields.fault(given_twice(item)));
+                return Err(fields.fault(duplicate_fault(item)));
             }
             if !groups.is_empty() {
                 mesh.groups.insert((dimension, tag), groups);
@@ -83,7 +83,7 @@ pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> L
         for (_, node_index) in (0..node_count).zip(first_index..) {
             let tag = fields.count_or_tag("tag of a node")?;
             if mesh.node_indices.insert(tag, node_index).is_some() {
-                return Err(fields.fault(given_twice(format!("node {tag}"))));
+                return Err(fields.fault(duplicate_fault(format!("node {tag}"))));
             }
         }
         for _ in 0..node_count {
@@ -120,7 +120,7 @@ fn block_counts(fields: &mut MshFields<impl Read>, item: &'static str) -> LineRe
 pub(super) fn elements(
     fields: &mut MshFields<impl Read>,
     mesh: &mut FileMesh,
-    accepted_kinds: &AcceptedKinds,
+    accepted_element_kinds: &AcceptedKinds,
 ) -> LineResult<()> {
     let BlockCounts { block_count, entry_count } = block_counts(fields, "number of elements")?;
     for _ in 0..block_count {
@@ -130,7 +130,7 @@ pub(super) fn elements(
         );
         let kind_number: u32 = fields.whole_number("type of elements")?;
         let element_count = fields.count_or_tag("number of elements")?;
-        let kind = accepted_kinds
+        let kind = accepted_element_kinds
             .kind(kind_number, element_count)
             .map_err(|fault| fields.fault(fault))?;
         for _ in 0..element_count {

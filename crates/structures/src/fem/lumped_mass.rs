@@ -17,10 +17,10 @@ use crate::geometry::{Direction, PLANE_DIRECTIONS, PLANE_TRANSLATIONS, SPACE_DIR
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct LumpedMass {
-    node: [usize; 1],
+    nodes: [usize; 1],
     mass: f64,
     directions: &'static [Direction],
-    /// Rotary inertias about the rotations in `directions`, kg m²; zero without a rotation.
+    /// Rotary inertias about the rotation axes in `directions`, kg m²; zero for an axis without rotation.
     rotary_inertia: [f64; 3],
 }
 
@@ -31,15 +31,15 @@ impl LumpedMass {
     /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
     pub fn new(node: usize, mass: f64) -> Result<Self> {
         let mass = positive("lumped mass", mass)?;
-        Ok(Self { node: [node], mass, directions: PLANE_TRANSLATIONS, rotary_inertia: [0.0; 3] })
+        Ok(Self { nodes: [node], mass, directions: PLANE_TRANSLATIONS, rotary_inertia: [0.0; 3] })
     }
 
     /// Point mass (kg) of a mesh in space, with three rotary inertias.
     ///
     /// `rotary_inertia`: about x, y and z, kg m².
     ///
-    /// Without rotary inertia the mass adds no rotation degree of freedom. With any, the node gets all three
-    /// rotations; other elements should restrain the rotations without inertia.
+    /// Without rotary inertia the mass adds no rotation degree of freedom. If any inertia is above zero, the node gets
+    /// all three rotations; other elements should restrain the rotations without inertia.
     ///
     /// ```
     /// use basemat::fem::{Element, LumpedMass, MassKind};
@@ -70,13 +70,13 @@ impl LumpedMass {
     /// If the rotary inertia is above zero, the node gets a rotation. Other elements should restrain this rotation.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.
+    /// [`Error::Input`](crate::Error::Input) unless the rotary inertia is finite and not negative.
     /// [`Error::Scene`](crate::Error::Scene) for a mass in space, which has three rotary inertias.
     pub fn with_rotary_inertia(self, rotary_inertia: f64) -> Result<Self> {
         not_negative("rotary inertia of the lumped mass", rotary_inertia)?;
-        let needed = "from LumpedMass::in_space for a mass in space, about three axes";
+        let requirement = "from LumpedMass::in_space for a mass in space, about three axes";
         let is_plane = !self.directions.contains(&Direction::Z);
-        require_part("rotary inertia of the lumped mass", is_plane, needed)?;
+        require_part("rotary inertia of the lumped mass", is_plane, requirement)?;
         let directions = if rotary_inertia > 0.0 { PLANE_DIRECTIONS } else { PLANE_TRANSLATIONS };
         Ok(Self { directions, rotary_inertia: [rotary_inertia, 0.0, 0.0], ..self })
     }
@@ -84,25 +84,25 @@ impl LumpedMass {
 
 impl Element for LumpedMass {
     fn nodes(&self) -> &[usize] {
-        &self.node
+        &self.nodes
     }
 
     fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
-        Some(Box::new(Self { node: nodes.try_into().ok()?, ..self.clone() }))
+        Some(Box::new(Self { nodes: nodes.try_into().ok()?, ..self.clone() }))
     }
 
     fn directions(&self) -> &[Direction] {
         self.directions
     }
 
-    /// Adds nothing.
+    /// A lumped mass has no stiffness.
     fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         let translation_count = if self.directions.contains(&Direction::Z) { 3 } else { 2 };
-        let diagonal_step = self.order() + 1;
+        let diagonal_stride = self.order() + 1;
         let diagonal = std::iter::repeat_n(self.mass, translation_count).chain(self.rotary_inertia);
-        for (entry, value) in matrix.iter_mut().step_by(diagonal_step).zip(diagonal) {
+        for (entry, value) in matrix.iter_mut().step_by(diagonal_stride).zip(diagonal) {
             *entry += value;
         }
     }

@@ -166,14 +166,14 @@ fn check_no_variables(values: &[f64]) -> Result<()> {
     }
 }
 
-/// Whether a structure has a nonlinear force.
+/// Checks that both methods for a structure's nonlinear force return it, or neither.
 ///
 /// # Errors
 /// [`Error::Scene`] if only one of [`Structure::nonlinear`] and [`Structure::nonlinear_mut`] returns a force.
-pub fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
+pub fn check_nonlinear_force(structure: &mut dyn Structure) -> Result<()> {
     let has_force = structure.nonlinear().is_some();
     if structure.nonlinear_mut().is_some() == has_force {
-        return Ok(has_force);
+        return Ok(());
     }
     let quantity = "nonlinear force of the structure";
     let needed = "must be returned by both `nonlinear` and `nonlinear_mut`, or by neither";

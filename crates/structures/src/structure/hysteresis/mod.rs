@@ -29,7 +29,7 @@ use crate::error::{CheckpointError, Result};
 pub struct SpringResponse {
     /// Force, N per metre of thickness, positive against a positive deformation.
     pub force: f64,
-    /// Derivative of the force by the deformation, N/m per metre of thickness.
+    /// Derivative of the force with respect to the deformation, N/m per metre of thickness.
     pub tangent: f64,
 }
 
@@ -38,20 +38,20 @@ pub struct SpringResponse {
 pub struct BiaxialResponse {
     /// Components of the force, N, positive against positive deformations.
     pub force: [f64; 2],
-    /// Derivatives of the force by the deformation, N/m: a symmetric matrix, by rows.
+    /// Derivatives of the force with respect to the deformation, N/m: a symmetric matrix, row-major.
     ///
-    /// A coupled [`BoucWen`] gives the symmetric part of the derivatives; the antisymmetric part decreases with the
-    /// square of the step.
+    /// A coupled [`BoucWen`] gives the symmetric part of the derivatives; the neglected antisymmetric part is
+    /// of second order in the deformation step.
     pub tangent: [[f64; 2]; 2],
 }
 
 /// A hysteretic spring: implement this for your own law.
 ///
-/// Its force depends on its past deformations.
+/// The force of the spring depends on its past deformations.
 ///
 /// The spring stores the deformation and the internal variables of the last **committed** step. Newton's method
-/// evaluates trial deformations at the end of a straight path from there, any number of times; these evaluations change
-/// no state. [`commit`](Hysteresis::commit) accepts a deformation.
+/// evaluates trial deformations at the end of a straight path from the committed deformation, any number of times;
+/// these evaluations change no state. [`commit`](Hysteresis::commit) accepts a deformation.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, Hysteresis};
@@ -68,10 +68,10 @@ pub struct BiaxialResponse {
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait Hysteresis: Send {
-    /// Force and tangent at `deformation` (m), after a straight path from the last committed one.
+    /// Force and tangent at `deformation` (m), after a straight path from the last committed deformation.
     fn response(&self, deformation: f64) -> SpringResponse;
 
-    /// Stored and dissipated energy at `deformation`, after a straight path from the last committed one.
+    /// Stored and dissipated energy at `deformation`, after a straight path from the last committed deformation.
     ///
     /// Their sum is the work of the force along the path.
     fn energy(&self, deformation: f64) -> InternalEnergy;

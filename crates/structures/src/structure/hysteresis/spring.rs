@@ -16,29 +16,36 @@ pub(super) enum HystereticSpring {
 
 impl HystereticSpring {
     /// Deformations of the spring.
-    pub(super) fn rows(&self) -> &[DofCombination] {
+    pub(super) fn deformations(&self) -> &[DofCombination] {
         match self {
-            Self::Uniaxial(row, _) => std::slice::from_ref(row),
-            Self::Biaxial(rows, _) => rows,
-            Self::Pendulum(rows, _) => rows,
+            Self::Uniaxial(deformation, _) => std::slice::from_ref(deformation),
+            Self::Biaxial(deformations, _) => deformations,
+            Self::Pendulum(deformations, _) => deformations,
         }
     }
 
     /// Adds the force at a displacement to `force`.
     pub(super) fn add_force(&self, displacement: &[f64], force: &mut [f64]) {
         match self {
-            Self::Uniaxial(row, law) => {
-                add_spring_force(row, law.response(row.value(displacement)).force, force);
+            Self::Uniaxial(deformation, law) => {
+                add_spring_force(
+                    deformation,
+                    law.response(deformation.value(displacement)).force,
+                    force,
+                );
             }
-            Self::Biaxial(rows, law) => {
-                let response = law.response(deformations(rows, displacement));
-                for (row, value) in rows.iter().zip(response.force) {
-                    add_spring_force(row, value, force);
+            Self::Biaxial(deformations, law) => {
+                let response = law.response(deformation_values(deformations, displacement));
+                for (deformation, value) in deformations.iter().zip(response.force) {
+                    add_spring_force(deformation, value, force);
                 }
             }
-            Self::Pendulum(rows, law) => {
-                for (row, value) in rows.iter().zip(law.force(deformations(rows, displacement))) {
-                    add_spring_force(row, value, force);
+            Self::Pendulum(deformations, law) => {
+                for (deformation, value) in deformations
+                    .iter()
+                    .zip(law.force(deformation_values(deformations, displacement)))
+                {
+                    add_spring_force(deformation, value, force);
                 }
             }
         }
@@ -47,35 +54,48 @@ impl HystereticSpring {
     /// Adds the tangent at a displacement to `matrix`.
     pub(super) fn add_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
         match self {
-            Self::Uniaxial(row, law) => {
-                matrix.add_outer(row, law.response(row.value(displacement)).tangent);
+            Self::Uniaxial(deformation, law) => {
+                matrix
+                    .add_outer(deformation, law.response(deformation.value(displacement)).tangent);
             }
-            Self::Biaxial(rows, law) => {
+            Self::Biaxial(deformations, law) => {
                 add_tangent_matrix(
-                    rows,
-                    &law.response(deformations(rows, displacement)).tangent,
+                    deformations,
+                    &law.response(deformation_values(deformations, displacement)).tangent,
                     matrix,
                 );
             }
-            Self::Pendulum(rows, law) => {
-                add_tangent_matrix(rows, &law.tangent(deformations(rows, displacement)), matrix);
+            Self::Pendulum(deformations, law) => {
+                add_tangent_matrix(
+                    deformations,
+                    &law.tangent(deformation_values(deformations, displacement)),
+                    matrix,
+                );
             }
         }
     }
 
     pub(super) fn energy(&self, displacement: &[f64]) -> InternalEnergy {
         match self {
-            Self::Uniaxial(row, law) => law.energy(row.value(displacement)),
-            Self::Biaxial(rows, law) => law.energy(deformations(rows, displacement)),
-            Self::Pendulum(rows, law) => law.energy(deformations(rows, displacement)),
+            Self::Uniaxial(deformation, law) => law.energy(deformation.value(displacement)),
+            Self::Biaxial(deformations, law) => {
+                law.energy(deformation_values(deformations, displacement))
+            }
+            Self::Pendulum(deformations, law) => {
+                law.energy(deformation_values(deformations, displacement))
+            }
         }
     }
 
     pub(super) fn commit(&mut self, displacement: &[f64]) {
         match self {
-            Self::Uniaxial(row, law) => law.commit(row.value(displacement)),
-            Self::Biaxial(rows, law) => law.commit(deformations(rows, displacement)),
-            Self::Pendulum(rows, law) => law.commit(deformations(rows, displacement)),
+            Self::Uniaxial(deformation, law) => law.commit(deformation.value(displacement)),
+            Self::Biaxial(deformations, law) => {
+                law.commit(deformation_values(deformations, displacement))
+            }
+            Self::Pendulum(deformations, law) => {
+                law.commit(deformation_values(deformations, displacement))
+            }
         }
     }
 
@@ -97,18 +117,21 @@ impl HystereticSpring {
 }
 
 /// Values of the deformations at a displacement of the structure.
-fn deformations<const N: usize>(rows: &[DofCombination; N], displacement: &[f64]) -> [f64; N] {
-    rows.each_ref().map(|row| row.value(displacement))
+fn deformation_values<const N: usize>(
+    deformations: &[DofCombination; N],
+    displacement: &[f64],
+) -> [f64; N] {
+    deformations.each_ref().map(|deformation| deformation.value(displacement))
 }
 
 /// Adds the tangent matrix of a spring with these deformations to `matrix`.
 fn add_tangent_matrix<const N: usize>(
-    rows: &[DofCombination; N],
+    deformations: &[DofCombination; N],
     tangent: &[[f64; N]; N],
     matrix: &mut Triplets,
 ) {
-    for (force_row, tangent_row) in rows.iter().zip(tangent) {
-        for (deformation_row, derivative) in rows.iter().zip(tangent_row) {
+    for (force_row, tangent_row) in deformations.iter().zip(tangent) {
+        for (deformation_row, derivative) in deformations.iter().zip(tangent_row) {
             for &(i, a) in force_row {
                 deformation_row.iter().for_each(|&(j, b)| matrix.add(i, j, derivative * a * b));
             }
@@ -116,11 +139,11 @@ fn add_tangent_matrix<const N: usize>(
     }
 }
 
-/// Adds a spring force on the deformation `row` to the nodal `forces`.
+/// Adds a spring force on a `deformation` to the nodal `forces`.
 ///
 /// Degrees of freedom beyond the end of `forces` do not count.
-fn add_spring_force(row: &DofCombination, spring_force: f64, forces: &mut [f64]) {
-    for &(dof, weight) in row {
+fn add_spring_force(deformation: &DofCombination, spring_force: f64, forces: &mut [f64]) {
+    for &(dof, weight) in deformation {
         if let Some(force) = forces.get_mut(dof) {
             *force += weight * spring_force;
         }

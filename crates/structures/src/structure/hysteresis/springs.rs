@@ -5,7 +5,7 @@ use super::biaxial::BiaxialSpring;
 use super::pendulum_bearing::PendulumBearing;
 use super::spring::HystereticSpring;
 use crate::error::{CheckpointError, Result};
-use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use crate::structure::nonlinear::{check_nonlinear_force, restore_variables, save_variables};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
 
 /// Hysteretic springs of a structure, as its nonlinear force.
@@ -13,40 +13,40 @@ use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure
 pub(crate) struct HystereticSprings(Vec<HystereticSpring>);
 
 impl HystereticSprings {
-    /// Adds a spring to a structure with this number of degrees of freedom.
-    pub(crate) fn add(
+    /// Adds a spring with one deformation to a structure with `dof_count` degrees of freedom.
+    pub(crate) fn add_uniaxial(
         &mut self,
-        row: DofCombination,
+        deformation: DofCombination,
         law: Box<dyn Hysteresis>,
-        dofs: usize,
+        dof_count: usize,
     ) -> Result<()> {
-        self.attach(HystereticSpring::Uniaxial(row, law), dofs)
+        self.attach(HystereticSpring::Uniaxial(deformation, law), dof_count)
     }
 
     /// Adds a spring with two deformations.
     pub(crate) fn add_biaxial(
         &mut self,
-        rows: [DofCombination; 2],
-        law: BiaxialSpring,
-        dofs: usize,
+        deformations: [DofCombination; 2],
+        spring: BiaxialSpring,
+        dof_count: usize,
     ) -> Result<()> {
-        self.attach(HystereticSpring::Biaxial(rows, law), dofs)
+        self.attach(HystereticSpring::Biaxial(deformations, spring), dof_count)
     }
 
     /// Adds a bearing with three deformations.
     pub(crate) fn add_pendulum(
         &mut self,
-        rows: [DofCombination; 3],
-        law: PendulumBearing,
-        dofs: usize,
+        deformations: [DofCombination; 3],
+        bearing: PendulumBearing,
+        dof_count: usize,
     ) -> Result<()> {
-        self.attach(HystereticSpring::Pendulum(rows, law), dofs)
+        self.attach(HystereticSpring::Pendulum(deformations, bearing), dof_count)
     }
 
     /// Adds a spring after a check of its degrees of freedom.
-    fn attach(&mut self, spring: HystereticSpring, dofs: usize) -> Result<()> {
-        for row in spring.rows() {
-            row.check("degree of freedom of a spring", dofs)?;
+    fn attach(&mut self, spring: HystereticSpring, dof_count: usize) -> Result<()> {
+        for deformation in spring.deformations() {
+            deformation.check("degree of freedom of a spring", dof_count)?;
         }
         self.0.push(spring);
         Ok(())
@@ -74,11 +74,11 @@ impl HystereticSprings {
     }
 
     /// Internal variables of all springs.
-    fn state(&self) -> Vec<f64> {
+    fn internal_variables(&self) -> Vec<f64> {
         self.0.iter().flat_map(HystereticSpring::save).collect()
     }
 
-    /// Restores springs until the first error.
+    /// Restores the springs in order; stops at the first error.
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
         let mut remaining_values = values;
         for spring in &mut self.0 {
@@ -111,18 +111,18 @@ impl NonlinearForce for HystereticSprings {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        Ok(self.state())
+        Ok(self.internal_variables())
     }
 
     /// Restores the variables of all springs; on an error no spring changes.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let previous_state = self.state();
-        if values.len() != previous_state.len() {
+        let previous_variables = self.internal_variables();
+        if values.len() != previous_variables.len() {
             return Err(CheckpointError::Corrupt { quantity: "state of the springs" }.into());
         }
         let result = self.try_restore(values);
         if result.is_err() {
-            self.try_restore(&previous_state)?;
+            self.try_restore(&previous_variables)?;
         }
         result
     }
@@ -172,46 +172,48 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }
 
-    /// Adds a spring with the deformation `row`.
+    /// Adds a spring with one `deformation`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have,
     /// [`Error::Input`](crate::Error::Input) for a weight that is not finite.
     pub fn spring(
         mut self,
-        row: impl Into<DofCombination>,
+        deformation: impl Into<DofCombination>,
         law: impl Hysteresis + 'static,
     ) -> Result<Self> {
-        self.springs.add(row.into(), Box::new(law), self.structure.dofs())?;
+        self.springs.add_uniaxial(deformation.into(), Box::new(law), self.structure.dofs())?;
         Ok(self)
     }
 
-    /// Adds a spring with the deformations `rows` in two directions at a right angle.
+    /// Adds a spring with two `deformations` at a right angle.
     ///
     /// # Errors
     /// As for [`spring`](WithSprings::spring).
     pub fn biaxial_spring(
         mut self,
-        rows: [impl Into<DofCombination>; 2],
-        law: BiaxialSpring,
+        deformations: [impl Into<DofCombination>; 2],
+        spring: BiaxialSpring,
     ) -> Result<Self> {
-        self.springs.add_biaxial(rows.map(Into::into), law, self.structure.dofs())?;
+        self.springs
+            .add_biaxial(deformations.map(Into::into), spring, self.structure.dofs())?;
         Ok(self)
     }
 
     /// Adds a friction pendulum that supports the structure.
     ///
-    /// `rows`: its deformations along x, along y and up. The bearing has a vertical stiffness: the structure must have
+    /// `deformations`: along x, along y and up. The bearing has a vertical stiffness: the structure must have
     /// none there.
     ///
     /// # Errors
     /// As for [`spring`](WithSprings::spring).
     pub fn pendulum(
         mut self,
-        rows: [impl Into<DofCombination>; 3],
-        law: PendulumBearing,
+        deformations: [impl Into<DofCombination>; 3],
+        bearing: PendulumBearing,
     ) -> Result<Self> {
-        self.springs.add_pendulum(rows.map(Into::into), law, self.structure.dofs())?;
+        self.springs
+            .add_pendulum(deformations.map(Into::into), bearing, self.structure.dofs())?;
         Ok(self)
     }
 }
@@ -233,7 +235,7 @@ impl Structure for WithSprings {
         if self.springs.is_empty() {
             return self.structure.nonlinear_mut();
         }
-        is_nonlinear(self.structure.as_mut()).is_ok().then_some(self)
+        check_nonlinear_force(self.structure.as_mut()).is_ok().then_some(self)
     }
 }
 
@@ -254,10 +256,10 @@ impl NonlinearForce for WithSprings {
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let springs = self.springs.energy(displacement)?;
+        let spring_energy = self.springs.energy(displacement)?;
         match self.structure.nonlinear() {
-            Some(structure_force) => Some(structure_force.energy(displacement)? + springs),
-            None => Some(springs),
+            Some(structure_force) => Some(structure_force.energy(displacement)? + spring_energy),
+            None => Some(spring_energy),
         }
     }
 
@@ -269,18 +271,18 @@ impl NonlinearForce for WithSprings {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let mut values = self.springs.state();
+        let mut values = self.springs.internal_variables();
         values.extend(save_variables(self.structure.as_ref())?);
         Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         let variable_count = self.springs.variable_count().min(values.len());
-        let previous_state = self.springs.state();
+        let previous_variables = self.springs.internal_variables();
         self.springs.restore(&values[..variable_count])?;
         let result = restore_variables(self.structure.as_mut(), &values[variable_count..]);
         if result.is_err() {
-            self.springs.restore(&previous_state)?;
+            self.springs.restore(&previous_variables)?;
         }
         result
     }

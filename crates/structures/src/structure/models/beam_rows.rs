@@ -89,18 +89,18 @@ impl FemModel {
         let beam = self.mesh.elements().nth(element).ok_or_else(not_a_beam)?;
         let points = self.mesh.coordinates(beam.nodes());
         let frame = end_frame(beam, &points).ok_or_else(not_a_beam)?;
-        let order = beam.order();
-        let mut matrix = vec![0.0; order * order];
-        beam.stiffness(&points, &mut matrix);
-        beam.geometric_stiffness(&points, &mut matrix);
-        let mut dofs = Vec::with_capacity(order);
+        let dof_count = beam.order();
+        let mut stiffness = vec![0.0; dof_count * dof_count];
+        beam.stiffness(&points, &mut stiffness);
+        beam.geometric_stiffness(&points, &mut stiffness);
+        let mut dofs = Vec::with_capacity(dof_count);
         self.numbering.element_dofs(beam, &mut dofs);
         let ends = [0, 1].map(|end| {
             let row = |is_moment: bool, axis: [f64; 3]| {
-                let terms = end_force_row(beam.directions(), &frame, end, is_moment, axis, &matrix);
-                self.remaining_row(
-                    dofs.iter().copied().zip(terms).filter(|term| term.1 != 0.0).collect(),
-                )
+                let weights =
+                    end_force_row(beam.directions(), &frame, end, is_moment, axis, &stiffness);
+                let weighted_dofs = dofs.iter().copied().zip(weights);
+                self.remaining_row(weighted_dofs.filter(|(_, weight)| *weight != 0.0).collect())
             };
             BeamEndRows {
                 node: beam.nodes()[end],
@@ -113,20 +113,22 @@ impl FemModel {
         Ok(BeamRows { axes: frame.axes, ends })
     }
 
-    /// Rows of a force.
+    /// Adds the unit of a force to its weights.
     fn force_rows(&self, displacement: DofCombination) -> SectionRows {
         let unit = if self.mesh.has_depth() { "N" } else { "N/m" };
         SectionRows { unit, displacement, ..SectionRows::default() }
     }
 
-    /// Rows of a moment.
+    /// Adds the unit of a moment to its weights.
     fn moment_rows(&self, displacement: DofCombination) -> SectionRows {
         let unit = if self.mesh.has_depth() { "N·m" } else { "N·m/m" };
         SectionRows { unit, displacement, ..SectionRows::default() }
     }
 }
 
-/// Axes and offsets of a beam, also if it is in a box; `None` for another element.
+/// Axes and offsets of a beam; `None` for another element.
+///
+/// A boxed element is unboxed first.
 fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
     let any: &dyn Any = element;
     if let Some(inner) = any.downcast_ref::<Box<dyn Element>>() {
@@ -138,37 +140,40 @@ fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame
     any.downcast_ref::<Beam>()?.end_frame(coordinates)
 }
 
-/// Weights of the displacements of a beam's nodes in the force or moment along `axis` at an end.
+/// Weights of the nodal displacements in one end force or moment.
 ///
-/// `matrix`: stiffness of the element, whose product with the displacements is the force of the nodes on the beam. The
-/// force at the end is the force of its node, and its resultant is the work on a unit rigid motion about the end.
+/// `stiffness`: matrix of the element; its product with the displacements is the force of the nodes on the beam. The
+/// component along `axis` is the work of the nodal forces in a unit rigid motion about the end.
 fn end_force_row(
     directions: &[Direction],
     frame: &EndFrame,
     end: usize,
     is_moment: bool,
     axis: [f64; 3],
-    matrix: &[f64],
+    stiffness: &[f64],
 ) -> Vec<f64> {
-    let order = 2 * directions.len();
-    // With the outward normal x, the section at the second end has the force of its node, that at the first end the
-    // opposite force.
+    let dof_count = 2 * directions.len();
+    // The outward normal is x: the section force equals the nodal force at the second end, and its negative at the
+    // first end.
     let sign = if end == 0 { -1.0 } else { 1.0 };
     let arm_to_node = frame.offsets[end].map(|offset| -offset);
-    let motions = if is_moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
-    let mut row = vec![0.0; order];
+    let rigid_motions = if is_moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
+    let mut row = vec![0.0; dof_count];
     for (k, direction) in directions.iter().enumerate() {
         // The rotation of a mesh in the plane is about z.
         let space_direction =
             if *direction == Direction::Rotation { Direction::RotationZ } else { *direction };
-        let weight: f64 = motions
+        let weight: f64 = rigid_motions
             .iter()
             .zip(axis)
-            .map(|(&motion, part)| part * space_direction.in_rigid_motion(motion, arm_to_node))
+            .map(|(&motion, axis_component)| {
+                axis_component * space_direction.in_rigid_motion(motion, arm_to_node)
+            })
             .sum();
-        let row_start = (end * directions.len() + k) * order;
-        for (sum, entry) in row.iter_mut().zip(&matrix[row_start..row_start + order]) {
-            *sum += sign * weight * entry;
+        let row_start = (end * directions.len() + k) * dof_count;
+        for (weight_sum, entry) in row.iter_mut().zip(&stiffness[row_start..row_start + dof_count])
+        {
+            *weight_sum += sign * weight * entry;
         }
     }
     row

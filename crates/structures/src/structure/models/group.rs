@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::error::{Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::dof_list_text;
-use crate::structure::nonlinear::is_nonlinear;
+use crate::structure::nonlinear::check_nonlinear_force;
 use crate::structure::probe::Probe;
 use crate::structure::{
     Base, BaseNode, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
@@ -317,7 +317,7 @@ impl Structure for StructureGroup {
         let has_force = self.nonlinear().is_some();
         // If a member returns its force by only one of the two methods, so does the group.
         let is_consistent =
-            self.members.iter_mut().all(|m| is_nonlinear(m.structure.as_mut()).is_ok());
+            self.members.iter_mut().all(|m| check_nonlinear_force(m.structure.as_mut()).is_ok());
         (has_force == is_consistent).then_some(self)
     }
 }

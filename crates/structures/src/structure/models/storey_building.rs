@@ -153,7 +153,7 @@ impl StoreyBuilding {
         let row = self.drift(storey)?.into_iter().nth(direction).ok_or(fault)?;
         self.replace_stiffness(storey, direction)?;
         let dofs = self.dofs();
-        self.springs.add(row, Box::new(law), dofs)?;
+        self.springs.add_uniaxial(row, Box::new(law), dofs)?;
         Ok(self)
     }
 

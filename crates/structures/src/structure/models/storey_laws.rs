@@ -52,7 +52,7 @@ impl ShearBuilding {
         require_part("law of a storey", is_first, "one law at most")?;
         self.check_buckling(storey)?;
         let dofs = self.dofs();
-        self.springs.add(drift, Box::new(law), dofs)?;
+        self.springs.add_uniaxial(drift, Box::new(law), dofs)?;
         Ok(self)
     }
 

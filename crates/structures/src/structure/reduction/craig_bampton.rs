@@ -16,7 +16,7 @@ use crate::error::{Result, damping_ratio, require_part, same_length};
 use crate::linalg::{SparseMatrix, dot};
 use crate::structure::detached::{check_attached, dof_list_text};
 use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
-use crate::structure::nonlinear::is_nonlinear;
+use crate::structure::nonlinear::check_nonlinear_force;
 use crate::structure::{Base, Structure, StructureDescription, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
@@ -112,7 +112,8 @@ impl CraigBampton {
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
         let needed = "must be linear: add springs to the reduced model";
-        require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
+        check_nonlinear_force(&mut structure)?;
+        require_part("structure to be reduced", structure.nonlinear().is_none(), needed)?;
         let mut triplets = Triplets::new(n);
         let mass = symmetric_matrix("mass matrix", &mut triplets, &|m| structure.mass(m))?;
         let stiffness =
