@@ -196,7 +196,7 @@ impl Interaction {
             rows.push(comparison_row(&ground.name, unit, &ground.extremes, &fixed.extremes));
         }
         let heading = ["Largest", "unit", "on the ground", "fixed base", "ratio"];
-        Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
+        Table { heading: heading.map(str::to_owned).to_vec(), repeated_column_count: 1, rows }
     }
 }
 

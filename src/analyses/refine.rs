@@ -302,7 +302,7 @@ pub(crate) fn table(refinements: &[(&str, &Refinement)]) -> String {
     if has_values {
         rows.push(last_row);
     }
-    Table { heading, repeated: 2, rows }.text()
+    Table { heading, repeated_column_count: 2, rows }.text()
 }
 
 impl fmt::Display for Refinement {

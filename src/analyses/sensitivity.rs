@@ -169,7 +169,7 @@ impl fmt::Display for Sensitivity {
             cells.extend([peak.digits().to_string(), peak.quoted()]);
             rows.push(cells);
         }
-        f.write_str(&Table { heading, repeated: 1, rows }.text())
+        f.write_str(&Table { heading, repeated_column_count: 1, rows }.text())
     }
 }
 

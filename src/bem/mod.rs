@@ -233,12 +233,13 @@ pub trait Ground: Any + Send {
 ///
 /// Calls [`FreeField::at_faces`] for elements with walls and [`Ground::free_field`] for all others. Returns whether
 /// `motion` is defined at all elements.
-pub(crate) fn free_field(
+pub(crate) fn fill_free_field(
     ground: &dyn Ground,
     motion: &dyn FreeField,
     elements: &Patch,
     time: f64,
-    [displacement, impulse]: [&mut [f64]; 2],
+    displacement: &mut [f64],
+    impulse: &mut [f64],
 ) -> bool {
     if elements.has_walls() {
         return motion.at_faces(elements, time, displacement, impulse);

@@ -16,10 +16,10 @@ const MAX_STORED_KERNELS: usize = 8;
 ///
 /// Grounds with clones of one store ([`ElasticGround::with_shared_kernels`],
 /// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
-/// store holds the eight combinations of soil, mesh and step used last. Results are the same to the last bit.
+/// store holds the eight combinations of soil, mesh and step used last. Results are bitwise identical.
 /// [`WeightsSource::identity`] decides whether two soils are the same. A thread waits for weights that another thread
 /// is computing. A source may request the weights of other sources from the same store during its computation. Sources
-/// on several threads that request each other's weights wait without end.
+/// on several threads that request each other's weights end in a deadlock.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
@@ -48,39 +48,41 @@ pub struct SharedKernels {
 /// Table of kernels behind a lock, and the signal to waiting threads.
 #[derive(Debug, Default)]
 struct Store {
-    kernels: Mutex<KernelTable>,
-    /// Notifies waiting threads that the computation of a kernel has ended, with or without an error.
+    table: Mutex<WeightsTable>,
+    /// Signals waiting threads that a computation has ended.
+    ///
+    /// The computation may have ended in an error.
     computation_ended: Condvar,
 }
 
 /// Stored kernels, and the kernels in computation.
 #[derive(Debug, Default)]
-struct KernelTable {
+struct WeightsTable {
     /// Stored kernels, the last used one at the end.
-    entries: Vec<StoredKernel>,
+    entries: Vec<StoredWeights>,
     /// Kernels that are being computed, each with its thread.
-    in_progress: Vec<(Arc<KernelKey>, ThreadId)>,
+    in_progress: Vec<(Arc<WeightsKey>, ThreadId)>,
 }
 
 /// Soil, time step and elements that determine a kernel.
 #[derive(Debug, PartialEq)]
-struct KernelKey {
+struct WeightsKey {
     source_type: TypeId,
     identity: Vec<f64>,
     time_step: f64,
     elements: Vec<ContactElement>,
 }
 
-struct StoredKernel {
-    key: Arc<KernelKey>,
+struct StoredWeights {
+    key: Arc<WeightsKey>,
     kernel: Arc<dyn ConvolutionWeights>,
 }
 
-short_debug! { StoredKernel; self; identity: self.key.identity, time_step: self.key.time_step }
+short_debug! { StoredWeights; self; identity: self.key.identity, time_step: self.key.time_step }
 
-impl KernelTable {
+impl WeightsTable {
     /// Thread that is computing the kernel of `key`.
-    fn computing_thread(&self, key: &KernelKey) -> Option<ThreadId> {
+    fn computing_thread(&self, key: &WeightsKey) -> Option<ThreadId> {
         self.in_progress
             .iter()
             .find(|(computed_key, _)| **computed_key == *key)
@@ -90,25 +92,28 @@ impl KernelTable {
 
 /// Kernel in computation; its drop ends the wait of other threads.
 struct KernelInProgress<'a> {
-    store: &'a SharedKernels,
-    key: &'a Arc<KernelKey>,
+    shared_kernels: &'a SharedKernels,
+    key: &'a Arc<WeightsKey>,
 }
 
 impl Drop for KernelInProgress<'_> {
     fn drop(&mut self) {
-        self.store.kernels().in_progress.retain(|(key, _)| !Arc::ptr_eq(key, self.key));
-        self.store.store.computation_ended.notify_all();
+        self.shared_kernels
+            .lock_table()
+            .in_progress
+            .retain(|(key, _)| !Arc::ptr_eq(key, self.key));
+        self.shared_kernels.store.computation_ended.notify_all();
     }
 }
 
 impl SharedKernels {
     /// Number of kernels stored.
     pub fn count(&self) -> usize {
-        self.kernels().entries.len()
+        self.lock_table().entries.len()
     }
 
-    fn kernels(&self) -> MutexGuard<'_, KernelTable> {
-        self.store.kernels.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock_table(&self) -> MutexGuard<'_, WeightsTable> {
+        self.store.table.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Returns the stored or newly computed kernel of these elements.
@@ -124,49 +129,50 @@ impl SharedKernels {
             return source.kernel(elements, time_step);
         };
         let source_as_any: &dyn Any = source;
-        let key = Arc::new(KernelKey {
+        let key = Arc::new(WeightsKey {
             source_type: source_as_any.type_id(),
             identity,
             time_step,
             elements: elements.to_vec(),
         });
-        if let Some(kernel) = self.stored_kernel_or_begin(&key)? {
+        if let Some(kernel) = self.stored_kernel_or_reserve(&key)? {
             return Ok(kernel);
         }
         // The store is not locked while the kernel is computed: the kernel may need other kernels.
-        let in_progress = KernelInProgress { store: self, key: &key };
+        let in_progress = KernelInProgress { shared_kernels: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
-        let mut kernels = self.kernels();
-        if kernels.entries.len() == MAX_STORED_KERNELS {
-            kernels.entries.remove(0);
+        let mut table = self.lock_table();
+        if table.entries.len() == MAX_STORED_KERNELS {
+            table.entries.remove(0);
         }
-        kernels
+        table
             .entries
-            .push(StoredKernel { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
-        drop(kernels);
+            .push(StoredWeights { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
+        drop(table);
         drop(in_progress);
         Ok(kernel)
     }
 
-    /// Returns the stored kernel of `key`, or `None` after it has marked the kernel as in computation by the caller.
+    /// Returns the stored kernel, or reserves its computation.
     ///
-    /// Waits while another thread computes the kernel.
-    fn stored_kernel_or_begin(
+    /// `None` means that the caller has to compute the kernel of `key`. The function waits while
+    /// another thread computes the kernel.
+    fn stored_kernel_or_reserve(
         &self,
-        key: &Arc<KernelKey>,
+        key: &Arc<WeightsKey>,
     ) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
         let this_thread = thread::current().id();
-        let mut kernels = self.kernels();
+        let mut table = self.lock_table();
         loop {
-            if let Some(index) = kernels.entries.iter().position(|entry| entry.key == *key) {
+            if let Some(index) = table.entries.iter().position(|entry| entry.key == *key) {
                 // The kernel used last moves to the end, because the first one is removed first.
-                let entry = kernels.entries.remove(index);
+                let entry = table.entries.remove(index);
                 let kernel = Arc::clone(&entry.kernel);
-                kernels.entries.push(entry);
+                table.entries.push(entry);
                 return Ok(Some(kernel));
             }
-            let Some(computing_thread) = kernels.computing_thread(key) else {
-                kernels.in_progress.push((Arc::clone(key), this_thread));
+            let Some(computing_thread) = table.computing_thread(key) else {
+                table.in_progress.push((Arc::clone(key), this_thread));
                 return Ok(None);
             };
             if computing_thread == this_thread {
@@ -175,8 +181,8 @@ impl SharedKernels {
                     needed: "must not request the kernel that it is computing from the shared kernels",
                 });
             }
-            kernels =
-                self.store.computation_ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
+            table =
+                self.store.computation_ended.wait(table).unwrap_or_else(PoisonError::into_inner);
         }
     }
 }

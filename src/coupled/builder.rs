@@ -48,7 +48,7 @@ pub struct SimulationBuilder {
     pub(crate) expected_steps: usize,
     pub(crate) coordinates: Coordinates,
     pub(crate) has_energy_balance: bool,
-    pub(crate) safety_friction: Vec<f64>,
+    pub(crate) safety_friction_coefficients: Vec<f64>,
     pub(crate) serviceability: Serviceability,
     /// Rotation of a base at which a run ends, rad.
     pub(crate) rotation_limit: f64,
@@ -92,7 +92,7 @@ impl SimulationBuilder {
             expected_steps: 0,
             coordinates: Coordinates::default(),
             has_energy_balance: true,
-            safety_friction: Vec::new(),
+            safety_friction_coefficients: Vec::new(),
             serviceability: Serviceability::default(),
             rotation_limit: DEFAULT_ROTATION_LIMIT,
             has_fixed_base: false,
@@ -102,7 +102,7 @@ impl SimulationBuilder {
     }
 
     /// Whether weight and loads act before the run begins.
-    pub(crate) fn is_static(&self) -> bool {
+    pub(crate) fn has_static_loads(&self) -> bool {
         self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
     }
 
@@ -277,7 +277,7 @@ impl SimulationBuilder {
     /// change nothing else.
     #[must_use]
     pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
-        self.safety_friction = coefficients.into();
+        self.safety_friction_coefficients = coefficients.into();
         self
     }
 

@@ -89,7 +89,7 @@ pub(crate) fn conditioning(
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.operators_and_contact_mut();
     let order = scene.layout().len();
-    let effective_stiffness = operators.condition(&scene.model, &scene.coefficients)?;
+    let effective_stiffness = operators.condition_number(&scene.model, &scene.coefficients)?;
     let ground = match scene.step_compliance.as_diagonal() {
         // A diagonal matrix scaled by its diagonal is the identity.
         Some(_) => 1.0,
@@ -141,7 +141,7 @@ fn cause_of_stiffness_condition(scene: &Scene, operators: &Operators, condition:
     let model = &scene.model;
     let stiffnesses = operators.stiffness_diagonal(model, c);
     let mut inertia_ratio: f64 = 0.0;
-    for vector in model.influence.whole_vectors(model.coordinates) {
+    for vector in model.influence.whole_vectors(model.coordinate_count) {
         let resistance: f64 = stiffnesses.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
         let inertia = c.acceleration[0] * model.mass.form(&vector, &vector);
         inertia_ratio = inertia_ratio.max(resistance / inertia);

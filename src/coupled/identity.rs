@@ -155,10 +155,10 @@ impl Simulation {
     pub(crate) fn identity(&self) -> Identity {
         let Self { scene, state, .. } = self;
         let model = &scene.model;
-        // The sign of each mode is arbitrary. The columns of a nonlinear structure have no modes and change.
-        let columns =
-            self.solver.operators().columns.iter().enumerate().filter(|_| model.is_linear);
-        let signed_sum = columns.map(|(k, value)| (k as f64).cos() * value).sum();
+        // The sign of each mode is arbitrary. The responses of a nonlinear structure have no modes and change.
+        let operators = self.solver.operators();
+        let responses = operators.traction_responses.iter().enumerate().filter(|_| model.is_linear);
+        let signed_sum = responses.map(|(k, value)| (k as f64).cos() * value).sum();
         let c = scene.coefficients;
         let mut scheme_numbers = vec![scene.time_step];
         for row in [c.acceleration, c.velocity, c.displacement] {

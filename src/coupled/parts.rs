@@ -1,8 +1,8 @@
-//! Parts of a simulation, each checked alone.
+//! Parts of a simulation, each checked separately.
 
 use std::sync::Arc;
 
-use crate::bem::{Ground, GroundDescription, free_field};
+use crate::bem::{Ground, GroundDescription, fill_free_field};
 use crate::contact::ContactSearch;
 use crate::coupled::base::fixed_base::on_fixed_base;
 use crate::coupled::builder::SimulationBuilder;
@@ -25,7 +25,7 @@ use crate::structure::{Structure, check_nonlinear_force, check_probes};
 /// All parts of a simulation, and the operators of ground and time scheme.
 pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
-    /// The ground, prepared for steps.
+    /// The ground, prepared for time stepping.
     pub(crate) ground: Box<dyn Ground>,
     /// Soil of the ground, as described before its preparation.
     pub(crate) description: GroundDescription,
@@ -37,14 +37,14 @@ pub(crate) struct Parts {
     pub(crate) step_compliance: Arc<CompressedMatrix>,
     /// Whether the ground's damping is of first order in the time step.
     pub(crate) is_first_order_ground: bool,
-    /// Displacement of the free field at t = 0, m, 2Q or 3Q.
+    /// Free-field displacement at t = 0 (m); 2Q entries, 3Q in plan, for Q elements.
     pub(crate) initial_free_field: Vec<f64>,
     /// Point `[x, y]` to which the base moment refers, m.
     pub(crate) moment_center: [f64; 2],
 }
 
 impl Parts {
-    /// Checks each part alone, and prepares the ground for steps.
+    /// Checks each part separately, and prepares the ground for time stepping.
     pub(crate) fn new(mut builder: SimulationBuilder) -> Result<Self> {
         let time_step = positive("time step", builder.time_step)?;
         positive("square of the time step", time_step * time_step)?;
@@ -61,7 +61,7 @@ impl Parts {
         let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
-        // Some grounds know only after their preparation whether they are a bed.
+        // For some grounds, whether they are a bed is determined only by the preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
             check_count(elements.len(), components)?;
         }
@@ -77,20 +77,23 @@ impl Parts {
         let layout = elements.layout();
         let element_count = elements.len();
         // The laws may rely on gravity only if there is pressure at the start.
-        let gravity = if builder.is_static() { builder.gravity } else { 0.0 };
+        let initial_gravity = if builder.has_static_loads() { builder.gravity } else { 0.0 };
         check_laws(
             &builder.laws,
             builder.search,
-            &ContactScene { gravity, time_step },
+            &ContactScene { gravity: initial_gravity, time_step },
             element_count,
         )?;
         if LawForm::of(layout) == LawForm::Limits {
             check_limits(&builder)?;
         }
-        builder.safety_friction =
-            safety_friction(&builder.laws, builder.safety_friction, element_count)?;
+        builder.safety_friction_coefficients = safety_friction_coefficients(
+            &builder.laws,
+            builder.safety_friction_coefficients,
+            element_count,
+        )?;
         let dofs = structure.dofs();
-        check_dofs(dofs, layout.len())?;
+        check_response_memory(dofs, layout.len())?;
         check_probes(&builder.probes, dofs)?;
         check_loads_and_initial_motion(&builder, dofs)?;
         let coefficients = builder.scheme.coefficients(time_step);
@@ -124,7 +127,7 @@ impl Parts {
     }
 }
 
-/// Displacement of the free field at t = 0.
+/// Free-field displacement at t = 0.
 fn free_field_at_start(
     ground: &dyn Ground,
     description: &GroundDescription,
@@ -133,11 +136,12 @@ fn free_field_at_start(
 ) -> Result<Vec<f64>> {
     let mut displacement = vec![0.0; elements.layout().len()];
     let mut impulse = displacement.clone();
-    let is_defined = free_field(ground, motion, elements, 0.0, [&mut displacement, &mut impulse]);
+    let is_defined =
+        fill_free_field(ground, motion, elements, 0.0, &mut displacement, &mut impulse);
     if elements.has_walls() {
-        let soils = motion.soils().zip(description.identity.as_ref());
-        let has_same_soil =
-            soils.is_none_or(|(motion_soil, ground_soil)| *motion_soil == ground_soil[..]);
+        let soil_identities = motion.soils().zip(description.identity.as_ref());
+        let has_same_soil = soil_identities
+            .is_none_or(|(motion_soil, ground_soil)| *motion_soil == ground_soil[..]);
         let needed =
             "one that is defined at the walls of this ground: a `TrenchMotion` made for it";
         require_part("free field", is_defined && has_same_soil, needed)?;
@@ -148,7 +152,7 @@ fn free_field_at_start(
     Ok(displacement)
 }
 
-/// Error for loads or an initial motion that do not fit the structure, or are not finite.
+/// Checks that loads and initial motion fit the structure and are finite.
 fn check_loads_and_initial_motion(builder: &SimulationBuilder, dofs: usize) -> Result<()> {
     for (index, load) in builder.loads.iter().enumerate() {
         load.check(index, dofs)?;
@@ -165,21 +169,21 @@ fn check_loads_and_initial_motion(builder: &SimulationBuilder, dofs: usize) -> R
     Ok(())
 }
 
-/// Memory of a response and of its copy during the computation, per degree of freedom.
-const RESPONSE_BYTES: f64 = 16.0;
+/// Bytes per response entry: two `f64`, the response and its working copy.
+const BYTES_PER_RESPONSE_ENTRY: f64 = 16.0;
 
-/// Error for more degrees of freedom than fit into memory.
+/// Checks that the responses to unit tractions fit into memory.
 ///
-/// The responses of all degrees of freedom to `traction_count` unit tractions need memory too, twice as much during
-/// their computation as afterwards.
-fn check_dofs(dofs: usize, traction_count: usize) -> Result<()> {
+/// All degrees of freedom respond to each of `traction_count` unit tractions. The responses need twice as much memory
+/// during their computation as afterwards.
+fn check_response_memory(dofs: usize, traction_count: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
-    let bytes = RESPONSE_BYTES * dofs as f64 * traction_count as f64;
+    let bytes = BYTES_PER_RESPONSE_ENTRY * dofs as f64 * traction_count as f64;
     let quantity = "degrees of freedom of the structure on its contact elements";
     Ok(memory::check(quantity, dofs as f64, bytes)?)
 }
 
-/// Error unless the laws fit the ground's elements and the scene, and the contact search is valid.
+/// Checks the interface laws and the contact search.
 fn check_laws(
     laws: &[Box<dyn InterfaceLaw>],
     search: ContactSearch,
@@ -189,20 +193,21 @@ fn check_laws(
     let needed = "give one to the builder with `interface`";
     require_part("interface law", !laws.is_empty(), needed)?;
     check_list(laws, element_count)?;
-    let has_iterations = search != ContactSearch::FlowChart { iterations: 0 };
-    require_part("contact search", has_iterations, "the flow chart needs one iteration or more")?;
+    let is_valid_search = search != ContactSearch::FlowChart { iterations: 0 };
+    require_part("contact search", is_valid_search, "the flow chart needs one iteration or more")?;
     laws.iter().try_for_each(|law| law.check(scene))
 }
 
-/// Error in plan for laws without limits, and for a contact search of the plane.
+/// Checks that laws and contact search suit a ground in plan.
 fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     let needed =
         "must be the robust one on a ground in plan: the flow chart exists only in the plane";
     require_part("contact search", builder.search == ContactSearch::Robust, needed)?;
-    let start = PreviousContact::new(ContactState::default(), Mode::Stick, builder.time_step);
+    let initial_contact =
+        PreviousContact::new(ContactState::default(), Mode::Stick, builder.time_step);
     builder.laws.iter().try_for_each(|law| {
-        law.limits(&start.with_state_variables(&start.first_state_variables(law)))
-            .map(|_| ())
+        let state_variables = initial_contact.first_state_variables(law);
+        law.limits(&initial_contact.with_state_variables(&state_variables)).map(|_| ())
     })
 }
 
@@ -210,7 +215,7 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
 ///
 /// The builder's coefficients replace the coefficients of the laws. The list has one coefficient for all elements, or one for
 /// each. It is empty if the builder has none and a law has none.
-fn safety_friction(
+fn safety_friction_coefficients(
     laws: &[Box<dyn InterfaceLaw>],
     builder_coefficients: Vec<f64>,
     element_count: usize,

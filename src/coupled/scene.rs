@@ -73,7 +73,7 @@ impl SteppedProbe {
                 rigid_displacements.push(
                     part.vectors
                         .each_ref()
-                        .map(|vector| weights[0].value(&spread(vector, model.coordinates))),
+                        .map(|vector| weights[0].value(&spread(vector, model.coordinate_count))),
                 );
             }
         }
@@ -93,15 +93,15 @@ impl Scene {
         let Parts { builder, coefficients, .. } = parts;
         let time_step = builder.time_step;
         let coefficients = *coefficients;
-        let is_static = builder.is_static();
+        let is_static = builder.has_static_loads();
         let mut loads = Vec::with_capacity(builder.loads.len());
         for load in std::mem::take(&mut builder.loads) {
             loads.push(SteppedLoad::new(load, &model.transformation, is_static));
         }
         let mut weight = Vec::new();
         if builder.starts_unloaded() {
-            weight.resize(model.coordinates, 0.0);
-            let up = model.influence.whole_vector(UPWARD_DIRECTION, model.coordinates);
+            weight.resize(model.coordinate_count, 0.0);
+            let up = model.influence.whole_vector(UPWARD_DIRECTION, model.coordinate_count);
             model.mass.multiply_add(-builder.gravity, &up, &mut weight);
         }
         let elements = &parts.elements;
@@ -115,7 +115,7 @@ impl Scene {
             probes: std::mem::take(&mut builder.probes),
             elements: elements.clone(),
             pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
-            friction: std::mem::take(&mut builder.safety_friction),
+            friction: std::mem::take(&mut builder.safety_friction_coefficients),
             footings,
         };
         Self {

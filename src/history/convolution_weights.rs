@@ -4,7 +4,7 @@ use super::exponential_sum::ExponentialSum;
 use super::pair_classes::PairClasses;
 use super::shared_spectra::SharedSpectra;
 use crate::error::{Error, Observer, Result, same_length, unobserved};
-use crate::geometry::SERIES_PER_OFFSET;
+use crate::geometry::COMPLIANCES_PER_OFFSET;
 
 /// Convolution weights Gⁿ of a laterally homogeneous ground for a patch of elements.
 ///
@@ -108,7 +108,7 @@ pub trait ConvolutionWeights: Send + Sync {
         same_length("step compliance", matrix.len(), classes.layout().square())?;
         self.prepare(1, &mut unobserved)?;
         // Coefficients of each class, kind by kind; zero for kinds that the elements do not have.
-        let mut coefficients = vec![[0.0; SERIES_PER_OFFSET]; classes.count()];
+        let mut coefficients = vec![[0.0; COMPLIANCES_PER_OFFSET]; classes.count()];
         for (class, coefficients) in coefficients.iter_mut().enumerate() {
             let mut values: Vec<_> = coefficients.chunks_mut(1).take(classes.kinds()).collect();
             self.coefficients(class, 1, &mut values)?;

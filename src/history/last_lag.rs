@@ -4,7 +4,7 @@
 
 use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
-use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE, Lattice};
 
 /// Smallest number of lags that are not neglected.
 const MIN_KEPT_LAGS: usize = 64;
@@ -38,8 +38,8 @@ impl LastLag {
         let Some((lattice, _)) = kernel.classes().plan() else { return Ok(None) };
         let area = lattice.pitch[0] * lattice.pitch[1];
         // Σ |G| for each class and kind.
-        let mut sums = vec![[0.0; SERIES_PER_OFFSET]; kernel.classes().count()];
-        let mut kind_lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; MIN_KEPT_LAGS]);
+        let mut sums = vec![[0.0; COMPLIANCES_PER_OFFSET]; kernel.classes().count()];
+        let mut kind_lags = [(); COMPLIANCES_PER_OFFSET].map(|()| vec![0.0; MIN_KEPT_LAGS]);
         let mut summed_lags = 0;
         let mut lag = MIN_KEPT_LAGS;
         while lag <= max_lags / 2 {
@@ -47,7 +47,7 @@ impl LastLag {
                 let done_lags = summed_lags + (2 * lag - summed_lags) * done / total.max(1);
                 observer(Progress::new(task, done_lags, max_lags))
             })?;
-            let mut late_sums = vec![[0.0; SERIES_PER_OFFSET]; sums.len()];
+            let mut late_sums = vec![[0.0; COMPLIANCES_PER_OFFSET]; sums.len()];
             let mut change_sums = late_sums.clone();
             let mut previous_values = late_sums.clone();
             for skipped_lags in (summed_lags..2 * lag).step_by(MIN_KEPT_LAGS) {
@@ -88,7 +88,7 @@ impl LastLag {
 }
 
 /// Largest row sum of the matrix, from sums for each class and kind.
-fn max_row_sum(lattice: &Lattice, sums: &[[f64; SERIES_PER_OFFSET]]) -> f64 {
+fn max_row_sum(lattice: &Lattice, sums: &[[f64; COMPLIANCES_PER_OFFSET]]) -> f64 {
     let offsets = (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
     let mut row_sums = [0.0; COMPONENTS_IN_SPACE];
     for offset in offsets {

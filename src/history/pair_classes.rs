@@ -6,8 +6,8 @@ use std::ops::Mul;
 
 use crate::error::{Result, in_bounds, require};
 use crate::geometry::{
-    COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, Lattice,
-    SERIES_PER_OFFSET, check_count, check_order, offset,
+    COMPLIANCES_PER_OFFSET, COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement,
+    ContactLayout, Lattice, check_count, check_order, offset,
 };
 use crate::linalg::{MatrixScalar, hermitian_range, indefinite_pivot};
 
@@ -168,7 +168,7 @@ impl PairClasses {
             pairs: vec![],
             representatives: vec![],
             plan: Some((lattice, cells)),
-            kinds: SERIES_PER_OFFSET,
+            kinds: COMPLIANCES_PER_OFFSET,
             exchanged: vec![],
         })
     }
@@ -250,7 +250,7 @@ impl PairClasses {
         let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
         for (p, receiver) in cells.iter().enumerate() {
             for (q, source) in cells.iter().enumerate() {
-                let (class, block_terms) = lattice.terms(offset(*receiver, *source));
+                let (class, block_terms) = lattice.compliance_terms(offset(*receiver, *source));
                 for (term_index, (kind, factor)) in block_terms.into_iter().flatten().enumerate() {
                     terms[term_index] =
                         Term { kind, components: [term_index / 3, term_index % 3], factor };

@@ -8,7 +8,7 @@ use super::deformed::{
 };
 use super::element_state::ElementStates;
 use super::marks::{self, KEY_LEFT, PixelBox, hex};
-use super::svg::{Svg, changes, escaped, polygon};
+use super::svg::{Svg, discrete_animation, escaped, polygon};
 use super::text_width::{fitted, length_text, short, width};
 use super::ticks::round_down;
 use super::view::StructureView;
@@ -312,7 +312,7 @@ impl Floor {
             });
             let colors: Vec<String> =
                 states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
-            let change = changes("fill", &colors, duration);
+            let change = discrete_animation("fill", &colors, duration);
             for cell in [polygon(&screen.corners(corners)), polygon(&plan_corners)] {
                 let _ = writeln!(
                     out,

@@ -6,7 +6,7 @@ use super::drawing::{CURVE_COLORS, Stroke, range_of};
 use super::element_state::{ElementState, ElementStates};
 use super::key::{KeySample, PictureKey};
 use super::plan::largest_pressures;
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use crate::bem::ContactElement;
 use crate::error::{Result, require_part};
 use crate::results::{ContactFrame, ElementEnvelope, Run, TimeSeries};
@@ -41,7 +41,7 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let states = ElementStates::new(&frames, false);
     let key = states.key_states.iter().map(|state| (state.name(), KeySample::Area(state.color())));
     let base = BaseAxis::new(elements.iter().copied());
-    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+    PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
         let mut chart =
             chart(area, &ChartAxis::linear(begin..end, "time, s"), &base.axis(), false)?;
         label_gaps(&mut chart, &base, |position| (0.5 * (begin + end), position))?;
@@ -117,7 +117,7 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     let strokes = [CURVE_COLORS[1], CURVE_COLORS[5], CURVE_COLORS[0]].map(Stroke::plain);
     let names = curves.iter().map(|(name, _)| *name);
     let key = names.zip(strokes.map(KeySample::Line));
-    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+    PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
         let top = range.end - 0.04 * (range.end - range.start);
         let pressure_axis = ChartAxis::linear(range, "pressure, kPa");
         let mut chart = chart(area, &base.axis(), &pressure_axis, true)?;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::axes::{Chart, ChartAxis, SPACE_LEFT, SPACE_RIGHT, chart, draw_curve, draw_markers};
 use super::drawing::{Area, Drawing, Stroke, is_drawable};
 use super::key::{KeySample, PictureKey};
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use super::text_width::short;
 use super::view::StructureView;
 use crate::bem::ContactElement;
@@ -109,9 +109,9 @@ pub fn deformed_shapes(
     key.push(("soil", KeySample::Area(SOIL_COLOR)));
     let scale_text = format!("displacements × {}", short(magnification));
     key.push((&scale_text, KeySample::Nothing));
-    let sheet = Sheet::new(title, PictureKey::new(key));
-    let elevations = elevations(&shapes, time_series.up(), sheet.chart_size());
-    sheet.picture(|area| {
+    let layout = PictureLayout::new(title, PictureKey::new(key));
+    let elevations = elevations(&shapes, time_series.up(), layout.chart_size());
+    layout.picture(|area| {
         let areas = area.split_evenly((1, elevations.len()));
         for (area, elevation) in areas.iter().zip(&elevations) {
             draw_elevation(area, shape, time_series, elevation)?;

@@ -1,7 +1,7 @@
 //! Key to a picture's colours, in a separate strip at the right.
 
 use super::drawing::{Area, Drawing, Stroke};
-use super::text_width::{lines, width};
+use super::text_width::{width, wrapped_lines};
 use plotters::prelude::*;
 
 /// Font of the names.
@@ -111,5 +111,5 @@ fn draw_marker(strip: &Area<'_>, stroke: Stroke, y: i32) -> Drawing<()> {
 
 /// A name in lines that fit into the strip.
 fn name_lines(name: &str) -> Vec<String> {
-    lines(name, KEY_FONT.1, MAX_NAME_WIDTH, MAX_NAME_LINES)
+    wrapped_lines(name, KEY_FONT.1, MAX_NAME_WIDTH, MAX_NAME_LINES)
 }

@@ -3,7 +3,7 @@
 use super::axes::{ChartAxis, chart, draw_curve};
 use super::drawing::{Area, Drawing, RANGE_MARGIN_RATIO, Stroke, is_drawable, range_of};
 use super::key::{KeySample, PictureKey};
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use crate::error::{Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
@@ -60,7 +60,7 @@ fn curves_with_limit(
     if let Some(name) = limit {
         key.push((name, KeySample::Line(Stroke::plain(LIMIT_COLOR))));
     }
-    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+    PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
         let x_axis = ChartAxis::linear(x_range.clone(), x);
         let y_axis = ChartAxis::linear(y_range, y);
         let mut chart = chart(area, &x_axis, &y_axis, true)?;
@@ -229,7 +229,7 @@ const DRAWN_PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// outside 10⁻⁶ to 10⁶ s.
 pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<Svg> {
     let axes = axes_of_spectra(spectra)?;
-    Sheet::new(title, PictureKey::of_curves(spectra.iter().map(|(name, _)| *name)))
+    PictureLayout::new(title, PictureKey::of_curves(spectra.iter().map(|(name, _)| *name)))
         .picture(|area| draw_spectra(area, &axes, spectra))
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::element_state::{ElementState, ElementStates};
-use super::svg::{changes, polygon};
+use super::svg::{discrete_animation, polygon};
 use crate::bem::ContactElement;
 use crate::results::TimeSeries;
 use plotters::style::RGBColor;
@@ -74,7 +74,7 @@ pub(super) fn element_marks(
     for (e, element) in time_series.elements().iter().enumerate() {
         let colors: Vec<String> =
             states.frame_states.iter().map(|frame| hex(frame[e].color())).collect();
-        let change = changes("fill", &colors, duration);
+        let change = discrete_animation("fill", &colors, duration);
         if has_walls {
             let mark = mark_corners(element, MARK_WIDTH / scale).map(&to_pixels);
             let _ = writeln!(

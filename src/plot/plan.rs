@@ -7,7 +7,7 @@ use super::classes::Classes;
 use super::drawing::Stroke;
 use super::element_state::ElementState;
 use super::key::{KeySample, PictureKey};
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use super::text_width::short;
 use crate::error::{Error, Result, finite, require_part};
 use crate::geometry::{ContactElement, middle, span};
@@ -156,21 +156,23 @@ pub(super) fn plan_picture(
     cells: &[PlanCell],
     key: &[(String, KeySample)],
 ) -> Result<Svg> {
-    let sheet =
-        Sheet::new(title, PictureKey::new(key.iter().map(|(name, sample)| (&name[..], *sample))));
+    let layout = PictureLayout::new(
+        title,
+        PictureKey::new(key.iter().map(|(name, sample)| (&name[..], *sample))),
+    );
     let corners = cells.iter().flat_map(|cell| &cell.corners);
     let x_ends = span(corners.clone().map(|corner| corner.0));
     let y_ends = span(corners.map(|corner| corner.1));
     let width = x_ends[1] - x_ends[0];
     let height = y_ends[1] - y_ends[0];
     let margin = MARGIN_RATIO * width.max(height);
-    let chart_size = sheet.chart_size();
+    let chart_size = layout.chart_size();
     let metres_per_pixel = 0.0_f64
         .max((width + 2.0 * margin) / chart_size[0])
         .max((height + 2.0 * margin) / chart_size[1]);
     let x = range_around(middle(x_ends), 0.5 * metres_per_pixel * chart_size[0]);
     let y = range_around(middle(y_ends), 0.5 * metres_per_pixel * chart_size[1]);
-    sheet.picture(|area| {
+    layout.picture(|area| {
         let x_axis = ChartAxis::linear(x, "x, m");
         let y_axis = ChartAxis::linear(y, "y, m");
         let mut chart = chart(area, &x_axis, &y_axis, false)?;

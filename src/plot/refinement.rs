@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::axes::{ChartAxis, chart, draw_curve};
 use super::drawing::Stroke;
 use super::key::PictureKey;
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use crate::analyses::{Refinement, Setting};
 use crate::error::{Error, Result};
 
@@ -53,7 +53,8 @@ pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
         let quantity = "settings with an error and a run time";
         return Err(Error::Size { quantity, found: 0, needed: 1 });
     };
-    Sheet::new(title, PictureKey::of_curves(curves.iter().map(|(name, _)| *name))).picture(|area| {
+    let key = PictureKey::of_curves(curves.iter().map(|(name, _)| *name));
+    PictureLayout::new(title, key).picture(|area| {
         let x = ChartAxis::logarithmic(run_times, "run time, s");
         let y = ChartAxis::logarithmic(errors, "estimated error, relative");
         let mut chart = chart(area, &x, &y, true)?;

@@ -6,7 +6,7 @@ use super::axes::{Chart, ChartAxis, chart, draw_curve};
 use super::drawing::{Drawing, Stroke, is_drawable, range_of};
 use super::key::{KeySample, PictureKey};
 use super::lines::{Curve, with_unit};
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use super::ticks::{Ticks, linear_ticks};
 use crate::error::{Result, at_least, require_part};
 use crate::results::{Quantity, Rocking};
@@ -116,7 +116,7 @@ impl RockingChart {
         for (k, curve) in self.measured.iter().enumerate() {
             key.push((curve.name.as_str(), KeySample::Point(Stroke::points(k))));
         }
-        Sheet::new(title, PictureKey::new(key)).picture(|area| {
+        PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
             let x_axis = ChartAxis::linear(x_range.clone(), &self.x_description);
             let y_axis = if self.is_downward {
                 downward_axis(&y_range, &self.y_description)

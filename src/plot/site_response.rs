@@ -4,7 +4,7 @@ use super::axes::{ChartAxis, chart, draw_curve};
 use super::drawing::{Area, CURVE_COLORS, Drawing, Stroke, range_of};
 use super::key::{KeySample, PictureKey};
 use super::lines::{axes_of_spectra, draw_spectra};
-use super::svg::{Sheet, Svg};
+use super::svg::{PictureLayout, Svg};
 use crate::error::Result;
 use crate::motion::SpectralOrdinate;
 use crate::site::{EquivalentLinear, LayerResponse};
@@ -44,7 +44,7 @@ pub fn site_response(
     }
     let speed_curves = speeds.map(|(_, value)| steps_over_depth(response, value));
     let strain_curves = strains.map(|(_, value)| steps_over_depth(response, value));
-    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+    PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
         let width = area.dim_in_pixel().0;
         let (speed_area, remaining_area) = area.split_horizontally(width * 3 / 10);
         let (strain_area, spectrum_area) = remaining_area.split_horizontally(width * 3 / 10);

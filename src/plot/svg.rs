@@ -9,16 +9,20 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::axes::{SPACE_ABOVE, SPACE_BELOW, SPACE_LEFT, SPACE_RIGHT};
 use super::drawing::{Area, Drawing};
 use super::key::PictureKey;
-use super::text_width::lines;
+use super::text_width::wrapped_lines;
 use crate::error::{Error, Result};
 use crate::text::file::write_file;
 
 /// Width of the pictures, pixels.
 const PICTURE_WIDTH: u32 = 1100;
-/// Height of the pictures, pixels; a long title or key makes them higher.
-const PICTURE_HEIGHT: u32 = 560;
+/// Smallest height of the pictures, pixels; a long title or key makes them higher.
+const MIN_PICTURE_HEIGHT: u32 = 560;
 /// Font of the title.
 const TITLE_FONT: (&str, u32) = ("sans-serif", 22);
+/// Width of the margins left and right of the title together, pixels.
+const TITLE_SIDE_MARGINS: f64 = 40.0;
+/// Distance of the center of the first title line from the upper edge, pixels.
+const FIRST_TITLE_LINE_Y: i32 = 24;
 /// Largest number of lines of the title; the rest is cut.
 const MAX_TITLE_LINES: usize = 2;
 /// Height of a line of the title, pixels.
@@ -31,7 +35,9 @@ const TITLE_PADDING: u32 = 16;
 pub struct Svg(String);
 
 impl Svg {
-    /// Replaces characters that XML 1.0 does not allow (its section 2.2) by replacement characters.
+    /// Makes a picture from SVG text and replaces forbidden characters.
+    ///
+    /// XML 1.0 forbids these characters (section 2.2).
     pub(super) fn new(text: String) -> Self {
         let has_forbidden = text.contains(is_forbidden_in_xml);
         Self(if has_forbidden { text.replace(is_forbidden_in_xml, "\u{fffd}") } else { text })
@@ -42,7 +48,7 @@ impl Svg {
         &self.0
     }
 
-    /// Writes the picture to a file; its folder is made if it does not exist.
+    /// Writes the picture to a file and creates its folder.
     ///
     /// The text is SVG for any file name; programs expect `.svg`. For bitmaps use `Svg::save_png` (feature
     /// `png`).
@@ -54,7 +60,7 @@ impl Svg {
     }
 }
 
-/// Whether XML 1.0 does not allow a character.
+/// Whether XML 1.0 forbids a character.
 fn is_forbidden_in_xml(character: char) -> bool {
     matches!(
         character,
@@ -63,22 +69,23 @@ fn is_forbidden_in_xml(character: char) -> bool {
 }
 
 /// Title and key of a picture, and the space for its charts.
-pub(super) struct Sheet {
+pub(super) struct PictureLayout {
     title: Vec<String>,
     key: PictureKey,
     height: u32,
 }
 
-impl Sheet {
-    /// Sheet of the height that title and key need.
+impl PictureLayout {
+    /// Layout of the height that title and key need.
     pub(super) fn new(title: &str, key: PictureKey) -> Self {
-        let title = lines(title, TITLE_FONT.1, f64::from(PICTURE_WIDTH) - 40.0, MAX_TITLE_LINES);
-        let mut sheet = Self { title, key, height: PICTURE_HEIGHT };
-        let title_height = sheet.title_height();
+        let max_width = f64::from(PICTURE_WIDTH) - TITLE_SIDE_MARGINS;
+        let title = wrapped_lines(title, TITLE_FONT.1, max_width, MAX_TITLE_LINES);
+        let mut layout = Self { title, key, height: MIN_PICTURE_HEIGHT };
+        let title_height = layout.title_height();
         let height_of_one_line = TITLE_LINE_HEIGHT + TITLE_PADDING;
-        sheet.height = (PICTURE_HEIGHT + title_height - height_of_one_line)
-            .max(title_height + sheet.key.height());
-        sheet
+        layout.height = (MIN_PICTURE_HEIGHT + title_height - height_of_one_line)
+            .max(title_height + layout.key.height());
+        layout
     }
 
     /// Height of the title, pixels.
@@ -94,13 +101,16 @@ impl Sheet {
         ]
     }
 
-    /// Picture of title and key, and of the charts that `chart` draws.
-    pub(super) fn picture(&self, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
+    /// Picture of title and key, and of the charts that `draw_charts` draws.
+    pub(super) fn picture(
+        &self,
+        draw_charts: impl FnOnce(&Area<'_>) -> Drawing<()>,
+    ) -> Result<Svg> {
         let mut text = String::new();
         {
-            let area = SVGBackend::with_string(&mut text, (PICTURE_WIDTH, self.height));
-            let area = area.into_drawing_area();
-            let result = self.draw(&area, chart);
+            let backend = SVGBackend::with_string(&mut text, (PICTURE_WIDTH, self.height));
+            let area = backend.into_drawing_area();
+            let result = self.draw(&area, draw_charts);
             let result = result.and_then(|()| area.present().map_err(Into::into));
             result.map_err(|_| Error::Scene {
                 quantity: "picture",
@@ -110,20 +120,24 @@ impl Sheet {
         Ok(Svg::new(text))
     }
 
-    fn draw(&self, area: &Area<'_>, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Drawing<()> {
+    fn draw(
+        &self,
+        area: &Area<'_>,
+        draw_charts: impl FnOnce(&Area<'_>) -> Drawing<()>,
+    ) -> Drawing<()> {
         area.fill(&WHITE)?;
         let style =
             TextStyle::from(TITLE_FONT.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
-        let middle = i32::try_from(PICTURE_WIDTH / 2).unwrap_or(0);
-        let mut y = 24;
+        let center_x = i32::try_from(PICTURE_WIDTH / 2).unwrap_or(0);
+        let mut y = FIRST_TITLE_LINE_Y;
         for line in self.title.iter().filter(|line| !line.is_empty()) {
-            area.draw(&Text::new(line.clone(), (middle, y), style.clone()))?;
+            area.draw(&Text::new(line.clone(), (center_x, y), style.clone()))?;
             y += i32::try_from(TITLE_LINE_HEIGHT).unwrap_or(0);
         }
         let body = area.split_vertically(self.title_height()).1;
         let (chart_area, key_strip) = body.split_horizontally(PICTURE_WIDTH - self.key.width());
         self.key.draw(&key_strip)?;
-        chart(&chart_area)
+        draw_charts(&chart_area)
     }
 }
 
@@ -138,8 +152,10 @@ pub(super) fn polygon(corners: &[[f64; 2]]) -> String {
     format!("M{}Z", points.join("L"))
 }
 
-/// SMIL animation of an attribute, by values at equal intervals; equal successive values are written once.
-pub(super) fn changes(attribute: &str, values: &[String], duration: &str) -> String {
+/// SMIL animation of an attribute, by values at equal intervals.
+///
+/// Equal successive values are written once.
+pub(super) fn discrete_animation(attribute: &str, values: &[String], duration: &str) -> String {
     let mut times = Vec::new();
     let mut changed_values: Vec<&str> = Vec::new();
     for (k, value) in values.iter().enumerate() {

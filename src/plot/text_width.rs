@@ -26,13 +26,18 @@ pub(super) fn width(text: &str, size: u32) -> f64 {
 }
 
 /// The text in lines of at most `max_width` pixels, as [`wrapped`].
-pub(super) fn lines(text: &str, size: u32, max_width: f64, max_lines: usize) -> Vec<String> {
+pub(super) fn wrapped_lines(
+    text: &str,
+    size: u32,
+    max_width: f64,
+    max_lines: usize,
+) -> Vec<String> {
     wrapped(text, max_width, max_lines, |text| width(text, size))
 }
 
 /// The text, cut at a width of `max_width` pixels.
 pub(super) fn fitted(text: &str, size: u32, max_width: f64) -> String {
-    lines(text, size, max_width, 1).swap_remove(0)
+    wrapped_lines(text, size, max_width, 1).swap_remove(0)
 }
 
 /// Text of a number with at most four digits.
@@ -59,17 +64,17 @@ mod tests {
 
     #[test]
     fn lines_break_between_words_and_end_in_a_sign_if_cut() {
-        assert_eq!(lines("", 15, 100.0, 2), [""]);
-        assert_eq!(lines("base shear", 15, 400.0, 2), ["base shear"]);
-        assert_eq!(lines("base shear", 15, 60.0, 2), ["base", "shear"]);
+        assert_eq!(wrapped_lines("", 15, 100.0, 2), [""]);
+        assert_eq!(wrapped_lines("base shear", 15, 400.0, 2), ["base shear"]);
+        assert_eq!(wrapped_lines("base shear", 15, 60.0, 2), ["base", "shear"]);
         assert_eq!(fitted("base shear", 15, 60.0), "base s…");
         let long = "x".repeat(1000);
-        let three = lines(&long, 15, 80.0, 3);
+        let three = wrapped_lines(&long, 15, 80.0, 3);
         assert_eq!(three.len(), 3);
         assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
         assert!(three.iter().all(|line| width(line, 15) <= 80.0));
         // A word too long for a line is broken, and the text after it is not lost.
-        let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
+        let broken = wrapped_lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
         assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
     }
 

@@ -205,7 +205,7 @@ impl Comparison {
             }
             rows.push(cells);
         }
-        Table { heading, repeated: 2, rows }
+        Table { heading, repeated_column_count: 2, rows }
     }
 
     /// Probes of the first case, if all cases have the same probes.
@@ -246,7 +246,7 @@ impl Comparison {
             }
             lines.push(cells);
         }
-        Csv(Table { heading, repeated: 1, rows: lines }.csv())
+        Csv(Table { heading, repeated_column_count: 1, rows: lines }.csv())
     }
 }
 

@@ -305,7 +305,7 @@ impl fmt::Display for CaseTable {
             }
             cells
         });
-        f.write_str(&Table { heading, repeated: 1, rows: rows.collect() }.text())?;
+        f.write_str(&Table { heading, repeated_column_count: 1, rows: rows.collect() }.text())?;
         for row in &self.rows {
             if let Err(reason) = &row.outcome {
                 write_lines(f, &format!("case {} failed: {reason}", row.case))?;

@@ -32,7 +32,7 @@ pub struct Boundary {
 }
 
 /// Displacements of all elements due to unit tractions on the contact elements.
-pub(super) struct Mobility {
+pub(super) struct ContactCompliance {
     /// Factor of H.
     pub(super) factor: DenseFactor,
     /// 2Q columns of length 2E.
@@ -152,7 +152,7 @@ impl Boundary {
     ///
     /// # Errors
     /// [`Error::Singular`].
-    pub(super) fn mobility(&self, g: &[f64], h: &[f64]) -> Result<Mobility> {
+    pub(super) fn contact_compliance(&self, g: &[f64], h: &[f64]) -> Result<ContactCompliance> {
         let order = self.layout().len();
         let mut factor = DenseFactor::with_capacity(order);
         if !factor.factor(h, order) {
@@ -165,15 +165,15 @@ impl Boundary {
             }
             factor.solve(column);
         }
-        Ok(Mobility { factor, columns })
+        Ok(ContactCompliance { factor, columns })
     }
 
     /// Overwrites `matrix` with the compliance of the contact elements (2Q × 2Q).
     ///
-    /// `mobility_columns`: of a [`Mobility`].
-    pub(super) fn compliance(&self, mobility_columns: &[f64], matrix: &mut [f64]) {
+    /// `compliance_columns`: of a [`ContactCompliance`].
+    pub(super) fn compliance(&self, compliance_columns: &[f64], matrix: &mut [f64]) {
         let contact_order = self.contact_rows().count();
-        for (k, column) in mobility_columns.chunks_exact(self.layout().len()).enumerate() {
+        for (k, column) in compliance_columns.chunks_exact(self.layout().len()).enumerate() {
             for (i, row) in self.contact_rows().enumerate() {
                 matrix[i * contact_order + k] = column[row];
             }

@@ -267,7 +267,7 @@ impl Ground for FullPlaneGround {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
         same_length("step compliance", matrix.len(), size)?;
-        self.boundary.compliance(&prepared.mobility.columns, matrix);
+        self.boundary.compliance(&prepared.contact_compliance.columns, matrix);
         Ok(())
     }
 
@@ -282,7 +282,7 @@ impl Ground for FullPlaneGround {
             displacement.len(),
             contact_rows.clone().count(),
         )?;
-        prepared.advance(&self.boundary, self.incident.as_deref())?;
+        prepared.update_history_displacement(&self.boundary, self.incident.as_deref())?;
         for (value, row) in displacement.iter_mut().zip(contact_rows) {
             *value = prepared.history_displacement[row];
         }
@@ -292,7 +292,10 @@ impl Ground for FullPlaneGround {
     fn commit(&mut self, traction: &[f64]) {
         if let Some(prepared) = &mut self.prepared {
             // If this fails, the next history fails in the same way.
-            if prepared.advance(&self.boundary, self.incident.as_deref()).is_ok() {
+            if prepared
+                .update_history_displacement(&self.boundary, self.incident.as_deref())
+                .is_ok()
+            {
                 prepared.commit(&self.boundary, traction);
             }
         }

@@ -1,26 +1,27 @@
 //! State of a full-plane ground between two steps.
 
-use super::boundary::Mobility;
+use super::boundary::ContactCompliance;
 use super::convolution::BoundaryHistory;
 use super::{Boundary, BoundaryKernel, IncidentField};
 use crate::error::{Result, same_length};
 use crate::linalg::dense_multiply_add;
 
-/// Convolutions and operators of a boundary for one time step.
+/// Convolutions and operators of a boundary for a fixed time-step length.
 pub(super) struct PreparedBoundary {
     pub(super) history: BoundaryHistory,
     time_step: f64,
-    /// G⁰; empty without an incident field.
+    /// Weight matrix G⁰ (m/Pa); empty without an incident field.
     g0: Vec<f64>,
     /// Displacements of all elements due to unit tractions on the contact elements.
-    pub(super) mobility: Mobility,
-    /// Displacements at the end of the next step if the contact tractions of that step are zero.
+    pub(super) contact_compliance: ContactCompliance,
+    /// Displacements at the end of the next step without contact tractions, m.
     pub(super) history_displacement: Vec<f64>,
     /// Whether `history_displacement` belongs to the next step.
-    is_advanced: bool,
+    is_history_current: bool,
     pub(super) displacement: Vec<f64>,
     /// Tractions of the scattered field, which cancel those of the incident field.
     scattered_traction: Vec<f64>,
+    /// Total tractions of the last step, Pa.
     traction: Vec<f64>,
 }
 
@@ -39,18 +40,18 @@ impl PreparedBoundary {
         let mut g = vec![0.0; layout.square()];
         let mut h = vec![0.0; layout.square()];
         kernel.coefficients(0, &mut g, &mut h)?;
-        let mobility = boundary.mobility(&g, &h)?;
-        let mut loaded = vec![has_incident_field; order];
+        let contact_compliance = boundary.contact_compliance(&g, &h)?;
+        let mut has_traction = vec![has_incident_field; order];
         for row in boundary.contact_rows() {
-            loaded[row] = true;
+            has_traction[row] = true;
         }
         Ok(Self {
-            history: BoundaryHistory::new(kernel, &loaded),
+            history: BoundaryHistory::new(kernel, &has_traction),
             time_step,
             g0: if has_incident_field { g } else { Vec::new() },
-            mobility,
+            contact_compliance,
             history_displacement: vec![0.0; order],
-            is_advanced: false,
+            is_history_current: false,
             displacement: vec![0.0; order],
             scattered_traction: vec![0.0; order],
             traction: vec![0.0; order],
@@ -58,23 +59,24 @@ impl PreparedBoundary {
     }
 
     /// Computes `history_displacement` for the next step.
-    pub(super) fn advance(
+    pub(super) fn update_history_displacement(
         &mut self,
         boundary: &Boundary,
         incident: Option<&dyn IncidentField>,
     ) -> Result<()> {
-        if self.is_advanced {
+        if self.is_history_current {
             return Ok(());
         }
         self.history.evaluate(&mut self.history_displacement)?;
         if let Some(field) = incident {
+            // Tractions are constant over a step: use its midpoint.
             let time = (self.history.steps() as f64 + 0.5) * self.time_step;
             fill_scattered_traction(boundary, field, time, &mut self.scattered_traction);
             let displacement = &mut self.history_displacement;
             dense_multiply_add(&self.g0, 1.0, &self.scattered_traction, displacement);
         }
-        self.mobility.factor.solve(&mut self.history_displacement);
-        self.is_advanced = true;
+        self.contact_compliance.factor.solve(&mut self.history_displacement);
+        self.is_history_current = true;
         Ok(())
     }
 
@@ -82,16 +84,16 @@ impl PreparedBoundary {
     pub(super) fn commit(&mut self, boundary: &Boundary, traction: &[f64]) {
         self.displacement.copy_from_slice(&self.history_displacement);
         self.traction.copy_from_slice(&self.scattered_traction);
-        let columns = self.mobility.columns.chunks_exact(self.displacement.len());
+        let columns = self.contact_compliance.columns.chunks_exact(self.displacement.len());
         for (k, (column, row)) in columns.zip(boundary.contact_rows()).enumerate() {
-            let value = traction.get(k).copied().unwrap_or(0.0);
-            self.traction[row] += value;
+            let contact_traction = traction.get(k).copied().unwrap_or(0.0);
+            self.traction[row] += contact_traction;
             for (u, m) in self.displacement.iter_mut().zip(column) {
-                *u += m * value;
+                *u += m * contact_traction;
             }
         }
         self.history.push(&self.displacement, &self.traction);
-        self.is_advanced = false;
+        self.is_history_current = false;
     }
 }
 

@@ -76,8 +76,8 @@ pub(super) fn static_compliance(
         let mu = soil.shear_modulus();
         [[[dd, dn], [dn, nn]], [[mu * t_dd, mu * t_nd], [mu * t_dn, mu * t_nn]]]
     });
-    let mobility = boundary.mobility(&g, &h)?;
-    boundary.compliance(&mobility.columns, matrix);
+    let contact_compliance = boundary.contact_compliance(&g, &h)?;
+    boundary.compliance(&contact_compliance.columns, matrix);
     Ok(())
 }
 

@@ -91,10 +91,10 @@ impl CornerWaves {
             bands.push(OnceLock::new());
             band_end *= 2.0;
         }
-        let extent = lattice.extent();
+        let offset_counts = lattice.offset_counts();
         let mut distances = vec![];
-        for i in 0..=extent[0] {
-            for j in 0..=extent[1] {
+        for i in 0..=offset_counts[0] {
+            for j in 0..=offset_counts[1] {
                 distances.push((lattice.pitch[0] * i as f64).hypot(lattice.pitch[1] * j as f64));
             }
         }
@@ -147,7 +147,7 @@ impl CornerWaves {
         let forms = &mut values[start..];
         let phases: Vec<_> = self.distances.iter().map(|r| (k * r).sin_cos()).collect();
         let corner_count = self.distances.len();
-        let column_height = self.lattice.extent()[1] + 1;
+        let column_height = self.lattice.offset_counts()[1] + 1;
         let factor = k.powi(-4) / PI;
         let wave_amplitudes = amplitudes.chunks_exact(2 * corner_count);
         for ((wave, amplitudes), [is_odd_in_x, is_odd_in_y]) in
@@ -189,9 +189,9 @@ impl CornerWaves {
         is_odd_in_x: bool,
         x_differences: &mut Vec<f64>,
     ) {
-        let column_height = self.lattice.extent()[1] + 1;
+        let column_height = self.lattice.offset_counts()[1] + 1;
         x_differences.clear();
-        for i in 0..self.lattice.extent()[0] {
+        for i in 0..self.lattice.offset_counts()[0] {
             let previous_column = if i > 0 { i - 1 } else { 1 };
             let sign = if i == 0 && is_odd_in_x { -1.0 } else { 1.0 };
             for j in 0..column_height {
@@ -206,7 +206,7 @@ impl CornerWaves {
 
     /// Chebyshev coefficients of all amplitudes on the band from `band_start` on.
     fn amplitude_coefficients(&self, band_start: f64) -> Vec<f64> {
-        let column_height = self.lattice.extent()[1] + 1;
+        let column_height = self.lattice.offset_counts()[1] + 1;
         let pitch = self.lattice.pitch;
         let corner_count = self.distances.len();
         let mut coefficients = vec![0.0; BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corner_count];

@@ -33,7 +33,7 @@ pub(super) struct AngularMeans {
     pitch: [f64; 2],
     /// Diagonal of all cells, m.
     diagonal: f64,
-    extent: [usize; 2],
+    offset_counts: [usize; 2],
     classes: Vec<[usize; 2]>,
     /// Weighted factors along x of the terms even and odd in y, direction by direction.
     x_factors: [Vec<f64>; 2],
@@ -48,16 +48,16 @@ pub(super) struct AngularMeans {
 impl AngularMeans {
     /// Buffers for the means of a lattice.
     pub(super) fn new(lattice: &Lattice) -> Self {
-        let extent = lattice.extent();
+        let offset_counts = lattice.offset_counts();
         let classes = lattice.classes();
         Self {
             pitch: lattice.pitch,
             diagonal: lattice.diagonal(),
-            extent,
+            offset_counts,
             x_factors: [vec![], vec![]],
             y_factors: [vec![], vec![]],
             product_sums: [3, 2]
-                .map(|factor_count| vec![0.0; factor_count * extent[0] * extent[1]]),
+                .map(|factor_count| vec![0.0; factor_count * offset_counts[0] * offset_counts[1]]),
             values: vec![0.0; FORM_COUNT * classes.len()],
             classes,
         }
@@ -75,8 +75,8 @@ impl AngularMeans {
     /// Means at the wavenumber `k`, form by form, all classes (m⁴).
     pub(super) fn at(&mut self, k: f64) -> &[f64] {
         self.sum_directions(k);
-        let row_count = self.extent[1];
-        let cell_count = self.extent[0] * row_count;
+        let row_count = self.offset_counts[1];
+        let cell_count = self.offset_counts[0] * row_count;
         let class_count = self.classes.len();
         for (class, [i, j]) in self.classes.iter().enumerate() {
             let cell = i * row_count + j;
@@ -94,8 +94,8 @@ impl AngularMeans {
 
     /// Overwrites the product sums with sums over directions at the wavenumber `k`.
     fn sum_directions(&mut self, k: f64) {
-        let column_count = self.extent[0];
-        let row_count = self.extent[1];
+        let column_count = self.offset_counts[0];
+        let row_count = self.offset_counts[1];
         let direction_count = self.direction_count(k);
         for factors in self.x_factors.iter_mut().chain(&mut self.y_factors) {
             factors.clear();

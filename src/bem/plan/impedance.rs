@@ -10,7 +10,7 @@ use crate::bem::layered::{
     Compliances, StripContact, extrapolated_stiffnesses, impedance_progress, laplace_variables,
 };
 use crate::error::{Observer, PlanError, Result};
-use crate::geometry::SERIES_PER_OFFSET;
+use crate::geometry::COMPLIANCES_PER_OFFSET;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -102,7 +102,8 @@ pub fn impedances_in_plan(
     let diagonal: [usize; RIGID_MOTION_COUNT] =
         std::array::from_fn(|i| (RIGID_MOTION_COUNT + 1) * i);
     let mut workspace = CellWorkspace::default();
-    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.class_count];
+    let mut values =
+        vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; integrals.table.class_count];
     let stiffnesses = extrapolated_stiffnesses(&variables, &diagonal, progress, |s| {
         integrals.compliance(profile, s, &mut workspace, &mut values)?;
         let matrix = sectors.stiffness(&values, coupled_components)?;

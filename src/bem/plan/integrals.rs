@@ -23,7 +23,7 @@ use crate::bem::layered::{
     legendre, median, surface_series, top_layer_wavenumber, unresolved,
 };
 use crate::error::{GroundError, ProgressReporter, Result};
-use crate::geometry::{Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, Lattice};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -109,7 +109,7 @@ fn kernel_series(a2: f64) -> [[f64; KERNEL_COUNT]; TAIL_TERMS] {
 }
 
 /// Compliances zz, xx, yy, xy, zx and zy of each class, m³/Pa × m.
-impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
+impl Compliances<COMPLIANCES_PER_OFFSET> for CellIntegrals {
     type Workspace = CellWorkspace;
 
     /// Measured factors are 0.4 to 4.8: 8 × 8 cells on a half-space and a damped layer, two time steps, tolerances of
@@ -125,7 +125,7 @@ impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
         profile: &SoilProfile,
         s: Complex,
         workspace: &mut CellWorkspace,
-        values: &mut [[Complex; SERIES_PER_OFFSET]],
+        values: &mut [[Complex; COMPLIANCES_PER_OFFSET]],
     ) -> Result<()> {
         let CellWorkspace { ground, panels } = workspace;
         ground.set(profile, s)?;
@@ -213,7 +213,7 @@ impl CellIntegrals {
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
         buffers.sums.clear();
-        buffers.sums.resize(2 * SERIES_PER_OFFSET * self.table.class_count, 0.0);
+        buffers.sums.resize(2 * COMPLIANCES_PER_OFFSET * self.table.class_count, 0.0);
         let ratio = top.q2.scale(self.table.wavenumber_scale().powi(-2));
         let mut power = top_compliance;
         buffers.kernels.clear();

@@ -10,7 +10,7 @@ use crate::bem::layered::{
     on_circle,
 };
 use crate::error::{ProgressReporter, Result, positive, same_length};
-use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE, Lattice};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -41,7 +41,7 @@ pub(in crate::bem) fn static_compliance(
     let s = Complex::default();
     let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(&plan.lattice, profile, [s], tolerance, &mut progress)?;
-    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; classes.count()];
+    let mut values = vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; classes.count()];
     integrals.compliance(profile, s, &mut CellWorkspace::default(), &mut values)?;
     classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
     Ok(())
@@ -84,7 +84,7 @@ impl Plan {
 }
 
 /// Convolution weights of a layered ground under the cells of a lattice.
-pub(in crate::bem) type LatticeKernel = QuadratureWeights<CellIntegrals, SERIES_PER_OFFSET>;
+pub(in crate::bem) type LatticeKernel = QuadratureWeights<CellIntegrals, COMPLIANCES_PER_OFFSET>;
 
 impl LatticeKernel {
     /// Weights of `profile` under the cells of `plan` for a time step (s) and a relative tolerance.

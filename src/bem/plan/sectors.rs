@@ -12,7 +12,7 @@ use basemat_fourier::num_complex::Complex64;
 
 use super::cells::Plan;
 use crate::error::{Error, Result, memory};
-use crate::geometry::{SERIES_PER_OFFSET, offset};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, offset};
 use crate::linalg::{Complex, DenseFactor};
 
 /// Number of rigid motions: along x, y, z (up) and about these axes.
@@ -133,7 +133,7 @@ impl<'a> Sectors<'a> {
     /// [`Error::Memory`], [`Error::Singular`].
     pub(super) fn stiffness(
         &self,
-        values: &[[Complex; SERIES_PER_OFFSET]],
+        values: &[[Complex; COMPLIANCES_PER_OFFSET]],
         coupled_components: &[&[usize]],
     ) -> Result<[[Complex; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT]> {
         let mut stiffness = [[Complex64::default(); RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT];
@@ -163,7 +163,7 @@ impl<'a> Sectors<'a> {
         &self,
         parity: [f64; 2],
         components: &[usize],
-        values: &[[Complex; SERIES_PER_OFFSET]],
+        values: &[[Complex; COMPLIANCES_PER_OFFSET]],
         stiffness: &mut [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
     ) -> Result<()> {
         let (rows, order) = self.sector_rows(components, parity);
@@ -200,7 +200,7 @@ impl<'a> Sectors<'a> {
         &self,
         pair: &CellPair<'_>,
         parity: [f64; 2],
-        values: &[[Complex; SERIES_PER_OFFSET]],
+        values: &[[Complex; COMPLIANCES_PER_OFFSET]],
         matrix: &mut [Complex64],
         order: usize,
     ) {
@@ -356,7 +356,7 @@ mod tests {
                 CellIntegrals::new(&plan.lattice, &profile, [s], 1e-9, &mut progress).unwrap();
             let mut workspace = CellWorkspace::default();
             let mut values =
-                vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.class_count];
+                vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; integrals.table.class_count];
             integrals.compliance(&profile, s, &mut workspace, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
             assert_eq!(sectors.group.len(), group_order, "{plan:?}");

@@ -9,7 +9,7 @@ use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::model::operators::{Factor, Operators};
+use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::geometry::Patch;
@@ -141,11 +141,16 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let model = Model::new(&assembled);
     let tangent = SparseMatrix::default();
     let coefficients = Midpoint.coefficients(time_step);
-    let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
+    let factor = StiffnessFactorization::in_dofs(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(CompressedMatrix::new(operator, 2 * count));
-    let operators =
-        Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent)
-            .unwrap();
+    let operators = Operators::new(
+        &model,
+        &assembled.base,
+        &operator,
+        StiffnessFactorization::Sparse(factor),
+        tangent,
+    )
+    .unwrap();
     (operators.delassus.to_vec(), assembled.base.areas().to_vec())
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn solve(
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
     let mut ground_compliance = CompressedMatrix::dense(Vec::new());
-    if parts.builder.is_static() {
+    if parts.builder.has_static_loads() {
         ground_compliance = static_compliance(parts)?;
         let loads = StaticLoads::new(parts, assembled)?;
         let weight = &loads.weight;
@@ -72,7 +72,7 @@ pub(crate) fn solve(
         let condensed_structure = condensed.as_ref().map(|condensed| &condensed.assembled);
         buckling::check(grounded, condensed_structure, &state)?;
     }
-    if parts.builder.is_static()
+    if parts.builder.has_static_loads()
         && let Some(force) = parts.structure.nonlinear_mut()
     {
         force.commit(&state.displacement);
@@ -106,7 +106,7 @@ pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
 
 /// Weight, and all other loads at t = 0, N; empty without a static state.
 pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
-    if !parts.builder.is_static() {
+    if !parts.builder.has_static_loads() {
         return Ok([vec![], vec![]]);
     }
     StaticLoads::new(parts, assembled).map(|loads| [loads.weight, loads.load])

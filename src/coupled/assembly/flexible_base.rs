@@ -128,7 +128,7 @@ fn check_structure(
         exponent = refined_shape.map_or(MAX_REFINEMENT_EXPONENT, |refined| {
             (refined.stiffness_ratio / shape.stiffness_ratio).log2()
         });
-        if parts.builder.is_static() {
+        if parts.builder.has_static_loads() {
             let refined_assembled = assembled.with_base(refined_base);
             let refined = LoadedStructure { assembled: &refined_assembled, ..loaded };
             difference =
@@ -266,8 +266,8 @@ fn normal_displacements(
 ) -> Vec<f64> {
     let mut displacements = Vec::with_capacity(nodes.len());
     for node in nodes {
-        let [right, up, away] = node.rows().map(|row| row.value(&state.displacement));
-        displacements.push(element.components([right, away, up])[0]);
+        let [right, up, along_y] = node.rows().map(|row| row.value(&state.displacement));
+        displacements.push(element.components([right, along_y, up])[0]);
     }
     displacements
 }

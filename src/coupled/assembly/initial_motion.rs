@@ -24,7 +24,7 @@ pub(crate) fn set_initial_motion(
 ) -> Result<()> {
     let displacement = &builder.initial_displacement;
     let velocity = &builder.initial_velocity;
-    if builder.is_static() && displacement.is_empty() && velocity.is_empty() {
+    if builder.has_static_loads() && displacement.is_empty() && velocity.is_empty() {
         return Ok(());
     }
     let motion = &mut state.kinematics;
@@ -58,7 +58,7 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
     let mut velocity = vec![0.0; layout.len()];
     scene.base.means(&state.kinematics.velocity, &mut velocity);
     let gap_tolerance = CLOSED_GAP_TOLERANCE * largest(&builder.initial_displacement);
-    if builder.is_static() {
+    if builder.has_static_loads() {
         let needed = "zero under a weight in the static state (use `GravityStage::Unloaded`, or \
                       release a load)";
         for value in displacement {
@@ -100,7 +100,7 @@ fn set_contact(builder: &SimulationBuilder, scene: &Scene, state: &mut State) ->
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let model = &scene.model;
     let static_state = &scene.static_state;
-    let mut force = vec![0.0; model.coordinates];
+    let mut force = vec![0.0; model.coordinate_count];
     let mut scratch = vec![0.0; model.dofs];
     model.add_load(structure, 0.0, &static_state.load, &mut scratch, &mut force)?;
     scene.add_loads(0.0, &mut force);

@@ -11,7 +11,7 @@ use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::mechanism::unresisted;
-use crate::coupled::model::operators::{Factor, Operators};
+use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
@@ -74,7 +74,7 @@ impl SteppedStructure {
         };
         let physical = Model::new(assembled);
         let factor_in_dofs = || {
-            let factor = Factor::of_dofs(&physical, coefficients, &tangent);
+            let factor = StiffnessFactorization::in_dofs(&physical, coefficients, &tangent);
             factor.map_err(|error| singularity_cause(assembled, structure, &tangent, error))
         };
         let chosen = match builder.coordinates {
@@ -112,10 +112,12 @@ impl SteppedStructure {
             }
         };
         let (model, factor) = match chosen {
-            ChosenCoordinates::Physical(factor) => (physical, Factor::Sparse(factor)),
+            ChosenCoordinates::Physical(factor) => {
+                (physical, StiffnessFactorization::Sparse(factor))
+            }
             ChosenCoordinates::Modes(modes) => {
                 let model = physical.in_modes(assembled, modes);
-                let factor = Factor::of_modes(&model, coefficients)?;
+                let factor = StiffnessFactorization::in_modal_coordinates(&model, coefficients)?;
                 (model, factor)
             }
         };

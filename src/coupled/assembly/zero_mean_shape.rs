@@ -94,7 +94,7 @@ impl ZeroMeanShape {
         let deviation_stiffness =
             SparseMatrix::new(FIXED_MEANS_STIFFNESS_NAME, &deviation_springs).ok()?;
         let compliance = ground.shared_compliance.borrow();
-        let Compliance { factor, columns, delassus } = compliance.as_ref()?;
+        let Compliance { factor, traction_responses, delassus } = compliance.as_ref()?;
         let mut mean_spring_factor = mean_spring_factor(&moduli, delassus, ground.compliance)?;
         let mut traction = vec![0.0; layout.len()];
         // The initial vector has entries of mixed signs and magnitudes. The quotient ends some per cent above the smallest.
@@ -117,7 +117,7 @@ impl ZeroMeanShape {
                 *value *= MEAN_SPRING_FACTOR * modulus;
             }
             mean_spring_factor.solve(&mut traction);
-            transposed_multiply_add(columns, -1.0, &traction, &mut shape);
+            transposed_multiply_add(traction_responses, -1.0, &traction, &mut shape);
             let next_ratio = 1.0 / deviation_stiffness.form(&shape, &shape).sqrt();
             let previous_ratio = std::mem::replace(&mut stiffness_ratio, next_ratio);
             if (previous_ratio / stiffness_ratio - 1.0).abs() < POWER_ITERATION_TOLERANCE {
@@ -254,13 +254,13 @@ mod tests {
 
         assert!(direct.factor(&stiffness, n));
         let mean = |x: &[f64], i: usize| dot(&rows[i * n..(i + 1) * n], x);
-        let mut columns = Vec::new();
+        let mut traction_responses = Vec::new();
         let mut delassus = soil.clone();
         for j in 0..mean_count {
             let mut column: Vec<f64> = rows[j * n..][..n].iter().map(|b| areas[j] * b).collect();
             direct.solve(&mut column);
             (0..mean_count).for_each(|i| delassus[i * mean_count + j] += mean(&column, i));
-            columns.extend(column);
+            traction_responses.extend(column);
         }
         let mut computed = force;
         direct.solve(&mut computed);
@@ -268,7 +268,7 @@ mod tests {
             .map(|i| MEAN_SPRING_FACTOR * moduli[i] * mean(&computed, i))
             .collect();
         mean_spring_factor(&moduli, &delassus, &soil).unwrap().solve(&mut traction);
-        transposed_multiply_add(&columns, -1.0, &traction, &mut computed);
+        transposed_multiply_add(&traction_responses, -1.0, &traction, &mut computed);
         assert!(
             computed
                 .iter()

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::corner_weights::{Point, bilinear_weights, corner_weights, distance, distance_outside};
-use super::transformation::{Terms, Weights, accumulate};
+use super::transformation::{SparseVector, Weights, accumulate};
 use super::{BasePoint, PlacedBase, PlacedFoundation, check_covered};
 use crate::bem::plan::faces::{MatFace, side};
 use crate::error::{Error, Result, require};
@@ -153,7 +153,7 @@ impl<'a> DividedFaces<'a> {
             }
         }
         let sum: f64 = weights.iter().sum();
-        let mut terms = Terms::new();
+        let mut terms = SparseVector::new();
         for (node, weight) in self.nodes[mat_nodes.clone()].iter().zip(weights) {
             accumulate(&mut terms, &node.vertical, -weight / sum);
         }

@@ -1,7 +1,7 @@
 //! A base in the plane: lines of nodes, mean displacements over contact elements, and chords.
 
 use super::faces::GAUSS_POINT_OFFSET;
-use super::transformation::{Terms, Weights, accumulate};
+use super::transformation::{SparseVector, Weights, accumulate};
 use super::{BasePoint, PlacedBase, PlacedFoundation, check_covered};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, number_text};
@@ -78,9 +78,9 @@ fn check_order(nodes: &[BaseNode]) -> Result<()> {
 }
 
 /// Mean displacement over the length between the first node and the last, downwards.
-fn mean_settlement(nodes: &[BaseNode]) -> Terms {
+fn mean_settlement(nodes: &[BaseNode]) -> SparseVector {
     let length = nodes[nodes.len() - 1].x - nodes[0].x;
-    let mut terms = Terms::new();
+    let mut terms = SparseVector::new();
     for pair in nodes.windows(2) {
         // Half of each interval belongs to the node at each end of it.
         let weight = 0.5 * (pair[1].x - pair[0].x) / length;
@@ -92,10 +92,10 @@ fn mean_settlement(nodes: &[BaseNode]) -> Terms {
 }
 
 /// Rotation of a chord: difference of the vertical displacements of its ends over their distance.
-fn chord_rotation(nodes: &[BaseNode]) -> Terms {
+fn chord_rotation(nodes: &[BaseNode]) -> SparseVector {
     let first = &nodes[0];
     let last = &nodes[nodes.len() - 1];
-    let mut terms = Terms::new();
+    let mut terms = SparseVector::new();
     accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
     accumulate(&mut terms, &first.vertical, -1.0 / (last.x - first.x));
     terms

@@ -12,7 +12,9 @@ use std::ops::Range;
 
 pub(crate) use tears::tears;
 
-use crate::coupled::base::transformation::{Rows, Terms, Transformation, Weights, accumulate};
+use crate::coupled::base::transformation::{
+    Rows, SparseVector, Transformation, Weights, accumulate,
+};
 use crate::error::{Error, Result, at_least};
 use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends, span};
 use crate::linalg::dot;
@@ -93,7 +95,7 @@ impl PlacedBase {
         points: Vec<BasePoint>,
     ) -> Self {
         let layout = elements.layout();
-        let mut rows = vec![Terms::new(); layout.len()];
+        let mut rows = vec![SparseVector::new(); layout.len()];
         for (e, weights) in weights.into_iter().enumerate() {
             let means = element_components(&nodes, &weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
@@ -112,7 +114,7 @@ impl PlacedBase {
     /// Integration points, with the deviation of their displacement from the mean over the element.
     ///
     /// Each deviation has one row for each component.
-    pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
+    pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<SparseVector>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
             let mut rows = element_components(
@@ -245,7 +247,7 @@ impl PlacedBase {
         self.rows.row_value(i, u)
     }
 
-    /// Displacement `[right, up, away]` of element `e`, from contact displacements.
+    /// Displacement `[right, up, along_y]` of element `e`, from contact displacements.
     pub(crate) fn element_displacement(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
         let mut components = [0.0; 3];
@@ -256,9 +258,9 @@ impl PlacedBase {
         [vector[0], vector[2], vector[1]]
     }
 
-    /// Mean `[right, up, away]` of contact displacements over the area of the whole base.
+    /// Mean `[right, up, along_y]` of contact displacements over the area of the whole base.
     ///
-    /// The component away is zero in the plane.
+    /// The component along y is zero in the plane.
     pub(crate) fn mean_displacement(&self, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
         let [down, tangential_x, tangential_y] = layout.split(displacement);
@@ -275,9 +277,9 @@ impl PlacedBase {
             }
             return mean;
         }
-        let away =
+        let along_y =
             if tangential_y.is_empty() { 0.0 } else { dot(tangential_y, areas) / total_area };
-        [dot(tangential_x, areas) / total_area, -(dot(down, areas) / total_area), away]
+        [dot(tangential_x, areas) / total_area, -(dot(down, areas) / total_area), along_y]
     }
 
     /// Adds the generalised forces factor · BᵀA τ of the tractions to `force`.
@@ -301,7 +303,7 @@ impl PlacedBase {
 
     /// Largest error of the contact nodes' displacements under translations of 1 m, m.
     ///
-    /// The translations are to the right, upwards and away. Components without terms are ignored.
+    /// The translations are to the right, upwards and horizontally along y. Components without terms are ignored.
     pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
         let mut max_error = 0.0_f64;
         for (direction, translation) in translations.iter().enumerate() {
@@ -314,7 +316,7 @@ impl PlacedBase {
 
     /// Corrects `translation` so that the contact nodes move by exactly 1 m.
     ///
-    /// Directions: 0 to the right, 1 upwards, 2 away.
+    /// Directions: 0 to the right, 1 upwards, 2 horizontally along y.
     pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
         for _ in 0..TRANSLATION_CORRECTION_COUNT {
             for (row, expected) in self.node_rows(direction) {
@@ -355,10 +357,10 @@ fn element_components(
     nodes: &[BaseNode],
     weights: &[(usize, f64)],
     element: &ContactElement,
-) -> Vec<Terms> {
+) -> Vec<SparseVector> {
     let mut components = Vec::new();
     for direction in element.directions() {
-        let mut terms = Terms::new();
+        let mut terms = SparseVector::new();
         for &(node, weight) in weights {
             let BaseNode { horizontal, across, vertical, .. } = &nodes[node];
             let rows = direction.iter().zip([horizontal, across, vertical]);

@@ -10,11 +10,11 @@ use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{dense_multiply_add, dot, largest, transposed_multiply_add};
 use crate::structure::DofCombination;
 
-/// Weighted sum of coordinates: pairs of a coordinate's index and its weight.
-pub(crate) type Terms = Vec<(usize, f64)>;
+/// Sparse vector of weights: pairs of a coordinate's index and its weight.
+pub(crate) type SparseVector = Vec<(usize, f64)>;
 
 /// Adds `factor` times the weighted sum `added_terms` to the weighted sum `terms`.
-pub(crate) fn accumulate(terms: &mut Terms, added_terms: &DofCombination, factor: f64) {
+pub(crate) fn accumulate(terms: &mut SparseVector, added_terms: &DofCombination, factor: f64) {
     for &(dof, weight) in added_terms {
         match terms.iter_mut().find(|(j, _)| *j == dof) {
             Some((_, sum)) => *sum += factor * weight,
@@ -79,7 +79,7 @@ impl Transformation {
 /// A weighted sum of coordinates.
 #[derive(Debug, Clone)]
 pub(crate) enum Weights {
-    Sparse(Terms),
+    Sparse(SparseVector),
     /// A weight for every coordinate.
     Dense(Vec<f64>),
 }
@@ -113,7 +113,7 @@ impl Weights {
 /// Several weighted sums of coordinates, one in each row.
 #[derive(Debug, Clone)]
 pub(crate) enum Rows {
-    Sparse(Vec<Terms>),
+    Sparse(Vec<SparseVector>),
     /// Row-major.
     Dense(Vec<f64>),
 }

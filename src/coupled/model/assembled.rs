@@ -177,7 +177,7 @@ impl Assembled {
     /// period of x and y. `fixed_factor` is the factored stiffness with springs at the base. The work of the weight on the
     /// springs is neglected (an error of 1 %).
     pub(crate) fn period_on_fixed_base(&self, fixed_factor: &mut SparseFactor) -> f64 {
-        // Direction 0 is to the right; in plan direction 2 is away.
+        // Direction 0 is to the right; in plan direction 2 is horizontally along y.
         let directions = self.base.layout().axes().map(|axis| 2 * axis);
         directions
             .map(|direction| self.period_along(direction, fixed_factor))
@@ -289,8 +289,8 @@ impl Assembled {
                 node_dofs.for_each(|dof| parts.join(first_dof, dof));
             }
         }
-        let roots: Vec<usize> = (0..dofs).map(|dof| parts.root(dof)).collect();
-        let influence = Influence::split(&self.base, &translations, &roots);
+        let part_labels: Vec<usize> = (0..dofs).map(|dof| parts.root(dof)).collect();
+        let influence = Influence::split(&self.base, &translations, &part_labels);
         supports::check_parts(&influence, &self.base, dofs)?;
         Ok((influence, factor))
     }

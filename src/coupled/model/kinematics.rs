@@ -7,7 +7,7 @@ use crate::coupled::base::transformation::Transformation;
 use crate::coupled::model::Model;
 use crate::coupled::scheme::SchemeCoefficients;
 
-/// Mean translation of the free field under a part, `[right, up, away]`; away is zero in the plane.
+/// Mean translation of the free field under a part, `[right, up, along_y]`; the last is zero in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Translation {
     /// Translation y at the end of the step, m.
@@ -79,9 +79,9 @@ impl Kinematics {
     /// Motion at rest.
     pub(crate) fn new(model: &Model) -> Self {
         Self {
-            displacement: vec![0.0; model.coordinates],
-            velocity: vec![0.0; model.coordinates],
-            acceleration: vec![0.0; model.coordinates],
+            displacement: vec![0.0; model.coordinate_count],
+            velocity: vec![0.0; model.coordinate_count],
+            acceleration: vec![0.0; model.coordinate_count],
             translations: vec![Translation::default(); model.influence.parts().len()],
             influence: model.influence.clone(),
             transformation: model.transformation.clone(),

@@ -23,7 +23,7 @@ pub(crate) struct Model {
     /// Number of degrees of freedom of the structure.
     pub(crate) dofs: usize,
     /// Number of stepping coordinates.
-    pub(crate) coordinates: usize,
+    pub(crate) coordinate_count: usize,
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
@@ -43,7 +43,7 @@ impl Model {
         let [mass, damping, stiffness] = assembled.shared_matrices().map(Matrix::Sparse);
         Self {
             dofs: assembled.dofs(),
-            coordinates: assembled.dofs(),
+            coordinate_count: assembled.dofs(),
             mass,
             is_damped: !damping.is_empty(),
             damping,
@@ -64,11 +64,11 @@ impl Model {
         let damping = if modes.coupled_damping.is_empty() {
             Matrix::Diagonal(modes.damping.clone())
         } else {
-            let coupled = modes.coupled_damping.clone();
-            Matrix::Sparse(Arc::new(SparseMatrix::from_dense(mode_count, coupled)))
+            let dense_damping = modes.coupled_damping.clone();
+            Matrix::Sparse(Arc::new(SparseMatrix::from_dense(mode_count, dense_damping)))
         };
         Self {
-            coordinates: mode_count,
+            coordinate_count: mode_count,
             mass: Matrix::Diagonal(vec![1.0; mode_count]),
             is_damped: !damping.is_empty(),
             damping,
@@ -93,26 +93,26 @@ impl Model {
 
     /// Adds the structure's load at `time` minus its `static_load` to `load`, in stepping coordinates.
     ///
-    /// Returns whether this difference has any entry. `scratch` has an entry for each degree of freedom and is
-    /// overwritten. Errors come from [`Structure::load`].
+    /// Returns whether this difference has any nonzero entry. `load_buffer` has an entry for each degree of freedom and
+    /// is overwritten. Errors come from [`Structure::load`].
     pub(crate) fn add_load(
         &self,
         structure: &dyn Structure,
         time: f64,
         static_load: &[f64],
-        scratch: &mut [f64],
+        load_buffer: &mut [f64],
         load: &mut [f64],
     ) -> Result<bool> {
-        scratch.fill(0.0);
-        structure.load(time, scratch)?;
+        load_buffer.fill(0.0);
+        structure.load(time, load_buffer)?;
         let mut has_load = false;
-        for (force, static_force) in scratch.iter_mut().zip(static_load) {
+        for (force, static_force) in load_buffer.iter_mut().zip(static_load) {
             *force -= static_force;
-            // Without a branch, so that the loop is vectorized. NaN counts as a load.
+            // The loop has no branch, so the compiler can vectorize it. NaN counts as a load.
             has_load |= *force != 0.0;
         }
         if has_load {
-            self.transformation.add_forces(scratch, load);
+            self.transformation.add_forces(load_buffer, load);
         }
         Ok(has_load)
     }

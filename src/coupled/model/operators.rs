@@ -15,17 +15,17 @@ use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_mul
 pub(crate) struct Operators {
     /// Tangent ∂f/∂u of the nonlinear force.
     pub(crate) tangent: SparseMatrix,
-    factor: Factor,
-    /// Columns of K_eff⁻¹BᵀA, one after the other.
-    pub(crate) columns: Vec<f64>,
+    factorization: StiffnessFactorization,
+    /// K_eff⁻¹BᵀA, stored column by column.
+    pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
 }
 
-/// K_eff, ready for solutions.
-pub(crate) enum Factor {
+/// Factorization of K_eff, or its inverse if diagonal.
+pub(crate) enum StiffnessFactorization {
     Sparse(Box<SparseFactor>),
-    /// Reciprocals of the diagonal, in modal coordinates.
+    /// Inverse of the diagonal K_eff, in modal coordinates.
     Diagonal(Vec<f64>),
 }
 
@@ -40,75 +40,94 @@ impl Operators {
         model: &Model,
         base: &PlacedBase,
         step_compliance: &Arc<CompressedMatrix>,
-        factor: Factor,
+        factorization: StiffnessFactorization,
         tangent: SparseMatrix,
     ) -> Result<Self> {
-        let (columns, delassus) =
-            condense(|rhs| factor.solve_many(rhs), base, step_compliance, model.coordinates)?;
-        let delassus =
-            delassus.with_parts(step_compliance, &columns, |u: &[f64], out: &mut [f64]| {
+        let (traction_responses, delassus) = condense(
+            |rhs| factorization.solve_many(rhs),
+            base,
+            step_compliance,
+            model.coordinate_count,
+        )?;
+        let delassus = delassus.with_parts(
+            step_compliance,
+            &traction_responses,
+            |u: &[f64], out: &mut [f64]| {
                 base.means(u, out);
-            });
-        Ok(Self { tangent, factor, columns, delassus })
+            },
+        );
+        Ok(Self { tangent, factorization, traction_responses, delassus })
     }
 
-    /// Reciprocals of the diagonal K_eff in modal coordinates; empty in degrees of freedom.
-    pub(crate) fn reciprocals(&self) -> &[f64] {
-        match &self.factor {
-            Factor::Diagonal(values) => values,
-            Factor::Sparse(_) => &[],
+    /// Inverse of the diagonal K_eff in modal coordinates; empty if K_eff is factored.
+    pub(crate) fn inverse_diagonal(&self) -> &[f64] {
+        match &self.factorization {
+            StiffnessFactorization::Diagonal(values) => values,
+            StiffnessFactorization::Sparse(_) => &[],
         }
     }
 
     /// Overwrites `rhs` with K_eff⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
-        match &mut self.factor {
-            Factor::Sparse(factor) => factor.solve(rhs),
-            Factor::Diagonal(reciprocals) => {
-                rhs.iter_mut().zip(reciprocals).for_each(|(x, reciprocal)| *x *= *reciprocal);
+        match &mut self.factorization {
+            StiffnessFactorization::Sparse(factor) => factor.solve(rhs),
+            StiffnessFactorization::Diagonal(inverse_diagonal) => {
+                rhs.iter_mut().zip(inverse_diagonal).for_each(|(x, inverse)| *x *= *inverse);
             }
         }
     }
 
-    /// Condition of K_eff, scaled by its diagonal.
-    pub(crate) fn condition(&self, model: &Model, c: &SchemeCoefficients) -> Result<f64> {
-        match &self.factor {
-            Factor::Diagonal(_) => Ok(1.0),
-            Factor::Sparse(factor) => {
-                Ok(sparse_condition(&effective_stiffness(model, c, &self.tangent)?, factor))
+    /// Condition number of K_eff, scaled by its diagonal.
+    pub(crate) fn condition_number(
+        &self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Result<f64> {
+        match &self.factorization {
+            StiffnessFactorization::Diagonal(_) => Ok(1.0),
+            StiffnessFactorization::Sparse(factor) => {
+                let matrix = effective_stiffness(model, coefficients, &self.tangent)?;
+                Ok(sparse_condition(&matrix, factor))
             }
         }
     }
 
     /// Diagonal of K_eff without the inertia term.
-    pub(crate) fn stiffness_diagonal(&self, model: &Model, c: &SchemeCoefficients) -> Vec<f64> {
-        let coefficients_without_inertia = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
+    pub(crate) fn stiffness_diagonal(
+        &self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Vec<f64> {
+        let coefficients_without_inertia =
+            SchemeCoefficients { acceleration: [0.0; 3], ..*coefficients };
         let matrix = effective_stiffness(model, &coefficients_without_inertia, &self.tangent);
         matrix.map_or_else(|_| Vec::new(), |matrix| matrix.diagonal())
     }
 }
 
-/// K_eff: the sum of M, C and K + ∂f/∂u, each times the scheme's coefficient of Δu.
+/// The effective stiffness matrix K_eff.
+///
+/// It is the sum of M, C and K + ∂f/∂u, each times the scheme's coefficient of Δu.
 fn effective_stiffness(
     model: &Model,
-    c: &SchemeCoefficients,
+    coefficients: &SchemeCoefficients,
     tangent: &SparseMatrix,
 ) -> Result<SparseMatrix> {
     let mass = model.mass.as_sparse();
     let damping = model.damping.as_sparse();
     let stiffness = model.stiffness.as_sparse();
     let terms = [
-        (c.acceleration[0], &*mass),
-        (c.velocity[0], &*damping),
-        (c.displacement[0], &*stiffness),
-        (c.displacement[0], tangent),
+        (coefficients.acceleration[0], &*mass),
+        (coefficients.velocity[0], &*damping),
+        (coefficients.displacement[0], &*stiffness),
+        (coefficients.displacement[0], tangent),
     ];
-    SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinates, &terms)
+    SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinate_count, &terms)
 }
 
-impl Factor {
+impl StiffnessFactorization {
     /// Factors K_eff in degrees of freedom.
-    pub(crate) fn of_dofs(
+    pub(crate) fn in_dofs(
         model: &Model,
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
@@ -119,39 +138,40 @@ impl Factor {
     }
 
     /// Inverts K_eff in modal coordinates, or factors it if the damping couples the modes.
-    pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
+    pub(crate) fn in_modal_coordinates(
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Result<Self> {
         let tangent = SparseMatrix::default();
         if model.diagonals().is_none() {
-            return Self::of_dofs(model, coefficients, &tangent).map(Self::Sparse);
+            return Self::in_dofs(model, coefficients, &tangent).map(Self::Sparse);
         }
-        let mut reciprocals = effective_stiffness(model, coefficients, &tangent)?.diagonal();
-        for entry in &mut reciprocals {
+        let mut inverse_diagonal = effective_stiffness(model, coefficients, &tangent)?.diagonal();
+        for entry in &mut inverse_diagonal {
             *entry = 1.0 / *entry;
         }
-        if reciprocals.iter().all(|entry| entry.is_finite()) {
-            return Ok(Self::Diagonal(reciprocals));
+        if inverse_diagonal.iter().all(|entry| entry.is_finite()) {
+            return Ok(Self::Diagonal(inverse_diagonal));
         }
-        Err(Error::Singular { matrix: EFFECTIVE_STIFFNESS_NAME, order: model.coordinates })
+        Err(Error::Singular { matrix: EFFECTIVE_STIFFNESS_NAME, order: model.coordinate_count })
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
     fn solve_many(&self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
-            Self::Diagonal(reciprocals) => {
-                for column in rhs.chunks_exact_mut(reciprocals.len()) {
-                    column
-                        .iter_mut()
-                        .zip(reciprocals)
-                        .for_each(|(x, reciprocal)| *x *= *reciprocal);
+            Self::Diagonal(inverse_diagonal) => {
+                for column in rhs.chunks_exact_mut(inverse_diagonal.len()) {
+                    column.iter_mut().zip(inverse_diagonal).for_each(|(x, inverse)| *x *= *inverse);
                 }
             }
         }
     }
 }
 
-/// Columns of K⁻¹BᵀA and the Delassus operator G + B K⁻¹BᵀA, for the compliance G of the ground.
+/// Condenses the structure to its contact components.
 ///
+/// Returns K⁻¹BᵀA, stored column by column, and the Delassus operator G + B K⁻¹BᵀA for the compliance G of the ground.
 /// `solve` overwrites many right-hand sides, one after the other. For a diagonal G and a structure of small rank the
 /// entries of the operator are not stored. Otherwise the function returns an error if they do not fit into memory.
 pub(crate) fn condense(
@@ -161,47 +181,48 @@ pub(crate) fn condense(
     dofs: usize,
 ) -> Result<(Vec<f64>, Delassus)> {
     let order = base.layout().len();
-    let mut columns = vec![0.0; order * dofs];
+    let mut traction_responses = vec![0.0; order * dofs];
     let mut unit_traction = vec![0.0; order];
     let mut means = vec![0.0; order];
-    for (i, column) in columns.chunks_exact_mut(dofs.max(1)).enumerate() {
+    for (i, force) in traction_responses.chunks_exact_mut(dofs.max(1)).enumerate() {
         unit_traction[i] = 1.0;
-        base.add_forces(1.0, &unit_traction, column);
+        base.add_forces(1.0, &unit_traction, force);
         unit_traction[i] = 0.0;
     }
-    solve(&mut columns);
+    solve(&mut traction_responses);
     if let Some(diagonal) = ground_compliance.as_diagonal() {
-        if let Some(operator) = operator_on_bed(&columns, base, diagonal, dofs) {
-            return Ok((columns, operator.into()));
+        if let Some(operator) = operator_on_bed(&traction_responses, base, diagonal, dofs) {
+            return Ok((traction_responses, operator.into()));
         }
         check_count(base.elements().len(), base.layout().components())?;
     }
     let mut delassus = ground_compliance.filled(order);
-    for (i, column) in columns.chunks_exact(dofs.max(1)).enumerate() {
-        base.means(column, &mut means);
+    for (i, response) in traction_responses.chunks_exact(dofs.max(1)).enumerate() {
+        base.means(response, &mut means);
         for (row, mean) in means.iter().enumerate() {
             delassus[row * order + i] += mean;
         }
     }
-    Ok((columns, delassus.into()))
+    Ok((traction_responses, delassus.into()))
 }
 
-/// Delassus operator on a bed, from the bed's diagonal compliance and the columns of K⁻¹BᵀA.
+/// Delassus operator of a structure on a bed.
 ///
-/// `None` if the rank of the structure's part is not small.
+/// The operator follows from the bed's diagonal compliance and K⁻¹BᵀA. `None` if the rank of the structure's part is
+/// not small.
 fn operator_on_bed(
-    columns: &[f64],
+    traction_responses: &[f64],
     base: &PlacedBase,
     bed_diagonal: &[f64],
     dofs: usize,
 ) -> Option<OnBed> {
-    let column = |i: usize| &columns[i * dofs..][..dofs];
+    let response = |i: usize| &traction_responses[i * dofs..][..dofs];
     let structure = StructurePart {
-        diagonal: (0..bed_diagonal.len()).map(|i| base.component_mean(i, column(i))).collect(),
-        column: |i: usize, out: &mut [f64]| base.means(column(i), out),
+        diagonal: (0..bed_diagonal.len()).map(|i| base.component_mean(i, response(i))).collect(),
+        column: |i: usize, out: &mut [f64]| base.means(response(i), out),
         product: |traction: &[f64], out: &mut [f64]| {
             let mut displacement = vec![0.0; dofs];
-            transposed_multiply_add(columns, 1.0, traction, &mut displacement);
+            transposed_multiply_add(traction_responses, 1.0, traction, &mut displacement);
             base.means(&displacement, out);
         },
     };

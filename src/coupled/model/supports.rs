@@ -60,7 +60,7 @@ const TRANSLATION_NAMES: [&str; 3] = ["to the right", "upwards", "along y"];
 
 /// Error unless a structure translates freely; rounds its translations to whole numbers.
 ///
-/// `translations` are those to the right, upwards, and in plan away. Entries close to whole numbers are rounded, and
+/// `translations` are those to the right, upwards, and in plan along y. Entries close to whole numbers are rounded, and
 /// the displacements of the contact nodes become exact. `stiffness` does not contain the springs at the contact nodes.
 /// These are `spring_ratio` times as stiff as its largest diagonal entry.
 pub(crate) fn check(

@@ -82,7 +82,7 @@ impl Run {
         for probe in &self.probes {
             rows.push(peak_row(&probe.name, printed(&probe.unit), &probe.extremes));
         }
-        Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
+        Table { heading: heading.map(str::to_owned).to_vec(), repeated_column_count: 1, rows }
     }
 
     /// Largest magnitudes, one line for each foundation.
@@ -96,7 +96,7 @@ impl Run {
         }
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
         let rows = self.foundations.iter().map(|summary| self.foundation_row(summary, &quantities));
-        Table { heading: headings, repeated: 1, rows: rows.collect() }
+        Table { heading: headings, repeated_column_count: 1, rows: rows.collect() }
     }
 
     /// Row of a foundation: its extent, largest magnitudes and sliding.
@@ -263,8 +263,8 @@ impl Run {
                 rows.push(pressure_row(envelope, &axes));
             }
         }
-        let repeated = axes.len();
-        Table { heading, repeated, rows }
+        let repeated_column_count = axes.len();
+        Table { heading, repeated_column_count, rows }
     }
 
     fn write_effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -30,7 +30,7 @@ pub(crate) struct Compliance {
     /// Factored K + D + εM.
     pub(crate) factor: Rc<ShiftedStiffnessFactor>,
     /// Displacements of the structure under unit tractions, one column after the other.
-    pub(crate) columns: Vec<f64>,
+    pub(crate) traction_responses: Vec<f64>,
     /// Delassus operator of structure and ground.
     pub(crate) delassus: Delassus,
 }
@@ -73,9 +73,9 @@ impl Compliance {
         ground_compliance: &CompressedMatrix,
     ) -> Result<Self> {
         let order = factor.matrix.order();
-        let (columns, delassus) =
+        let (traction_responses, delassus) =
             condense(|rhs| factor.factor.solve_many(rhs), base, ground_compliance, order)?;
-        Ok(Self { factor, columns, delassus })
+        Ok(Self { factor, traction_responses, delassus })
     }
 }
 

@@ -199,7 +199,7 @@ impl StaticProblem<'_> {
             Err(_) => return Ok(None),
         }
         let traction = &solver.response().traction;
-        transposed_multiply_add(&compliance.columns, -1.0, traction, &mut displacement);
+        transposed_multiply_add(&compliance.traction_responses, -1.0, traction, &mut displacement);
         Ok(Some(displacement))
     }
 
@@ -207,7 +207,7 @@ impl StaticProblem<'_> {
     ///
     /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle
     /// 1/`PROXIMAL_SPRING_FRACTION` times as much as on the ground. The system is therefore solved for the unbalanced force
-    /// only, and the response to the last tractions τ₀ is added with the columns of the compliance.
+    /// only, and the response to the last tractions τ₀ is added with the traction responses of the compliance.
     fn displacement_without_traction(
         &self,
         compliance: &Compliance,
@@ -219,7 +219,8 @@ impl StaticProblem<'_> {
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
         }
-        transposed_multiply_add(&compliance.columns, 1.0, &state.traction, &mut displacement);
+        let responses = &compliance.traction_responses;
+        transposed_multiply_add(responses, 1.0, &state.traction, &mut displacement);
         Ok(displacement)
     }
 

@@ -9,7 +9,7 @@
 //! | y, R | translation of the free field under a part; influence vectors |
 
 use crate::bem::Ground;
-use crate::coupled::base::transformation::Terms;
+use crate::coupled::base::transformation::SparseVector;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
@@ -43,7 +43,7 @@ pub(crate) struct EnergyAccumulator {
     /// Δy of the last step, for each part.
     pub(crate) translation_increment: Vec<[f64; 3]>,
     /// M R, for each part.
-    inertia: Vec<[Terms; 3]>,
+    inertia: Vec<[SparseVector; 3]>,
     /// Mass Rᵀ M R of each part, in each direction.
     mass: Vec<[f64; 3]>,
     scratch: EnergyScratch,
@@ -68,7 +68,7 @@ impl EnergyAccumulator {
         state: &State,
         is_compliant: bool,
     ) -> Result<Self, LawError> {
-        let coordinates = scene.model.coordinates;
+        let coordinates = scene.model.coordinate_count;
         let component_count = scene.layout().len();
         let mut jump = scene.static_state.gap.clone();
         jump.resize(component_count, 0.0);
@@ -246,8 +246,8 @@ impl EnergyAccumulator {
             let parts = model.influence.parts().iter().zip(&forcing.translations);
             let translation_work: f64 = parts
                 .map(|(part, y)| {
-                    let [right, up, away] = part.resultants(product);
-                    y.increment[0] * right + y.increment[1] * up + y.increment[2] * away
+                    let [right, up, along_y] = part.resultants(product);
+                    y.increment[0] * right + y.increment[1] * up + y.increment[2] * along_y
                 })
                 .sum();
             energy_balance.damping += dot(product, du) - translation_work;

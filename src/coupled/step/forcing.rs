@@ -8,7 +8,7 @@
 //! | h | soil displacement due to all earlier tractions, without the effect of τ_ff |
 //! | R | influence vectors |
 
-use crate::bem::{Ground, free_field};
+use crate::bem::{Ground, fill_free_field};
 use crate::coupled::model::kinematics::Translation;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
@@ -46,7 +46,7 @@ impl Forcing {
     /// Buffers for the forcing of a scene's steps.
     pub(crate) fn new(scene: &Scene) -> Self {
         let contact_zeros = vec![0.0; scene.layout().len()];
-        let structure_zeros = vec![0.0; scene.model.coordinates];
+        let structure_zeros = vec![0.0; scene.model.coordinate_count];
         let wall_zeros =
             if scene.base.elements().has_walls() { contact_zeros.clone() } else { Vec::new() };
         Self {
@@ -151,10 +151,10 @@ impl Forcing {
         let elements = scene.base.elements();
         // The build has checked that the motion is defined on the walls.
         if elements.has_walls() {
-            let values = [&mut self.free_field[..], &mut self.free_traction];
-            free_field(ground, motion, elements, state.time, values);
+            let impulse = &mut self.free_traction;
+            fill_free_field(ground, motion, elements, state.time, &mut self.free_field, impulse);
         }
-        free_field(ground, motion, elements, time, [&mut self.free_field, &mut self.impulse]);
+        fill_free_field(ground, motion, elements, time, &mut self.free_field, &mut self.impulse);
         for (traction, impulse) in self.free_traction.iter_mut().zip(&self.impulse) {
             *traction = (*impulse - *traction) / scene.time_step;
         }

@@ -50,7 +50,7 @@ pub(crate) struct Increment {
 impl Increment {
     /// Buffers for a step; `stores_compliance` includes a buffer for compliances.
     pub(crate) fn new(scene: &Scene, state: &State, stores_compliance: bool) -> Self {
-        let coordinates = scene.model.coordinates;
+        let coordinates = scene.model.coordinate_count;
         let element_count = scene.element_count();
         let compliance_count = if stores_compliance { element_count } else { 0 };
         let force_count = if scene.model.is_linear { 0 } else { coordinates };

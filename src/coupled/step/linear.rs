@@ -36,7 +36,7 @@ pub(crate) struct LinearStep {
 impl LinearStep {
     /// Solver for a scene's steps.
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
-        let coordinates = scene.model.coordinates;
+        let coordinates = scene.model.coordinate_count;
         Self {
             operators,
             contact: ContactSolver::new(
@@ -95,7 +95,7 @@ impl LinearStep {
         free_increment(
             scheme,
             matrices,
-            self.operators.reciprocals(),
+            self.operators.inverse_diagonal(),
             kinematics,
             forcing,
             increment,
@@ -104,9 +104,9 @@ impl LinearStep {
         let Self { operators, contact, scratch, .. } = self;
         scratch.fill(0.0);
         scene.base.add_forces(1.0, &contact.response().traction, scratch);
-        let reciprocals = operators.reciprocals();
-        let translation_increment = &forcing.translation_increment;
-        apply_tractions(scheme, reciprocals, scratch, kinematics, translation_increment, increment);
+        let inverse_diagonal = operators.inverse_diagonal();
+        let translation = &forcing.translation_increment;
+        apply_tractions(scheme, inverse_diagonal, scratch, kinematics, translation, increment);
         Ok(())
     }
 
@@ -122,7 +122,7 @@ impl LinearStep {
         increment.set_end_displacement(data.state);
         self.solve_tractions(data, increment)?;
         transposed_multiply_add(
-            &self.operators.columns,
+            &self.operators.traction_responses,
             -1.0,
             &self.contact.response().traction,
             &mut increment.displacement,

@@ -29,7 +29,7 @@ use crate::linalg::{Simd, WithSimd, vectorized};
 pub(crate) fn free_increment(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
-    reciprocals: &[f64],
+    inverse_diagonal: &[f64],
     kinematics: &Kinematics,
     forcing: &Forcing,
     increment: &mut Increment,
@@ -37,7 +37,7 @@ pub(crate) fn free_increment(
     vectorized(FreeIncrement {
         scheme,
         matrices,
-        reciprocals,
+        inverse_diagonal,
         kinematics,
         forcing,
         displacement_increment: increment.displacement.as_mut_slice(),
@@ -48,7 +48,7 @@ pub(crate) fn free_increment(
 /// Subtracts the response to the tractions' `force` from Δu, and computes the motion at the end.
 pub(crate) fn apply_tractions(
     scheme: &SchemeCoefficients,
-    reciprocals: &[f64],
+    inverse_diagonal: &[f64],
     force: &[f64],
     kinematics: &Kinematics,
     translation_increment: &[f64],
@@ -56,7 +56,7 @@ pub(crate) fn apply_tractions(
 ) {
     vectorized(ApplyTractions {
         scheme,
-        reciprocals,
+        inverse_diagonal,
         force,
         kinematics,
         translation_increment,
@@ -68,7 +68,7 @@ pub(crate) fn apply_tractions(
 struct FreeIncrement<'a> {
     scheme: &'a SchemeCoefficients,
     matrices: Diagonals<'a>,
-    reciprocals: &'a [f64],
+    inverse_diagonal: &'a [f64],
     kinematics: &'a Kinematics,
     forcing: &'a Forcing,
     displacement_increment: &'a mut [f64],
@@ -81,10 +81,10 @@ impl WithSimd for FreeIncrement<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { displacement_increment, end_displacement, .. } = self;
-        let Self { scheme, matrices, reciprocals, kinematics, forcing, .. } = self;
+        let Self { scheme, matrices, inverse_diagonal, kinematics, forcing, .. } = self;
         right_hand_side(scheme, matrices, kinematics, forcing, displacement_increment);
         let u = &kinematics.displacement;
-        divide_by_stiffness(reciprocals, u, displacement_increment, end_displacement);
+        divide_by_stiffness(inverse_diagonal, u, displacement_increment, end_displacement);
     }
 }
 
@@ -124,13 +124,13 @@ fn right_hand_side(
 
 /// Replaces the right-hand side by Δu, and computes u₁.
 #[inline(always)]
-fn divide_by_stiffness(reciprocals: &[f64], u: &[f64], rhs: &mut [f64], end: &mut [f64]) {
+fn divide_by_stiffness(inverse_diagonal: &[f64], u: &[f64], rhs: &mut [f64], end: &mut [f64]) {
     let n = rhs.len();
-    let reciprocals = &reciprocals[..n];
+    let inverse_diagonal = &inverse_diagonal[..n];
     let u = &u[..n];
     let end = &mut end[..n];
     for j in 0..n {
-        rhs[j] *= reciprocals[j];
+        rhs[j] *= inverse_diagonal[j];
         end[j] = u[j] + rhs[j];
     }
 }
@@ -138,7 +138,7 @@ fn divide_by_stiffness(reciprocals: &[f64], u: &[f64], rhs: &mut [f64], end: &mu
 /// Arguments of [`apply_tractions`].
 struct ApplyTractions<'a> {
     scheme: &'a SchemeCoefficients,
-    reciprocals: &'a [f64],
+    inverse_diagonal: &'a [f64],
     force: &'a [f64],
     kinematics: &'a Kinematics,
     translation_increment: &'a [f64],
@@ -150,10 +150,10 @@ impl WithSimd for ApplyTractions<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { scheme, reciprocals, force, kinematics, translation_increment, increment } =
+        let Self { scheme, inverse_diagonal, force, kinematics, translation_increment, increment } =
             self;
         subtract_response(
-            reciprocals,
+            inverse_diagonal,
             force,
             &mut increment.displacement,
             &mut increment.end_displacement,
@@ -172,13 +172,13 @@ impl WithSimd for ApplyTractions<'_> {
 
 /// Subtracts the response to the tractions' force from Δu and u₁.
 #[inline(always)]
-fn subtract_response(reciprocals: &[f64], force: &[f64], du: &mut [f64], end: &mut [f64]) {
+fn subtract_response(inverse_diagonal: &[f64], force: &[f64], du: &mut [f64], end: &mut [f64]) {
     let n = du.len();
-    let reciprocals = &reciprocals[..n];
+    let inverse_diagonal = &inverse_diagonal[..n];
     let force = &force[..n];
     let end = &mut end[..n];
     for j in 0..n {
-        let response = reciprocals[j] * force[j];
+        let response = inverse_diagonal[j] * force[j];
         du[j] -= response;
         end[j] -= response;
     }

@@ -2,7 +2,7 @@
 
 use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
-use crate::coupled::model::operators::{Factor, Operators};
+use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
@@ -213,14 +213,14 @@ impl NewtonIteration {
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
             let model = &scene.model;
             let base = &scene.base;
-            let factor = Factor::of_dofs(model, &scene.coefficients, tangent)
+            let factor = StiffnessFactorization::in_dofs(model, &scene.coefficients, tangent)
                 .map_err(StepError::part("tangent of the structure"))?;
             let tangent = tangent.clone();
             linear.operators = Operators::new(
                 model,
                 base,
                 &scene.step_compliance,
-                Factor::Sparse(factor),
+                StiffnessFactorization::Sparse(factor),
                 tangent,
             )
             .map_err(StepError::part("tangent of the structure"))?;

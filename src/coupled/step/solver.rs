@@ -24,7 +24,8 @@ impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            newton: (!scene.model.is_linear).then(|| NewtonIteration::new(scene.model.coordinates)),
+            newton: (!scene.model.is_linear)
+                .then(|| NewtonIteration::new(scene.model.coordinate_count)),
         }
     }
 

@@ -21,7 +21,7 @@ use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 use super::plan_spectra::{LAGS_PER_CHUNK, coefficients_in_plan};
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{COUPLING_KIND, PairClasses, STRIP_KINDS};
 use crate::linalg::next_smooth_even;
@@ -182,7 +182,7 @@ impl ElementGrid {
     pub(super) fn kinds(&self) -> usize {
         match self.offsets {
             Offsets::Strip(_) => STRIP_KINDS,
-            Offsets::Plan(_) => SERIES_PER_OFFSET,
+            Offsets::Plan(_) => COMPLIANCES_PER_OFFSET,
         }
     }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::wave_numbers::WaveNumbers;
-use crate::geometry::{COMPONENTS_IN_SPACE, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE};
 use crate::history::pair_classes::STRIP_KINDS;
 use crate::linalg::{Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd};
 
@@ -120,7 +120,7 @@ impl PlanLeaf<'_> {
                     SimdSlice::<S>::new(&inputs[begin..begin + length])
                 })
             });
-            let coefficients: [[_; SERIES_PER_OFFSET]; M] = std::array::from_fn(|n| {
+            let coefficients: [[_; COMPLIANCES_PER_OFFSET]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|kind| {
                     let begin = (leaf_step - m - n) * waves.with_spectra + first_spectrum;
                     SimdSlice::<S>::new(&coefficients[kind][begin..begin + length])
@@ -133,11 +133,11 @@ impl PlanLeaf<'_> {
                 }
                 for n in 0..M {
                     let mut x = [total[0]; COMPLEX_PARTS];
-                    let mut g = [total[0]; SERIES_PER_OFFSET];
+                    let mut g = [total[0]; COMPLIANCES_PER_OFFSET];
                     for part in 0..COMPLEX_PARTS {
                         x[part] = inputs[n][part].vectors[k];
                     }
-                    for kind in 0..SERIES_PER_OFFSET {
+                    for kind in 0..COMPLIANCES_PER_OFFSET {
                         g[kind] = coefficients[n][kind].vectors[k];
                     }
                     total = add_products(simd, total, g, x);
@@ -169,7 +169,7 @@ impl PlanLeaf<'_> {
 fn add_products<S: Simd>(
     simd: S,
     total: [S::f64s; COMPLEX_PARTS],
-    [zz, xx, yy, xy, zx, zy]: [S::f64s; SERIES_PER_OFFSET],
+    [zz, xx, yy, xy, zx, zy]: [S::f64s; COMPLIANCES_PER_OFFSET],
     [p, q, a, b, c, d]: [S::f64s; COMPLEX_PARTS],
 ) -> [S::f64s; COMPLEX_PARTS] {
     let normal = [

@@ -2,7 +2,7 @@
 
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::geometry::{Lattice, SERIES_PER_OFFSET};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, Lattice};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::{add_combined_rows, next_smooth_even};
 
@@ -35,8 +35,9 @@ pub(super) fn coefficients_in_plan(
     let spectrum_counts = lengths.map(|length| length / 2 + 1);
     let axis_factors = [0, 1].map(|axis| cosines_and_sines(lattice.counts[axis], lengths[axis]));
     let max_chunk_lags = LAGS_PER_CHUNK.min(lag_count);
-    let mut tables = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; columns * rows * max_chunk_lags]);
-    let mut lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; max_chunk_lags]);
+    let mut tables =
+        [(); COMPLIANCES_PER_OFFSET].map(|()| vec![0.0; columns * rows * max_chunk_lags]);
+    let mut lags = [(); COMPLIANCES_PER_OFFSET].map(|()| vec![0.0; max_chunk_lags]);
     let mut values = vec![0.0; spectrum_counts[0] * spectrum_counts[1]];
     let mut transformed_along_x = vec![0.0; spectrum_counts[0] * rows * max_chunk_lags];
     let mut transformed = vec![0.0; spectrum_counts[0] * spectrum_counts[1] * max_chunk_lags];
@@ -92,13 +93,13 @@ fn read_tables(
     kernel: &dyn ConvolutionWeights,
     chunk_start: usize,
     skipped_lags: usize,
-    lags: &mut [&mut [f64]; SERIES_PER_OFFSET],
-    tables: &mut [Vec<f64>; SERIES_PER_OFFSET],
+    lags: &mut [&mut [f64]; COMPLIANCES_PER_OFFSET],
+    tables: &mut [Vec<f64>; COMPLIANCES_PER_OFFSET],
 ) -> Result<()> {
     let [columns, rows] = lattice.counts;
     let chunk_lags = lags[0].len();
     for offset in (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j])) {
-        let (class, terms) = lattice.terms(offset.map(usize::cast_signed));
+        let (class, terms) = lattice.compliance_terms(offset.map(usize::cast_signed));
         let mut slices = lags.each_mut().map(|lags| &mut lags[skipped_lags..]);
         kernel.coefficients(class, chunk_start + skipped_lags + 1, &mut slices)?;
         let [[zz, zx, zy], [_, xx, xy], [_, _, yy]] = terms;

@@ -9,8 +9,10 @@ const CELL_POSITION_TOLERANCE: f64 = 1e-9;
 /// Largest number of cells per element: transforms over emptier lattices are slower than direct products.
 const MAX_CELLS_PER_ELEMENT: f64 = 4.0;
 
-/// Number of compliances of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
-pub const SERIES_PER_OFFSET: usize = 6;
+/// Number of distinct compliances per offset.
+///
+/// In order: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
+pub const COMPLIANCES_PER_OFFSET: usize = 6;
 
 /// Lattice of equal cells: compliances depend only on the offset between two cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +45,10 @@ impl Lattice {
         self.pitch[0] == self.pitch[1]
     }
 
-    /// Numbers of offsets along x and y that are integrated; the smaller number first if cells are square.
-    pub fn extent(&self) -> [usize; 2] {
+    /// Numbers of integrated offsets along x and y.
+    ///
+    /// If cells are square, the smaller number comes first.
+    pub fn offset_counts(&self) -> [usize; 2] {
         let counts = self.counts;
         if self.is_square() {
             [counts[0].min(counts[1]), counts[0].max(counts[1])]
@@ -53,12 +57,14 @@ impl Lattice {
         }
     }
 
-    /// Offsets [i, j] ≥ 0 whose compliances give all others by symmetry; i ≤ j if cells are square.
+    /// Offsets whose compliances give all others by symmetry.
+    ///
+    /// Both numbers of an offset [i, j] are zero or more; i ≤ j if cells are square.
     pub fn classes(&self) -> Vec<[usize; 2]> {
-        let extent = self.extent();
+        let offset_counts = self.offset_counts();
         let mut classes = vec![];
-        for i in 0..extent[0] {
-            for j in 0..extent[1] {
+        for i in 0..offset_counts[0] {
+            for j in 0..offset_counts[1] {
                 if !self.is_square() || i <= j {
                     classes.push([i, j]);
                 }
@@ -67,46 +73,55 @@ impl Lattice {
         classes
     }
 
-    /// Index of the class of an absolute offset, and whether x and y are exchanged in this class.
-    fn class(&self, [i, j]: [usize; 2]) -> (usize, bool) {
-        let row_count = self.extent()[1];
+    /// Class index of an absolute offset, and whether x and y are exchanged.
+    fn class_index(&self, [i, j]: [usize; 2]) -> (usize, bool) {
+        let row_length = self.offset_counts()[1];
         if !self.is_square() {
-            return (i * row_count + j, false);
+            return (i * row_length + j, false);
         }
         let smaller = i.min(j);
         let larger = i.max(j);
-        // A row of classes has one smaller number; its larger numbers begin at the smaller one.
-        (smaller * row_count - smaller * (smaller + 1) / 2 + larger, i > j)
+        // Row `smaller` of the triangle stores the columns from `smaller` on.
+        (smaller * row_length - smaller * (smaller + 1) / 2 + larger, i > j)
     }
 
-    /// Class of an offset, and the index and factor of the compliance of each pair of components.
+    /// Class index and compliance terms of an offset.
     ///
-    /// Rows: components of the receiver's displacement (down, along x, along y). Columns: components of the
-    /// source's traction. The receiver is `offset` cells from the source.
+    /// The term of a pair of components is the index and the factor of its compliance. Rows: components of the
+    /// receiver's displacement (down, along x, along y). Columns: components of the source's traction. The
+    /// receiver is `offset` cells from the source.
     #[inline]
-    pub fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
-        let (class, is_exchanged) = self.class(offset.map(isize::unsigned_abs));
+    pub fn compliance_terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
+        let (class_index, is_exchanged) = self.class_index(offset.map(isize::unsigned_abs));
         let signs = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
-        // Indices of the compliances xx, yy, zx and zy.
-        let indices = if is_exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
-        let xx = (indices[0], 1.0);
-        let yy = (indices[1], 1.0);
+        let xx_index = if is_exchanged { 2 } else { 1 };
+        let yy_index = if is_exchanged { 1 } else { 2 };
+        let zx_index = if is_exchanged { 5 } else { 4 };
+        let zy_index = if is_exchanged { 4 } else { 5 };
+        let xx = (xx_index, 1.0);
+        let yy = (yy_index, 1.0);
         let xy = (3, signs[0] * signs[1]);
-        let zx = (indices[2], signs[0]);
-        let zy = (indices[3], signs[1]);
+        let zx = (zx_index, signs[0]);
+        let zy = (zy_index, signs[1]);
         // The coupling of shear and pressure changes its sign when receiver and source are exchanged.
-        let xz = (indices[2], -signs[0]);
-        let yz = (indices[3], -signs[1]);
-        (class, [[(0, 1.0), zx, zy], [xz, xx, xy], [yz, xy, yy]])
+        let xz = (zx_index, -signs[0]);
+        let yz = (zy_index, -signs[1]);
+        (class_index, [[(0, 1.0), zx, zy], [xz, xx, xy], [yz, xy, yy]])
     }
 
-    /// 3 × 3 compliances for a receiver `offset` cells from the source, from the `values` of all classes.
-    pub fn block<T>(&self, values: &[[T; SERIES_PER_OFFSET]], offset: [isize; 2]) -> [[T; 3]; 3]
+    /// Compliances (3 × 3) between a source and a receiver.
+    ///
+    /// The receiver is `offset` cells from the source. `values` has the compliances of all classes.
+    pub fn block<T>(
+        &self,
+        values: &[[T; COMPLIANCES_PER_OFFSET]],
+        offset: [isize; 2],
+    ) -> [[T; 3]; 3]
     where
         T: Copy + Mul<f64, Output = T>,
     {
-        let (class, terms) = self.terms(offset);
-        terms.map(|row| row.map(|(index, factor)| values[class][index] * factor))
+        let (class_index, terms) = self.compliance_terms(offset);
+        terms.map(|row| row.map(|(index, factor)| values[class_index][index] * factor))
     }
 }
 
@@ -116,7 +131,9 @@ pub fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
     [0, 1].map(|axis| receiver[axis].cast_signed() - source[axis].cast_signed())
 }
 
-/// Column and row of each element, if all are equal cells of a lattice that is mostly filled.
+/// Lattice cells of the elements, if they fill a lattice.
+///
+/// A cell is its column and row. The cells are equal; there are at most `MAX_CELLS_PER_ELEMENT` for each element.
 pub fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
     let first_element = elements.first()?;
     if first_element.directions().len() != COMPONENTS_IN_SPACE {
@@ -170,9 +187,9 @@ mod tests {
             let mut is_class_used = vec![false; classes.len()];
             for i in 0..counts[0] {
                 for j in 0..counts[1] {
-                    let (class, is_exchanged) = lattice.class([i, j]);
-                    assert_eq!(classes[class], if is_exchanged { [j, i] } else { [i, j] });
-                    is_class_used[class] = true;
+                    let (class_index, is_exchanged) = lattice.class_index([i, j]);
+                    assert_eq!(classes[class_index], if is_exchanged { [j, i] } else { [i, j] });
+                    is_class_used[class_index] = true;
                 }
             }
             assert!(is_class_used.into_iter().all(|is_used| is_used), "{counts:?}");
@@ -183,9 +200,9 @@ mod tests {
     #[test]
     fn blocks_are_reciprocal() {
         let lattice = Lattice { pitch: [1.0; 2], counts: [4, 5] };
-        let values: Vec<[f64; SERIES_PER_OFFSET]> = (0..lattice.classes().len())
+        let values: Vec<[f64; COMPLIANCES_PER_OFFSET]> = (0..lattice.classes().len())
             .map(|class| {
-                std::array::from_fn(|index| (SERIES_PER_OFFSET * class + index + 1) as f64)
+                std::array::from_fn(|index| (COMPLIANCES_PER_OFFSET * class + index + 1) as f64)
             })
             .collect();
         for offset in [[0_isize, 3], [3, 1], [-2, 4], [-3, -1]] {

@@ -13,7 +13,7 @@ pub use element::ContactElement;
 #[doc(hidden)]
 pub use element::OutlineFaces;
 pub use footing::{Edge, Footing, circle};
-pub use lattice::{Lattice, SERIES_PER_OFFSET, lattice_cells, offset};
+pub use lattice::{COMPLIANCES_PER_OFFSET, Lattice, lattice_cells, offset};
 pub use patch::{Patch, check_count, check_order};
 
 /// Number of components of a traction on an element in the plane: down, along x.

@@ -10,7 +10,9 @@ fn one_line(cell: &str) -> String {
     )
 }
 
-/// Text of a cell, truncated to the width of its column; a truncated text ends in `…`.
+/// Text of a cell, truncated to the width of its column.
+///
+/// A truncated text ends in `…`.
 fn truncated(cell: String, width: usize) -> String {
     if cell.chars().nth(width).is_none() {
         return cell;
@@ -32,15 +34,16 @@ pub struct Table {
     /// Titles of the columns.
     pub heading: Vec<String>,
     /// Number of first columns that every block of a wide table repeats.
-    pub repeated: usize,
+    pub repeated_column_count: usize,
     /// Cells of each row.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// Writes the table in columns aligned by spaces, names to the left and other cells to the right.
+    /// Writes the table in columns aligned by spaces.
     ///
-    /// A table that is wider than a line is split into blocks; cells that are too long are truncated, and end in `…`.
+    /// Names are aligned to the left, other cells to the right. A table that is wider than a line is split into
+    /// blocks; cells that are too long are truncated, and end in `…`.
     pub fn text(&self) -> String {
         let mut widths: Vec<usize> =
             (0..self.heading.len()).map(|column| self.column_width(column)).collect();
@@ -48,7 +51,8 @@ impl Table {
         if line_width(&columns, &widths) <= MAX_LINE_CHARACTERS {
             return self.block_text(&columns, &widths);
         }
-        let (repeated_columns, other_columns) = columns.split_at(self.repeated.min(columns.len()));
+        let (repeated_columns, other_columns) =
+            columns.split_at(self.repeated_column_count.min(columns.len()));
         for &column in repeated_columns {
             let max_width = if column == 0 { MAX_NAME_WIDTH } else { MAX_REPEATED_WIDTH };
             widths[column] = widths[column].min(max_width);
@@ -128,7 +132,7 @@ fn text_line(row: &[String], columns: &[usize], widths: &[usize]) -> String {
             cells.push(if is_name { format!("{text:<width$}") } else { format!("{text:>width$}") });
         }
     }
-    cells.join("  ").trim_end().to_owned()
+    cells.join(&" ".repeat(COLUMN_GAP)).trim_end().to_owned()
 }
 
 /// Line of a Markdown table.
@@ -155,14 +159,14 @@ mod tests {
     /// A table of two columns of equal rows.
     fn two_columns(first_width: usize) -> String {
         let row = vec!["a".repeat(first_width), "b".repeat(49)];
-        Table { heading: row.clone(), repeated: 1, rows: vec![row] }.text()
+        Table { heading: row.clone(), repeated_column_count: 1, rows: vec![row] }.text()
     }
 
     #[test]
     fn cells_stay_in_their_row() {
         let heading = cells(&["", "two\nlines", "a\\|b\r\u{2028}\u{85}\x1b"]);
         let rows = vec![cells(&["x", "1", "2"])];
-        let table = Table { heading, repeated: 1, rows };
+        let table = Table { heading, repeated_column_count: 1, rows };
         assert_eq!(
             table.text(),
             "   two lines  a\\|b\n----------------------\nx          1         2"
@@ -177,7 +181,7 @@ mod tests {
     fn three_ways_to_write_a_table() {
         let table = Table {
             heading: cells(&["name", "µ, x"]),
-            repeated: 1,
+            repeated_column_count: 1,
             rows: vec![cells(&["a|b", "1"]), cells(&["c \"d\"", "22.5"])],
         };
         assert_eq!(table.text(), "name   µ, x\n-----------\na|b       1\nc \"d\"  22.5");
@@ -193,7 +197,7 @@ mod tests {
         let widths = [3, 4, 40, 30, 15, 98, 200, 1];
         let heading = widths.map(|width| "é".repeat(width)).to_vec();
         let rows = ["1", "2"].map(|sign| widths.map(|width| sign.repeat(width)).to_vec()).to_vec();
-        let text = Table { heading, repeated: 2, rows }.text();
+        let text = Table { heading, repeated_column_count: 2, rows }.text();
         let max_characters = text.lines().map(|line| line.chars().count()).max();
         // Cells of 98 and 200 characters are truncated to the width beside the names.
         assert_eq!(max_characters, Some(MAX_LINE_CHARACTERS));

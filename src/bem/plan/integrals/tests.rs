@@ -13,7 +13,7 @@ use crate::soil::Soil;
 
 /// Compliances, and the number of evaluations of the ground.
 struct CellCompliances {
-    values: Vec<[Complex; SERIES_PER_OFFSET]>,
+    values: Vec<[Complex; COMPLIANCES_PER_OFFSET]>,
     /// Number of wavenumbers at which the ground was evaluated.
     evaluation_count: usize,
 }
@@ -27,7 +27,8 @@ fn compliances(
     let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(lattice, profile, [s], tolerance, &mut progress).unwrap();
     let mut workspace = CellWorkspace::default();
-    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.class_count];
+    let mut values =
+        vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; integrals.table.class_count];
     integrals.compliance(profile, s, &mut workspace, &mut values).unwrap();
     CellCompliances { values, evaluation_count: workspace.panels.evaluation_count }
 }
@@ -55,7 +56,7 @@ fn agrees_with_the_table_of_sixteen_cells() {
         let CellCompliances { values, evaluation_count } =
             compliances(&lattice, &profile, s, 1e-10);
         let max_compliance = lattice.block(&values, [0, 0])[1][1].abs();
-        let mut errors = [0.0_f64; SERIES_PER_OFFSET];
+        let mut errors = [0.0_f64; COMPLIANCES_PER_OFFSET];
         for row in group {
             let i = row[4].parse::<isize>().unwrap();
             let j = row[5].parse::<isize>().unwrap();
@@ -78,8 +79,8 @@ fn agrees_with_the_table_of_sixteen_cells() {
 
 /// Largest difference, relative to the first compliance along x.
 fn largest_difference(
-    expected: &[[Complex; SERIES_PER_OFFSET]],
-    computed: &[[Complex; SERIES_PER_OFFSET]],
+    expected: &[[Complex; COMPLIANCES_PER_OFFSET]],
+    computed: &[[Complex; COMPLIANCES_PER_OFFSET]],
 ) -> f64 {
     let pairs = expected.as_flattened().iter().zip(computed.as_flattened());
     pairs.map(|(a, b)| (*a - *b).abs()).fold(0.0, f64::max) / expected[0][1].abs()
@@ -127,7 +128,7 @@ fn compliances_of_short_waves_agree_with_plain_sums() {
         // Static compliances zz, rr, tt and zr, times k.
         let static_kernel =
             [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| top_compliance.scale(0.5 * d / (1.0 - a2)));
-        let mut expected = vec![[Complex::default(); SERIES_PER_OFFSET]; computed.len()];
+        let mut expected = vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; computed.len()];
         for (series, offset) in expected.iter_mut().zip(lattice.classes()) {
             add_products(series, static_kernel, integrals(lattice.pitch, offset));
         }
@@ -158,7 +159,7 @@ fn compliances_of_short_waves_agree_with_plain_sums() {
 
 /// Adds kernel × forms/2π to the six series.
 fn add_products(
-    sums: &mut [Complex; SERIES_PER_OFFSET],
+    sums: &mut [Complex; COMPLIANCES_PER_OFFSET],
     [zz, rr, tt, zr]: CellKernel,
     forms: [f64; FORM_COUNT],
 ) {
@@ -186,7 +187,7 @@ fn statics_are_the_limit_of_slow_motions() {
 /// Matrix factor × F of all cells.
 fn assembled(
     lattice: &Lattice,
-    values: &[[Complex; SERIES_PER_OFFSET]],
+    values: &[[Complex; COMPLIANCES_PER_OFFSET]],
     factor: Complex,
 ) -> Vec<Complex64> {
     let cell_count = lattice.counts[0] * lattice.counts[1];

@@ -32,11 +32,11 @@ fn square() -> Lattice {
 }
 
 /// Weights of each class and series, for all lags up to `lag_count`.
-fn weights(kernel: &LatticeKernel, lag_count: usize) -> Vec<[Vec<f64>; SERIES_PER_OFFSET]> {
+fn weights(kernel: &LatticeKernel, lag_count: usize) -> Vec<[Vec<f64>; COMPLIANCES_PER_OFFSET]> {
     let classes = 0..kernel.classes.count();
     classes
         .map(|class| {
-            let mut values = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; lag_count]);
+            let mut values = [(); COMPLIANCES_PER_OFFSET].map(|()| vec![0.0; lag_count]);
             let mut slices = values.each_mut().map(Vec::as_mut_slice);
             kernel.coefficients(class, 1, &mut slices).unwrap();
             values
@@ -56,7 +56,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         kernel.prepare(256, &mut unobserved).unwrap();
         let quadrature = &kernel.quadrature;
         let mut work = CellWorkspace::default();
-        let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; kernel.classes.count()];
+        let mut values = vec![[Complex::default(); COMPLIANCES_PER_OFFSET]; kernel.classes.count()];
         let mut scratch = values.clone();
         for point in 0..20 {
             let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
@@ -73,7 +73,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
             let mut components = row[2].chars().map(|letter| "zxy".find(letter).unwrap());
             let receiver = components.next().unwrap();
             let source = components.next().unwrap();
-            let weights: Vec<[f64; SERIES_PER_OFFSET]> =
+            let weights: Vec<[f64; COMPLIANCES_PER_OFFSET]> =
                 computed.iter().map(|series| series.each_ref().map(|lags| lags[lag - 1])).collect();
             let computed_weight = square().block(&weights, offset)[receiver][source];
             max_error = max_error
@@ -105,8 +105,8 @@ fn weights_match_the_table_and_sum_up_to_statics() {
 
 /// Largest difference between sums of the first weights and static compliances, relative to the largest compliance.
 fn largest_sum_error(
-    weights: &[[Vec<f64>; SERIES_PER_OFFSET]],
-    static_values: &[[Complex; SERIES_PER_OFFSET]],
+    weights: &[[Vec<f64>; COMPLIANCES_PER_OFFSET]],
+    static_values: &[[Complex; COMPLIANCES_PER_OFFSET]],
     lag_count: usize,
     series_range: std::ops::Range<usize>,
 ) -> f64 {
@@ -237,7 +237,7 @@ fn bad_requests_return_errors() {
         kernel.coefficients(0, 1, &mut [&mut [], &mut [], &mut []]),
         Err(Error::Size { found: 3, needed: 6, .. })
     ));
-    let mut empty_series = [(); SERIES_PER_OFFSET].map(|()| vec![]);
+    let mut empty_series = [(); COMPLIANCES_PER_OFFSET].map(|()| vec![]);
     let outcome = kernel.coefficients(99, 1, &mut empty_series.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use basemat_testkit::random::Random;
 
 use super::*;
-use crate::geometry::{Lattice as PlanLattice, SERIES_PER_OFFSET, offset};
+use crate::geometry::{COMPLIANCES_PER_OFFSET, Lattice as PlanLattice, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
 
 /// Random coefficients that decay, with the zeros that symmetry requires.
@@ -20,7 +20,7 @@ impl RandomWeights {
         Arc::new(Self { classes, lattice: lattice.clone() })
     }
 
-    fn lag(&self, class: usize, lag: usize) -> [f64; SERIES_PER_OFFSET] {
+    fn lag(&self, class: usize, lag: usize) -> [f64; COMPLIANCES_PER_OFFSET] {
         let mut random = Random((class * 100_003 + lag) as u64);
         // Factors that are zero where symmetry requires it.
         let is_off_axis = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });

@@ -18,7 +18,7 @@ pub(super) struct AxialForce {
     /// Mean compression over the length, N (negative for tension).
     pub(super) compression: f64,
     /// Compression at the first end less the compression at the second end, N.
-    pub(super) taper: f64,
+    pub(super) end_difference: f64,
     /// Whether the user prescribed the force; the static state then does not change it.
     pub(super) is_prescribed: bool,
 }
@@ -26,17 +26,17 @@ pub(super) struct AxialForce {
 impl AxialForce {
     /// Constant force that the user prescribed, N.
     pub(super) fn prescribed(compression: f64) -> Self {
-        Self { compression, taper: 0.0, is_prescribed: true }
+        Self { compression, end_difference: 0.0, is_prescribed: true }
     }
 
     /// Whether there is no P–Δ effect.
     pub(super) fn is_zero(&self) -> bool {
-        self.compression == 0.0 && self.taper == 0.0
+        self.compression == 0.0 && self.end_difference == 0.0
     }
 
     /// Compression at s = x/L, N.
     pub(super) fn at(&self, s: f64) -> f64 {
-        self.compression + self.taper * (0.5 - s)
+        self.compression + self.end_difference * (0.5 - s)
     }
 }
 

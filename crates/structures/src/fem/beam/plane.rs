@@ -42,9 +42,10 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// Beam with Young's modulus (Pa), area (m²), second moment of area (m⁴) and density (kg/m³).
+    /// Beam of one material and cross-section.
     ///
-    /// Area and second moment are per metre of thickness.
+    /// Young's modulus in Pa, area in m², second moment of area in m⁴, density in kg/m³. Area and second moment are per
+    /// metre of thickness.
     ///
     /// A plate strip in plane strain has E/(1−ν²) in place of E.
     ///
@@ -92,12 +93,12 @@ impl Beam {
         Self { bending: Bending { has_rotary_inertia: true, ..self.bending }, ..self }
     }
 
-    /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
+    /// Makes the beam a beam–column with a constant axial force.
     ///
-    /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and P–δ). It is
-    /// the force of the static state, for example the weight above.
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from this method.
-    /// In a rigid rotation the end forces of the beam form a couple, as in a real column.
+    /// `compression` is in N, negative for tension. The force P adds −½ P ∫ w′² dx to the potential
+    /// energy, where w is the lateral displacement (P–Δ and P–δ). It is the force of the static state, for example the
+    /// weight above. [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) does not change a force from
+    /// this method. In a rigid rotation the end forces of the beam form a couple, as in a real column.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
@@ -161,12 +162,12 @@ impl Element for Beam {
             return None;
         }
         let elongation = line.elongation(&[x0, y0], &[x1, y1]);
-        // Displacements of the nodes are exact, so the compression by the elongation is the mean over the length. The
-        // compression varies between the nodes because of the element's weight.
+        // Nodal displacements are exact. The compression computed from the elongation is therefore the mean over the
+        // length. The compression varies between the nodes because of the element's weight.
         let height_difference = coordinates[1][1] - coordinates[0][1];
         let axial_force = AxialForce {
             compression: -self.axial_stiffness / line.length * elongation,
-            taper: self.mass_per_length * gravity * height_difference,
+            end_difference: self.mass_per_length * gravity * height_difference,
             is_prescribed: false,
         };
         Some(Box::new(Self { axial_force, ..self.clone() }))

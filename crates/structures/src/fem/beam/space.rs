@@ -287,7 +287,7 @@ impl Element for SpaceBeam {
         let axial_force = AxialForce {
             compression: -self.axial_stiffness / axes.length
                 * (axial_displacement(1) - axial_displacement(0)),
-            taper: self.mass_per_length * gravity * (ends[1][2] - ends[0][2]),
+            end_difference: self.mass_per_length * gravity * (ends[1][2] - ends[0][2]),
             is_prescribed: false,
         };
         Some(Box::new(Self { axial_force, ..self.clone() }))
