@@ -91,10 +91,10 @@ impl HystereticSpring {
         match self {
             Self::Uniaxial(deformation, law) => law.commit(deformation.value(displacement)),
             Self::Biaxial(deformations, law) => {
-                law.commit(deformation_values(deformations, displacement))
+                law.commit(deformation_values(deformations, displacement));
             }
             Self::Pendulum(deformations, law) => {
-                law.commit(deformation_values(deformations, displacement))
+                law.commit(deformation_values(deformations, displacement));
             }
         }
     }
