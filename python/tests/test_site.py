@@ -80,7 +80,7 @@ def test_bad_sites_name_layer_and_quantity() -> None:
         bm.StrainCurves.vucetic_dobry(300.0)
     with pytest.raises(bm.InputError, match="strain ratio is 2"):
         column.equivalent_linear(bm.el_centro_1940(), curves, strain_ratio=2.0)
-    with pytest.raises(bm.InputError, match="one length"):
+    with pytest.raises(bm.InputError, match="lengths must be equal"):
         bm.StrainCurves.table([1e-4], [1.0, 0.9], [0.01])
     with pytest.raises(bm.InputError, match="bound is 'lower'"):
         bm.StrainCurves.seed_idriss("lower")

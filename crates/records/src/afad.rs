@@ -20,7 +20,7 @@ use crate::text::decimal::finite;
 /// One file has all components of a station, side by side.
 ///
 /// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
-/// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`] returns all components.
+/// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`](super::Record::read_all) returns all components.
 /// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of
 /// acceleration other than gal. Newer files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
 ///

@@ -19,7 +19,7 @@ use crate::text::decimal::finite;
 /// the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of samples must be
 /// `Duration Time(s)` times `Sampling Freq(Hz)`, and the peak `Max. Acc. (gal)`, up to the baseline.
 /// [`KNetCsvFormat`](super::KNetCsvFormat) reads the files with commas. Counts have an offset: call
-/// [`Record::with_baseline`] afterwards, at least with [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
+/// [`Record::with_baseline`](super::Record::with_baseline) afterwards, at least with [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
 ///
 /// ```
 /// use basemat::motion::{KNetFormat, Record};

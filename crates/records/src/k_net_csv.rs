@@ -28,8 +28,8 @@ const TIME_STEP_TOLERANCE: f64 = 0.01;
 ///
 /// A header of lines `#Key,value`, among them `#Sampling Freq(Hz),100`, and one with the names of the columns,
 /// `#Time,NS,EW,UD`; then the time of day (or seconds) and the components in gal. The times must advance by the
-/// sampling interval. [`Record::read_all`] returns all components. If the samples have an offset, call
-/// [`Record::with_baseline`] afterwards. [`KNetFormat`](super::KNetFormat) reads the ASCII files.
+/// sampling interval. [`Record::read_all`](super::Record::read_all) returns all components. If the samples have an offset, call
+/// [`Record::with_baseline`](super::Record::with_baseline) afterwards. [`KNetFormat`](super::KNetFormat) reads the ASCII files.
 ///
 /// ```
 /// use basemat::motion::{KNetCsvFormat, Record};
