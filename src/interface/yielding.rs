@@ -67,7 +67,8 @@ impl Yielding {
     /// Law with a bearing pressure (Pa) and a friction coefficient of zero or more.
     ///
     /// [`ShallowFooting::drained_pressure`](crate::soil::ShallowFooting::drained_pressure) and
-    /// [`ShallowFooting::undrained_pressure`](crate::soil::ShallowFooting::undrained_pressure) return bearing pressures. If the coefficient is infinite, nothing ever slides.
+    /// [`ShallowFooting::undrained_pressure`](crate::soil::ShallowFooting::undrained_pressure) return bearing pressures. If
+    /// the coefficient is infinite, nothing ever slides.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, and for a

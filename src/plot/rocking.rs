@@ -33,8 +33,7 @@ pub fn moment_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    let moments = |rocking: &Rocking<'_>| path_points(rocking.rotation, rocking.moment);
-    RockingChart::new(runs, measured, Quantity::BaseMoment, moments)?.picture(title)
+    RockingChart::new(runs, measured, Quantity::BaseMoment)?.picture(title)
 }
 
 /// Settlement over the rotation of a foundation, for one or more runs, with measured points.
@@ -49,13 +48,7 @@ pub fn settlement_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    let settlements = |rocking: &Rocking<'_>| path_points(rocking.rotation, rocking.settlement);
-    RockingChart::new(runs, measured, Quantity::Settlement, settlements)?.picture(title)
-}
-
-/// Points of a path: rotation and another value at each step.
-fn path_points(rotation: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
-    rotation.iter().copied().zip(values.iter().copied()).collect()
+    RockingChart::new(runs, measured, Quantity::Settlement)?.picture(title)
 }
 
 /// Paths and measured points over the rotation, in the units of the picture.
@@ -69,12 +62,8 @@ struct RockingChart {
 }
 
 impl RockingChart {
-    fn new(
-        runs: &[(&str, Rocking<'_>)],
-        measured: &[Curve],
-        quantity: Quantity,
-        points: impl Fn(&Rocking<'_>) -> Vec<(f64, f64)>,
-    ) -> Result<Self> {
+    /// Chart of the moment, or of the settlement if that is the `quantity`.
+    fn new(runs: &[(&str, Rocking<'_>)], measured: &[Curve], quantity: Quantity) -> Result<Self> {
         at_least("runs of a picture", runs.len(), 1)?;
         let in_plan = runs[0].1.in_plan;
         let needed = "the same in all runs: in the plane it is per metre";
@@ -84,15 +73,16 @@ impl RockingChart {
         let value_unit = quantity.printed(in_plan);
         let is_downward = quantity == Quantity::Settlement;
         let y_factor = if is_downward { -value_unit.factor } else { value_unit.factor };
-        let scaled = |(x, y): &(f64, f64)| (rotation_unit.factor * x, y_factor * y);
+        let scaled = |x: &f64, y: &f64| (rotation_unit.factor * x, y_factor * y);
         let mut run_curves = Vec::with_capacity(runs.len());
         for (name, rocking) in runs {
-            let points = points(rocking).iter().map(scaled).collect();
+            let values = if is_downward { rocking.settlement } else { rocking.moment };
+            let points = rocking.rotation.iter().zip(values).map(|(x, y)| scaled(x, y)).collect();
             run_curves.push(Curve { name: (*name).to_owned(), points });
         }
         let mut measured_points = Vec::with_capacity(measured.len());
         for Curve { name, points } in measured {
-            let points = points.iter().map(scaled).collect();
+            let points = points.iter().map(|(x, y)| scaled(x, y)).collect();
             measured_points.push(Curve { name: name.clone(), points });
         }
         Ok(Self {

@@ -157,10 +157,9 @@ impl Rocking<'_> {
     /// Equivalent viscous damping ratio of one cycle, ξ = E/(2π M θ).
     ///
     /// E is the work of the moment in the cycle, summed over all steps, also those that were not kept. M and θ are half the
-    /// ranges of moment and
-    /// rotation (Chopra, *Dynamics of Structures*, section 3.9; Gajan and Kutter, J. Geotech. Geoenviron. Eng. 134, 2008,
-    /// 1129). For a spring and a dashpot in parallel ξ = ½ sin φ, where φ is the phase by which the moment
-    /// leads the rotation.
+    /// ranges of moment and rotation (Chopra, *Dynamics of Structures*, section 3.9; Gajan and Kutter, J. Geotech.
+    /// Geoenviron. Eng. 134, 2008, 1129). For a spring and a dashpot in parallel ξ = ½ sin φ, where φ is the phase by which
+    /// the moment leads the rotation.
     ///
     /// # Errors
     /// [`Error::Size`] for fewer than three steps, [`Error::Input`] unless the steps are one closed cycle: rotation and
@@ -170,7 +169,7 @@ impl Rocking<'_> {
         let cycle = Cycle::new(self.rotation, self.moment)?;
         same_length("list of works of a cycle", self.work.len(), self.rotation.len())?;
         let work = self.work[self.work.len() - 1] - self.work[0];
-        Ok(cycle.damping(work + cycle.closing_work))
+        Ok(cycle.damping(work))
     }
 }
 
@@ -197,7 +196,7 @@ pub fn equivalent_damping(rotation: &[f64], moment: &[f64]) -> Result<f64> {
     for k in 1..rotation.len() {
         work += 0.5 * (moment[k] + moment[k - 1]) * (rotation[k] - rotation[k - 1]);
     }
-    Ok(cycle.damping(work + cycle.closing_work))
+    Ok(cycle.damping(work))
 }
 
 /// A closed cycle of rotation and moment.
@@ -222,9 +221,9 @@ impl Cycle {
         Ok(Self { rotation_range, moment_range, closing_work })
     }
 
-    /// Damping ratio of the cycle, from its work.
+    /// Damping ratio of the cycle, from its work up to its end.
     fn damping(&self, work: f64) -> f64 {
-        2.0 * work / (PI * self.rotation_range * self.moment_range)
+        2.0 * (work + self.closing_work) / (PI * self.rotation_range * self.moment_range)
     }
 }
 

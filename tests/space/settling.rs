@@ -6,26 +6,34 @@
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground};
 use basemat::coupled::{SimulationBuilder, Theta};
-use basemat::interface::CyclicYielding;
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{RigidBody, Structure};
 use basemat::{Result, Simulation, Soil};
 use basemat_problems::prescribed::PrescribedGround;
+use basemat_problems::rocking_footing::{
+    BEARING_PRESSURE, CYCLES_PER_PACKET, FOOTING_SIDES, SAND_DENSITY, VERTICAL_FORCE,
+};
 use basemat_problems::series::nearest_integer;
-use basemat_problems::settling_strips::{RockingBase, SettlingStrips, StripLaw};
+use basemat_problems::settling_law::SettlingLaw;
+use basemat_problems::settling_strips::{RockingBase, SettlingStrips};
 
-const FOOTING_BASE: RockingBase = RockingBase { length: 2.8, width: 0.65, weight: 285.0e3 };
+const FOOTING_BASE: RockingBase =
+    RockingBase { length: FOOTING_SIDES[0], width: FOOTING_SIDES[1], weight: VERTICAL_FORCE };
 const SHEAR_MODULUS: f64 = 30.0e6;
 const POISSON_RATIO: f64 = 0.35;
 /// Largest rotations of the five packets of three cycles.
 const PACKET_ROTATIONS: [f64; 5] = [3.15e-3, 6.65e-3, 14.0e-3, 29.5e-3, 62.9e-3];
-const PACKET_CYCLES: usize = 3;
 /// Of the rotation that the drive prescribes, N m.
 const DRIVE_STIFFNESS: f64 = 1e12;
 
-/// Soil of the slow test, with a bearing pressure of 814 kPa.
-fn strip_law(reference_settlement: f64, elastic_range: f64, depth_gradient: f64) -> StripLaw {
-    StripLaw { bearing_pressure: 814.0e3, depth_gradient, reference_settlement, elastic_range }
+/// Law of the sand in the slow test.
+fn sand_law(reference_settlement: f64, elastic_range: f64, depth_gradient: f64) -> SettlingLaw {
+    SettlingLaw {
+        initial_capacity: BEARING_PRESSURE,
+        depth_gradient,
+        reference_settlement,
+        elastic_range,
+    }
 }
 
 /// The rotations of the drive, one per step; ends of packets.
@@ -34,7 +42,7 @@ fn drive(steps_per_leg: usize) -> (Vec<f64>, Vec<usize>) {
     let mut ends = Vec::new();
     for amplitude in PACKET_ROTATIONS {
         let targets =
-            (0..2 * PACKET_CYCLES).map(|k| if k % 2 == 0 { amplitude } else { -amplitude });
+            (0..2 * CYCLES_PER_PACKET).map(|k| if k % 2 == 0 { amplitude } else { -amplitude });
         for target in targets.chain([0.0]) {
             let begin = rotations[rotations.len() - 1];
             let legs = if begin == 0.0 || target == 0.0 { 1 } else { 2 };
@@ -73,7 +81,7 @@ fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> [f64; 2]) -> Pa
     row
 }
 
-fn strip_row(count: usize, law: StripLaw, steps_per_leg: usize) -> PacketRow {
+fn strip_row(count: usize, law: SettlingLaw, steps_per_leg: usize) -> PacketRow {
     let mut strips = SettlingStrips::new(FOOTING_BASE, count, [SHEAR_MODULUS, POISSON_RATIO], law);
     row(steps_per_leg, |_, rotation| [strips.turn(rotation), strips.settlement])
 }
@@ -112,11 +120,10 @@ impl Structure for TurnedFooting {
 
 /// The half-space at rest, without waves, under cells of the footing.
 fn ground_at_rest(columns: usize, rows: usize) -> Result<PrescribedGround> {
-    let sides = [FOOTING_BASE.length, FOOTING_BASE.width];
-    let pitch = [sides[0] / columns as f64, sides[1] / rows as f64];
+    let pitch = [FOOTING_SIDES[0] / columns as f64, FOOTING_SIDES[1] / rows as f64];
     let mask = vec![true; columns * rows];
-    let plan = Plan::masked(sides.map(|side| -0.5 * side), pitch, columns, &mask)?;
-    let soil = Soil::new(SHEAR_MODULUS, POISSON_RATIO, 1657.0)?;
+    let plan = Plan::masked(FOOTING_SIDES.map(|side| -0.5 * side), pitch, columns, &mask)?;
+    let soil = Soil::new(SHEAR_MODULUS, POISSON_RATIO, SAND_DENSITY)?;
     let ground = ElasticGround::in_plan(soil, plan)?;
     let mut compliance = vec![0.0; (3 * columns * rows).pow(2)];
     ground.static_compliance(&mut compliance)?;
@@ -126,29 +133,26 @@ fn ground_at_rest(columns: usize, rows: usize) -> Result<PrescribedGround> {
 /// The footing on its ground, turned once per second.
 fn scene(
     cells: [usize; 2],
-    law: StripLaw,
+    law: SettlingLaw,
     friction: f64,
     rotations: Vec<f64>,
 ) -> Result<SimulationBuilder> {
-    let interface = CyclicYielding::new(law.bearing_pressure, law.reference_settlement, friction)?
-        .with_elastic_range(law.elastic_range)?
-        .with_depth_gradient(law.depth_gradient)?;
-    let [x, y] = [0.5 * FOOTING_BASE.length, 0.5 * FOOTING_BASE.width];
+    let [x, y] = FOOTING_SIDES.map(|side| 0.5 * side);
     let outline = vec![[-x, -y], [x, -y], [x, y], [-x, y]];
-    let mass = FOOTING_BASE.weight / STANDARD_GRAVITY;
+    let mass = VERTICAL_FORCE / STANDARD_GRAVITY;
     let inertia = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { mass } else { 0.0 }));
     let body = RigidBody::from_mass(outline, mass, inertia, [0.0, 0.0, 1e-3])?;
     Ok(Simulation::builder(1.0)
         .scheme(Theta::new(1.0)?)
         .structure(TurnedFooting { body, rotations })
         .ground(ground_at_rest(cells[0], cells[1])?)
-        .interface(interface))
+        .interface(law.cyclic_yielding(friction)))
 }
 
 /// The same by the crate.
 fn simulated_row(
     cells: [usize; 2],
-    law: StripLaw,
+    law: SettlingLaw,
     friction: f64,
     steps_per_leg: usize,
 ) -> PacketRow {
@@ -200,8 +204,8 @@ const PROTOTYPE_ROWS: [PacketRow; 2] = [
 ];
 
 /// Laws of these rows.
-fn prototype_laws() -> [StripLaw; 2] {
-    [strip_law(10e-3, 1.0, 0.0), strip_law(5e-3, 0.1, 1.4e6)]
+fn prototype_laws() -> [SettlingLaw; 2] {
+    [sand_law(10e-3, 1.0, 0.0), sand_law(5e-3, 0.1, 1.4e6)]
 }
 
 #[test]

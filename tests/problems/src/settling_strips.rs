@@ -5,21 +5,10 @@
 
 use std::f64::consts::PI;
 
+use crate::settling_law::SettlingLaw;
+
 /// Points along each side of a strip over which its displacement is averaged.
 const SAMPLE_COUNT: usize = 16;
-
-/// A law of strips: backbone q h/(h + w), with q = `bearing_pressure` + `depth_gradient` · settlement, and memory.
-#[derive(Debug, Clone, Copy)]
-pub struct StripLaw {
-    /// Pa.
-    pub bearing_pressure: f64,
-    /// Pa/m.
-    pub depth_gradient: f64,
-    /// w, m.
-    pub reference_settlement: f64,
-    /// Pressure above the present one up to which a strip does not yield, relative to q.
-    pub elastic_range: f64,
-}
 
 /// The base: length along the rotation and width, m; weight, N.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +21,7 @@ pub struct RockingBase {
 /// Strips under the base, and its last position.
 pub struct SettlingStrips {
     base: RockingBase,
-    law: StripLaw,
+    law: SettlingLaw,
     middles: Vec<f64>,
     /// Displacement of each strip by a unit pressure on each, m/Pa, row by row.
     compliance: Vec<f64>,
@@ -71,7 +60,7 @@ fn mean_integral(distance: f64, sides: [f64; 2]) -> f64 {
 
 impl SettlingStrips {
     /// `count` strips on a half-space of this shear modulus (Pa) and Poisson's ratio, before the weight acts.
-    pub fn new(base: RockingBase, count: usize, soil: [f64; 2], law: StripLaw) -> Self {
+    pub fn new(base: RockingBase, count: usize, soil: [f64; 2], law: SettlingLaw) -> Self {
         let side = base.length / count as f64;
         let middles: Vec<f64> =
             (0..count).map(|i| (i as f64 + 0.5) * side - 0.5 * base.length).collect();
@@ -97,7 +86,7 @@ impl SettlingStrips {
     }
 
     fn bearing_pressure(&self, strip: usize) -> f64 {
-        self.law.bearing_pressure + self.law.depth_gradient * self.levels[strip].max(0.0)
+        self.law.capacity(self.levels[strip])
     }
 
     /// Settlement at which the backbone of a strip has a pressure.
@@ -147,7 +136,7 @@ impl SettlingStrips {
                 largest = largest.max((pressure - self.pressures[strip]).abs());
                 self.pressures[strip] = pressure;
             }
-            if largest < 1e-9 * self.law.bearing_pressure {
+            if largest < 1e-9 * self.law.initial_capacity {
                 break;
             }
         }
