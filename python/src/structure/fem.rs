@@ -28,7 +28,8 @@ use crate::row::{PyDofCombination, PySectionRows, space_sections};
 /// from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
 /// "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
 /// body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
-/// along x, along y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
+/// along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
+/// displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
 /// forces at rest; none unless given. ``active_damping``: whether damping may add energy, an error by default.
 /// ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
@@ -48,7 +49,7 @@ extracts!(Contact, object => match object.extract() {
 #[pymethods]
 impl PyFemModel {
     #[new]
-    #[pyo3(signature = (mesh, contact=None, *, in_trench=false, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, p_delta=None, active_damping=false, active_stiffness=false))]
+    #[pyo3(signature = (mesh, contact=None, *, in_trench=false, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, ties=None, p_delta=None, active_damping=false, active_stiffness=false))]
     fn new(
         mesh: &PyMesh,
         contact: Option<Contact>,
@@ -57,6 +58,7 @@ impl PyFemModel {
         mass: &str,
         #[pyo3(from_py_with = whole_numbers)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
         #[pyo3(from_py_with = whole_numbers)] diaphragms: Option<Vec<(usize, Vec<usize>)>>,
+        #[pyo3(from_py_with = whole_numbers)] ties: Option<Vec<(usize, Vec<usize>)>>,
         p_delta: Option<f64>,
         active_damping: bool,
         active_stiffness: bool,
@@ -83,6 +85,9 @@ impl PyFemModel {
         }
         for (leader, followers) in diaphragms.into_iter().flatten() {
             model = model.and_then(|model| model.with_rigid_diaphragm(leader, &followers));
+        }
+        for (leader, followers) in ties.into_iter().flatten() {
+            model = model.and_then(|model| model.with_tied_nodes(leader, &followers));
         }
         let mut model = model.with(p_delta, FemModel::with_p_delta).or_raise()?;
         if active_damping {

@@ -244,6 +244,42 @@ fn arms_lengthen_a_cantilever() {
     assert!(dot(&shift, &shift) > 0.0);
 }
 
+/// Sides of a column that are tied at each height move as the soil in vertically propagating shear waves: with n linear
+/// elements of height h and consistent mass, ω = c √(6 (1 − cos kh)/(2 + cos kh))/h at k = π/(2H).
+#[test]
+fn a_column_with_tied_sides_is_a_shear_beam() {
+    const ROW_COUNT: usize = 10;
+    const HEIGHT: f64 = 20.0;
+    let soil = Material::new(104.0e6, 0.3, 2000.0).unwrap();
+    let layer = Layer::new(HEIGHT, ROW_COUNT, soil);
+    let mesh = Mesh::layered_block(0.0..1.5, 1, &[layer]).unwrap();
+    let mut column = FemModel::on_base(mesh).unwrap();
+    for row in 1..=ROW_COUNT {
+        column = column.with_tied_nodes(2 * row, &[2 * row + 1]).unwrap();
+    }
+    let shear_wave_speed = (40.0e6_f64 / 2000.0).sqrt();
+    let row_height = HEIGHT / ROW_COUNT as f64;
+    let wave_number = 0.5 * std::f64::consts::PI / HEIGHT;
+    let cosine = (wave_number * row_height).cos();
+    let exact = shear_wave_speed * (6.0 * (1.0 - cosine) / (2.0 + cosine)).sqrt() / row_height;
+    // Rayleigh's quotient of the exact mode shape sin kz.
+    let mut mode = vec![0.0; column.dofs()];
+    for row in 1..=ROW_COUNT {
+        let dof = column.dof(2 * row, Direction::X).unwrap();
+        mode[dof] = (wave_number * row as f64 * row_height).sin();
+        assert_eq!(column.dof(2 * row + 1, Direction::X), None);
+    }
+    let forces = multiply(&stiffness(&column), &mode);
+    let inertia = multiply(&mass(&column), &mode);
+    let squared_frequency = dot(&mode, &forces) / dot(&mode, &inertia);
+    assert!((squared_frequency.sqrt() - exact).abs() < 1e-12 * exact);
+    for (i, inertia) in inertia.iter().enumerate().skip(4) {
+        assert!((forces[i] - squared_frequency * inertia).abs() < 1e-9 * largest(&forces));
+    }
+    let different_heights = column.with_tied_nodes(0, &[2]);
+    assert!(is_scene(&different_heights));
+}
+
 fn is_scene(result: &basemat::Result<FemModel>) -> bool {
     matches!(result, Err(Error::Scene { .. }))
 }

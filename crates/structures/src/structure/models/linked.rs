@@ -1,4 +1,4 @@
-//! Finite-element models with rigid links and diaphragms.
+//! Finite-element models with rigid links, diaphragms and ties.
 
 use super::rigid_links::{RigidLinkKind, RigidLinks};
 use crate::error::{Result, require_part};
@@ -56,6 +56,34 @@ impl FemModel {
             "must be in a mesh in space, but this one is in the plane",
         )?;
         self.with_link(RigidLinkKind::Diaphragm, leader, followers)
+    }
+
+    /// Gives the nodes `followers` the displacements of `leader`; their rotations remain free.
+    ///
+    /// Both sides of a soil column are tied at each height, so that it deforms as a soil of infinite width in vertically
+    /// propagating waves. A tie resists the rotation of the structure as a whole, as the soil beside the column does.
+    ///
+    /// ```
+    /// use basemat::fem::{Direction, Layer, Material, Mesh};
+    /// use basemat::structure::{FemModel, Structure};
+    ///
+    /// // A soil column 1 m wide and 20 m high; node 2 k is on its left side, node 2 k + 1 on its right side.
+    /// let soil = Material::new(120.0e6, 0.3, 1900.0)?;
+    /// let mesh = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(20.0, 20, soil)])?;
+    /// let mut column = FemModel::on_base(mesh)?;
+    /// for row in 1..=20 {
+    ///     column = column.with_tied_nodes(2 * row, &[2 * row + 1])?;
+    /// }
+    /// assert_eq!(column.dofs(), 4 + 2 * 20);
+    /// assert_eq!(column.row(41, Direction::X)?, column.row(40, Direction::X)?);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`FemModel::with_rigid_link`], except that the leader needs displacements only;
+    /// [`Error::Scene`](crate::Error::Scene) also for nodes at different heights.
+    pub fn with_tied_nodes(self, leader: usize, followers: &[usize]) -> Result<Self> {
+        self.with_link(RigidLinkKind::Tie, leader, followers)
     }
 
     /// Adds a rigid link of one kind.

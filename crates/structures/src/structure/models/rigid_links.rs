@@ -1,4 +1,4 @@
-//! Rigid links, by which nodes follow another node as parts of a rigid body.
+//! Rigid links and ties, by which nodes follow another node.
 
 use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Direction, Mesh, Numbering};
@@ -11,13 +11,20 @@ pub(super) enum RigidLinkKind {
     Body,
     /// Motions in a horizontal plane: a rigid diaphragm.
     Diaphragm,
+    /// Displacements alone, equal to those of the leader: a tie.
+    Tie,
 }
 
 impl RigidLinkKind {
     /// Whether a follower follows its leader in this direction.
     fn ties(self, direction: Direction) -> bool {
-        let is_horizontal = matches!(direction, Direction::X | Direction::Y | Direction::RotationZ);
-        self == Self::Body || is_horizontal
+        match self {
+            Self::Body => true,
+            Self::Diaphragm => {
+                matches!(direction, Direction::X | Direction::Y | Direction::RotationZ)
+            }
+            Self::Tie => !direction.is_rotation(),
+        }
     }
 
     /// Requirement on the degrees of freedom of a leader, for an error.
@@ -29,6 +36,7 @@ impl RigidLinkKind {
             Self::Diaphragm => {
                 "its leader must have displacements along x and y and the rotation about z"
             }
+            Self::Tie => "its leader must have displacements in all directions",
         }
     }
 }
@@ -90,11 +98,11 @@ impl RigidLinks {
         if tied_directions.any(|&direction| numbering.dof(leader, direction).is_none()) {
             return Err(link_error(kind.leader_requirement()));
         }
-        if kind == RigidLinkKind::Diaphragm {
+        if kind != RigidLinkKind::Body {
             let leader_height = mesh.nodes()[leader][mesh.up_axis()];
             let mut heights = followers.iter().map(|&node| mesh.nodes()[node][mesh.up_axis()]);
             if !heights.all(|height| (height - leader_height).abs() <= mesh.height_tolerance()) {
-                return Err(link_error("the nodes of a diaphragm must lie at one height"));
+                return Err(link_error("the nodes of a diaphragm or a tie must lie at one height"));
             }
         }
         if self.leaders[leader].is_some() {
@@ -137,7 +145,10 @@ impl RigidLinks {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
                 let leader_link = self.leaders[node].filter(|(kind, _)| kind.ties(direction));
                 let (kind, leader) = leader_link.unwrap_or((RigidLinkKind::Body, node));
-                let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
+                let arm = match kind {
+                    RigidLinkKind::Tie => [0.0; 3],
+                    _ => [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]),
+                };
                 // A follower has the motion of its leader, and displacements by the leader's rotations.
                 let motions = mesh.directions().iter().filter(|motion| kind.ties(**motion));
                 let mut row = Vec::new();
@@ -194,14 +205,11 @@ impl RigidLinks {
         remaining_terms
     }
 
-    /// All nodes that follow another node.
+    /// All nodes that follow the rotations of another node; those of a tie do not.
     pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
         self.leaders.iter().enumerate().filter_map(|(node, leader)| {
-            leader.map(|(kind, leader)| Follower {
-                node,
-                leader,
-                is_body: kind == RigidLinkKind::Body,
-            })
+            let (kind, leader) = leader.filter(|(kind, _)| *kind != RigidLinkKind::Tie)?;
+            Some(Follower { node, leader, is_body: kind == RigidLinkKind::Body })
         })
     }
 
