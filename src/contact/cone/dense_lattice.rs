@@ -96,8 +96,8 @@ impl DenseLattice {
 
     /// Displacements along each direction, and modal amplitudes; all are linear in the forces.
     pub(super) fn response_mut(&mut self) -> [&mut [f64]; 4] {
-        let [normal, x, y] = &mut self.displacements;
-        [normal, x, y, &mut self.amplitudes]
+        let [p, x, y] = &mut self.displacements;
+        [p, x, y, &mut self.amplitudes]
     }
 
     /// Number of displacements and amplitudes.

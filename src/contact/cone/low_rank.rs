@@ -15,6 +15,7 @@ use crate::linalg::pivoted_cholesky;
 pub(super) const MAX_MODE_COUNT: usize = 24;
 
 /// W = D + L Lᵀ, and the modal amplitudes of the present forces.
+#[derive(Default)]
 pub(super) struct LowRankCompliance {
     /// D of each element.
     diagonal: Vec<[f64; 3]>,
@@ -28,12 +29,7 @@ pub(super) struct LowRankCompliance {
 impl LowRankCompliance {
     /// Allocates D of `element_count` elements.
     pub(super) fn new(element_count: usize) -> Self {
-        Self {
-            diagonal: vec![[0.0; 3]; element_count],
-            modes: vec![],
-            mode_count: 0,
-            amplitudes: vec![],
-        }
+        Self { diagonal: vec![[0.0; 3]; element_count], ..Self::default() }
     }
 
     /// Reads D and L of elements with these areas; `layer(row)`: part of the diagonal that is neither soil nor structure.

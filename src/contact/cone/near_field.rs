@@ -328,13 +328,8 @@ fn group_lanes(group: &[usize; LANE_COUNT], vector: &[f64]) -> [Lane; 3] {
 
 /// Adds the displacement due to a force on a near element.
 #[inline(always)]
-fn add_displacement<S: Simd>(
-    simd: S,
-    block: &LinkBlock,
-    force: [f64; 3],
-    displacement: &mut [f64; 4],
-) {
-    let (sums, tail) = S::as_mut_simd_f64s(displacement);
+fn add_displacement<S: Simd>(simd: S, block: &LinkBlock, force: [f64; 3], y: &mut [f64; 4]) {
+    let (sums, tail) = S::as_mut_simd_f64s(y);
     for (k, force) in force.into_iter().enumerate() {
         let (column, rest) = S::as_simd_f64s(&block[k]);
         let splatted = simd.splat_f64s(force);

@@ -250,12 +250,10 @@ impl Newton {
         self.solve_system(problem, false)
     }
 
-    /// Solves the system of the statuses, with `accepts_recent_factors` as in [`System::solve`].
-    fn solve_system(&mut self, problem: &mut ConeProblem, accepts_recent_factors: bool) -> bool {
+    /// Solves the system of the statuses, with `accepts_recent` as in [`System::solve`].
+    fn solve_system(&mut self, problem: &mut ConeProblem, accepts_recent: bool) -> bool {
         match &mut self.system {
-            StatusSystem::Dense(system) => {
-                system.solve(problem, &self.statuses, accepts_recent_factors)
-            }
+            StatusSystem::Dense(system) => system.solve(problem, &self.statuses, accepts_recent),
             StatusSystem::LowRank(system) => system.solve(problem, &self.statuses),
         }
     }
@@ -272,8 +270,8 @@ fn status_with_infinite_friction(problem: &ConeProblem, e: usize) -> Status {
         }
         InfiniteFriction::Stick => Status::CLOSED_STICKING,
         InfiniteFriction::Slip(direction) => {
-            let [_, x, y] = problem.component_indices(e);
-            let slip_shear = direction[0] * problem.force(x) + direction[1] * problem.force(y);
+            let force = problem.component_indices(e).map(|i| problem.force(i));
+            let slip_shear = direction[0] * force[1] + direction[1] * force[2];
             let radius_ratio = (slip_shear / trial[1].hypot(trial[2])).clamp(0.0, 1.0);
             let radius_slope = f64::INFINITY;
             let tangential = Tangential::Slip { direction, radius_ratio, radius_slope };

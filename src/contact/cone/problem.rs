@@ -211,12 +211,12 @@ impl ConeProblem {
 
     /// Trial force r − ρ y of an element, before its projection.
     pub(super) fn trial_force(&self, e: usize) -> [f64; 3] {
-        let [n, x, y] = self.component_indices(e);
-        let [normal_rho, tangential_rho] = self.rho[e];
+        let indices = self.component_indices(e);
+        let rho = self.rho[e];
         [
-            self.force(n) - normal_rho * (self.y[n] - self.bounds[e].closed_gap),
-            self.force(x) - tangential_rho * self.y[x],
-            self.force(y) - tangential_rho * self.y[y],
+            self.force(indices[0]) - rho[0] * (self.y[indices[0]] - self.bounds[e].closed_gap),
+            self.force(indices[1]) - rho[1] * self.y[indices[1]],
+            self.force(indices[2]) - rho[1] * self.y[indices[2]],
         ]
     }
 
@@ -228,12 +228,8 @@ impl ConeProblem {
         let trial = self.trial_force(e);
         let indices = self.component_indices(e);
         let rho = self.rho[e];
-        let trial_shear = trial[1].hypot(trial[2]);
-        let direction = if trial_shear > 0.0 {
-            [trial[1] / trial_shear, trial[2] / trial_shear]
-        } else {
-            [0.0; 2]
-        };
+        let norm = trial[1].hypot(trial[2]);
+        let direction = if norm > 0.0 { [trial[1] / norm, trial[2] / norm] } else { [0.0; 2] };
         let slip = direction[0] * self.y[indices[1]] + direction[1] * self.y[indices[2]];
         let shear = direction[0] * self.force(indices[1]) + direction[1] * self.force(indices[2]);
         if trial[0] + bounds.attraction > -rho[1] * slip {
@@ -250,7 +246,7 @@ impl ConeProblem {
         let bounds = &self.bounds[e];
         let trial = self.trial_force(e);
         let force = self.component_indices(e).map(|i| self.force(i));
-        let [dp, dx, dy]: [f64; 3] = std::array::from_fn(|k| trial[k] - force[k]);
+        let [dp, dx, dy] = [0, 1, 2].map(|k| trial[k] - force[k]);
         let open_residual = (force[0] - bounds.interval[0]).abs();
         match self.infinite_friction_status(e) {
             InfiniteFriction::Stick => {
@@ -260,13 +256,9 @@ impl ConeProblem {
             InfiniteFriction::Open => open_residual + dp.max(0.0) + force[1].abs() + force[2].abs(),
             InfiniteFriction::Slip([c, s]) => {
                 let cross_residual = (c * force[2] - s * force[1]).abs() + (c * dy - s * dx).abs();
-                let slip_shear = c * force[1] + s * force[2];
-                let slip_difference = c * dx + s * dy;
-                open_residual
-                    + dp.abs()
-                    + cross_residual
-                    + (-slip_shear).max(0.0)
-                    + (-slip_difference).max(0.0)
+                let reversed_shear = (-(c * force[1] + s * force[2])).max(0.0);
+                let reversed_slip = (-(c * dx + s * dy)).max(0.0);
+                open_residual + dp.abs() + cross_residual + reversed_shear + reversed_slip
             }
         }
     }
@@ -315,13 +307,12 @@ impl ConeProblem {
     /// Sets the forces that statuses prescribe, to the last bit.
     pub(super) fn set_prescribed_forces(&mut self, statuses: &[Status]) {
         for (e, status) in statuses.iter().enumerate() {
-            let [n, x, y] = self.component_indices(e);
             if let Some(bound) = status.bound(self.bounds[e].interval) {
-                self.set_force(n, bound);
+                self.set_force(e, bound);
             }
             if status.tangential == Tangential::Free {
-                self.set_force(x, 0.0);
-                self.set_force(y, 0.0);
+                self.set_force(self.element_count + e, 0.0);
+                self.set_force(2 * self.element_count + e, 0.0);
             }
         }
     }

@@ -108,12 +108,12 @@ impl System {
 
     /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
     ///
-    /// `accepts_recent_factors`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
+    /// `accepts_recent`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
     pub(super) fn solve(
         &mut self,
         problem: &mut ConeProblem,
         statuses: &[Status],
-        accepts_recent_factors: bool,
+        accepts_recent: bool,
     ) -> bool {
         if statuses.iter().all(|status| *status == Status::CLOSED_STICKING) {
             return self.solve_sticking(problem);
@@ -123,9 +123,7 @@ impl System {
         let are_displacements = self.prefers_displacements(problem, statuses);
         let is_factored = self.unknowns.are_displacements == are_displacements
             && (has_no_slip && self.is_reusable && self.factored_statuses == statuses
-                || accepts_recent_factors
-                    && self.is_recent
-                    && self.has_factors_of_same_kinds(statuses));
+                || accepts_recent && self.is_recent && self.has_factors_of_same_kinds(statuses));
         if !is_factored {
             self.is_reusable = false;
             self.is_recent = false;

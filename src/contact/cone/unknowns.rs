@@ -170,13 +170,13 @@ impl Unknowns {
     fn add_displacements(&mut self, problem: &ConeProblem, e: usize, status: &Status) {
         let indices = problem.component_indices(e);
         let [n, x, y] = indices;
-        let [static_p, static_x, static_y] = indices.map(|i| problem.static_force[i]);
+        let static_force = indices.map(|i| problem.static_force[i]);
         let bounds = &problem.bounds[e];
         let normal = ComponentSum::single(n);
         match (status.bound(bounds.interval), status.normal) {
-            (Some(bound), _) => self.add(normal, normal, 0.0, bound - static_p),
+            (Some(bound), _) => self.add(normal, normal, 0.0, bound - static_force[0]),
             (None, Normal::Hardening(stiffness)) => {
-                let goal = bounds.interval[1] + stiffness * bounds.closed_gap - static_p;
+                let goal = bounds.interval[1] + stiffness * bounds.closed_gap - static_force[0];
                 self.add(normal, normal, stiffness, goal);
             }
             (None, _) => self.prescribed[n] = bounds.closed_gap - problem.y[n],
@@ -197,14 +197,14 @@ impl Unknowns {
                 let [shear_factor, pressure_factor] = slip_factors(radius_slope);
                 let goal = shear_factor * bounds.shear_strength
                     + pressure_factor * bounds.attraction
-                    + pressure_factor * static_p
-                    - shear_factor * (c * static_x + s * static_y);
+                    + pressure_factor * static_force[0]
+                    - shear_factor * (c * static_force[1] + s * static_force[2]);
                 let weights = [-pressure_factor, shear_factor * c, shear_factor * s];
                 let slip = ComponentSum { indices, weights: [0.0, c, s] };
                 self.add(ComponentSum { indices, weights }, slip, 0.0, goal);
                 // Across the slip.
                 let factor = 1.0 - radius_ratio;
-                let goal = -factor * (c * static_y - s * static_x);
+                let goal = -factor * (c * static_force[2] - s * static_force[1]);
                 let weights = [0.0, -s * factor, c * factor];
                 let cross_slip = ComponentSum { indices, weights: [0.0, -s, c] };
                 let coefficient = radius_ratio * problem.rho[e][1];

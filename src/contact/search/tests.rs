@@ -1,16 +1,29 @@
 //! The mode search against brute force: all sets of modes of up to six elements.
 
 mod bonds;
-mod operators;
+mod tally;
+
+use std::sync::Arc;
 
 use super::*;
+use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
+use crate::coupled::model::Model;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::operators::{Operators, StiffnessFactorization};
+use crate::coupled::{Midpoint, TimeScheme};
+use crate::fem::{Layer, Material, Mesh};
+use crate::geometry::Patch;
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
+use crate::linalg::CompressedMatrix;
 use crate::linalg::dense_multiply_add;
+use crate::linalg::matrix::SparseMatrix;
+use crate::soil::Soil;
+use crate::structure::{FemModel, RigidBlock, Structure};
 use basemat_testkit::random::Random;
-use operators::{random_delassus, scene_delassus};
+use tally::Tally;
 
 const FRICTION_CASES: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 
@@ -111,6 +124,62 @@ impl Problem {
     }
 }
 
+/// W of elements on a half-plane, under a rigid block or finite elements.
+fn scene_delassus(count: usize, random: &mut Random) -> Vec<f64> {
+    let soil = Soil::new(1e8, random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]), 2000.0).unwrap();
+    let is_graded = random.chance(0.5);
+    let strip = if is_graded { Strip::graded } else { Strip::uniform };
+    let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
+    // Elements that a pressure wave crosses in a time step.
+    let crossed_elements = random.log_within(0.05, 20.0);
+    let time_step = crossed_elements * 4.0 / count as f64 / soil.pressure_wave_speed();
+    ground.prepare(time_step, None, &mut crate::unobserved).unwrap();
+    let mut step_compliance = vec![0.0; 4 * count * count];
+    ground.step_compliance(&mut step_compliance).unwrap();
+    let structure: Box<dyn Structure> = if random.chance(0.5) {
+        Box::new(RigidBlock::new(4.0, 8.0, 2000.0).unwrap())
+    } else {
+        let material = Material::new(random.log_within(1e8, 3e10), 0.2, 2400.0).unwrap();
+        let layers = [Layer::new(8.0, 4, material)];
+        let mesh = Mesh::layered_block(-2.0..2.0, count, &layers).unwrap();
+        Box::new(FemModel::on_base(mesh).unwrap())
+    };
+    let (assembled, _) =
+        Assembled::new(structure.as_ref(), &Patch::new(ground.elements().to_vec()).unwrap())
+            .unwrap();
+    let model = Model::new(&assembled);
+    let tangent = SparseMatrix::default();
+    let coefficients = Midpoint.coefficients(time_step);
+    let factor = StiffnessFactorization::in_dofs(&model, &coefficients, &tangent).unwrap();
+    let step_compliance = Arc::new(CompressedMatrix::new(step_compliance, 2 * count));
+    let operators = Operators::new(
+        &model,
+        &assembled.base,
+        &step_compliance,
+        StiffnessFactorization::Sparse(factor),
+        tangent,
+    )
+    .unwrap();
+    operators.delassus.to_vec()
+}
+
+/// A random W with A W symmetric and positive definite, with any condition number and coupling.
+fn random_delassus(count: usize, random: &mut Random) -> Vec<f64> {
+    let size = 2 * count;
+    let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
+    let lengths: Vec<f64> = (0..count).map(|_| random.log_within(0.1, 1.0)).collect();
+    let shift = random.log_within(1e-3, 1.0);
+    let mut matrix = vec![0.0; size * size];
+    for i in 0..size {
+        for j in 0..size {
+            let product: f64 = (0..size).map(|k| root[i * size + k] * root[j * size + k]).sum();
+            let diagonal = if i == j { shift } else { 0.0 };
+            matrix[i * size + j] = (product + diagonal) / lengths[i % count];
+        }
+    }
+    matrix
+}
+
 /// A problem with this W, and with random law, static tractions and start.
 fn random_problem(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
     let size = 2 * count;
@@ -204,90 +273,6 @@ fn solution_count(solutions: &[(Vec<Mode>, Vec<f64>)]) -> usize {
         }
     }
     distinct.len()
-}
-
-/// Numbers of problems by outcome.
-#[derive(Debug, Default)]
-struct Tally {
-    problems: usize,
-    /// Solved by the search with active set, Gauss–Seidel and path as its last method.
-    methods: [usize; 3],
-    trials: usize,
-    /// Solved by active set, Gauss–Seidel and path alone.
-    solved_alone: [usize; 3],
-    /// With several solutions.
-    multiple_solutions: usize,
-    multiple_with_strength: usize,
-    /// Without a solution.
-    unsolvable: usize,
-    /// With a solution that the search did not find.
-    failed: usize,
-    failed_with_strength: usize,
-    max_violation: f64,
-}
-
-impl Tally {
-    fn add(&mut self, other: &Self) {
-        self.problems += other.problems;
-        self.trials += other.trials;
-        for k in 0..3 {
-            self.methods[k] += other.methods[k];
-            self.solved_alone[k] += other.solved_alone[k];
-        }
-        self.multiple_solutions += other.multiple_solutions;
-        self.multiple_with_strength += other.multiple_with_strength;
-        self.unsolvable += other.unsolvable;
-        self.failed += other.failed;
-        self.failed_with_strength += other.failed_with_strength;
-        self.max_violation = self.max_violation.max(other.max_violation);
-    }
-
-    /// Solves one problem by all methods; returns the modes and states for the next step.
-    fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
-        let count = problem.start.len();
-        let input = problem.input();
-        let mut search = ModeSearch::new(count, ContactSearch::Robust);
-        self.problems += 1;
-        let solutions = brute_force(problem);
-        let has_multiple_solutions = solution_count(&solutions) > 1;
-        let has_solution = !solutions.is_empty();
-        self.unsolvable += usize::from(solutions.is_empty());
-        let has_strength = problem.parameters.strength > 0.0;
-        self.multiple_solutions += usize::from(has_multiple_solutions && !has_strength);
-        self.multiple_with_strength += usize::from(has_multiple_solutions && has_strength);
-        for (_, traction) in &solutions {
-            self.max_violation = self.max_violation.max(problem.violation(traction));
-        }
-        let check = |search: &ModeSearch, modes: &[Mode]| {
-            let is_solution = solutions.iter().any(|(solution_modes, _)| solution_modes == modes);
-            assert!(is_solution, "{modes:?} is not among {solutions:?}");
-            problem.violation(&search.solver.response.traction)
-        };
-        for method in 0..3 {
-            search.solver.invalidate();
-            let mut modes = problem.modes.clone();
-            let is_solved = match method {
-                0 => search.active_set(&input, &mut modes),
-                1 => search.gauss_seidel(&input, &mut modes),
-                _ => search.follow_paths(&input, &mut modes),
-            };
-            if is_solved.unwrap() {
-                self.solved_alone[method] += 1;
-                self.max_violation = self.max_violation.max(check(&search, &modes));
-            }
-        }
-        search.solver.invalidate();
-        let mut modes = problem.modes.clone();
-        let Ok((trials, method)) = search.solve(&input, &mut modes) else {
-            self.failed += usize::from(has_solution && !has_strength);
-            self.failed_with_strength += usize::from(has_solution && has_strength);
-            return None;
-        };
-        self.trials += trials;
-        self.methods[method as usize] += 1;
-        self.max_violation = self.max_violation.max(check(&search, &modes));
-        Some((modes, search.solver.response.states))
-    }
 }
 
 /// Tally of each friction case in random sequences of steps.
