@@ -1,8 +1,7 @@
 //! The contact problem of one element, with the tractions of the others fixed.
 
 use super::fixed_modes::{JUMP_ROUNDING_FACTOR, TRACTION_ROUNDING_FACTOR};
-use super::problem::{ContactInput, ContactResponse};
-use crate::error::LawError;
+use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` with all other tractions fixed, and returns its mode; the present mode is tried first.
@@ -11,7 +10,7 @@ pub(super) fn local_mode(
     input: &ContactInput<'_>,
     e: usize,
     present_mode: Mode,
-) -> Result<Mode, LawError> {
+) -> LawResult<Mode> {
     let layout = response.layout;
     let size = layout.len();
     let [n, t] = layout.places(e);

@@ -1,8 +1,7 @@
 //! Linear system of contact in the plane, for prescribed contact modes (stick, slip, open).
 
 use super::delassus::Delassus;
-use super::problem::{ContactInput, ContactResponse};
-use crate::error::LawError;
+use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, InterfaceLaw, Mode, PreviousContacts, Tolerance};
 use crate::linalg::{DenseFactor, dense_condition, largest};
@@ -68,7 +67,7 @@ impl ContactModeSolver {
         static_traction: &[f64],
         start: &PreviousContacts,
         laws: &[Box<dyn InterfaceLaw>],
-    ) -> Result<f64, LawError> {
+    ) -> LawResult<f64> {
         let input = ContactInput {
             delassus,
             free_jump: static_traction,
@@ -107,7 +106,7 @@ impl ContactModeSolver {
         &mut self,
         input: &ContactInput<'_>,
         modes: &[Mode],
-    ) -> Result<bool, LawError> {
+    ) -> LawResult<bool> {
         for (e, &mode) in modes.iter().enumerate() {
             self.conditions[e] = input.conditions(e, mode)?;
         }

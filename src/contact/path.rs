@@ -15,8 +15,7 @@
 //! begins elsewhere, also with all elements closed under pressure.
 
 use super::fixed_modes::ContactModeSolver;
-use super::problem::ContactInput;
-use crate::error::LawError;
+use super::problem::{ContactInput, LawResult};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
@@ -74,7 +73,7 @@ impl Path {
         input: &ContactInput<'_>,
         attempt: usize,
         modes: &mut [Mode],
-    ) -> Result<usize, LawError> {
+    ) -> LawResult<usize> {
         self.begin(input, attempt, modes);
         let mut lambda = 0.0;
         let mut direction = 1.0;
@@ -237,7 +236,7 @@ impl Path {
         input: &ContactInput<'_>,
         modes: &[Mode],
         lambda: f64,
-    ) -> Result<bool, LawError> {
+    ) -> LawResult<bool> {
         for parameter in [lambda + 1.0, lambda] {
             for (i, jump) in self.jump.iter_mut().enumerate() {
                 *jump = input.free_jump[i] + (1.0 - parameter) * self.covering_jump[i];

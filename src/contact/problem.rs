@@ -19,6 +19,9 @@ use crate::interface::{
     Tolerance, law_of,
 };
 
+/// Result of a function that calls interface laws.
+pub(super) type LawResult<T> = Result<T, LawError>;
+
 /// State of an element's bond in a search for modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
@@ -76,7 +79,7 @@ impl ContactInput<'_> {
     }
 
     /// Limits of an element's law, linearised at a settlement in the step (m), and checked.
-    pub(super) fn limits(&self, element: usize, settlement: f64) -> Result<Limits, LawError> {
+    pub(super) fn limits(&self, element: usize, settlement: f64) -> LawResult<Limits> {
         let mut start = self.start.element(element);
         start.trial_settlement = settlement;
         let mode = start.mode.word();
@@ -96,11 +99,7 @@ impl ContactInput<'_> {
 
     /// Conditions of the element's law in `mode`, all finite.
     #[inline]
-    pub(super) fn conditions(
-        &self,
-        element: usize,
-        mode: Mode,
-    ) -> Result<[Condition; 2], LawError> {
+    pub(super) fn conditions(&self, element: usize, mode: Mode) -> LawResult<[Condition; 2]> {
         let law = self.law(element);
         let start = self.start_of(element);
         let conditions = law.conditions(mode, &start);
@@ -123,7 +122,7 @@ impl ContactInput<'_> {
         mode: Mode,
         trial: &ContactState,
         tolerance: Tolerance,
-    ) -> Result<Mode, LawError> {
+    ) -> LawResult<Mode> {
         if self.bond(element) == Bond::Intact {
             return Ok(mode);
         }
@@ -138,11 +137,7 @@ impl ContactInput<'_> {
     }
 
     /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
-    pub(super) fn overload(
-        &self,
-        element: usize,
-        trial: &ContactState,
-    ) -> Result<Option<f64>, LawError> {
+    pub(super) fn overload(&self, element: usize, trial: &ContactState) -> LawResult<Option<f64>> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
                 let mode = self.law(element).modes()[0];

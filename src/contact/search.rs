@@ -21,9 +21,9 @@ use super::element::local_mode;
 use super::fixed_modes::ContactModeSolver;
 use super::linearisation::Linearisation;
 use super::path::Path;
-use super::problem::{Bond, ContactInput};
+use super::problem::{Bond, ContactInput, LawResult};
 use super::{ContactSearch, SearchMethod};
-use crate::error::{LawError, StepError};
+use crate::error::StepError;
 use crate::interface::Mode;
 
 /// Largest number of trials of the active set: more of them usually cycle.
@@ -111,7 +111,7 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
         bonds: &mut [Bond],
-    ) -> Result<Option<SearchMethod>, LawError> {
+    ) -> LawResult<Option<SearchMethod>> {
         self.rejected_set_count = None;
         self.begin_with_intact_bonds(input, modes, bonds);
         let mut last_method = SearchMethod::ActiveSet;
@@ -160,7 +160,7 @@ impl ModeSearch {
         &mut self,
         input: &ContactInput<'_>,
         bonds: &mut [Bond],
-    ) -> Result<bool, LawError> {
+    ) -> LawResult<bool> {
         self.overloads.clear();
         for (e, state) in self.solver.response.states.iter().enumerate() {
             let is_intact = bonds[e] == Bond::Intact;
@@ -184,7 +184,7 @@ impl ModeSearch {
         &mut self,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> Result<Option<SearchMethod>, LawError> {
+    ) -> LawResult<Option<SearchMethod>> {
         if self.active_set(input, modes)? {
             return Ok(Some(SearchMethod::ActiveSet));
         }
@@ -199,11 +199,7 @@ impl ModeSearch {
     }
 
     /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`]; returns whether one is admissible.
-    fn enumerate(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-    ) -> Result<bool, LawError> {
+    fn enumerate(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         let set_count =
             (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
         let Some(set_count) = set_count.filter(|count| *count <= MAX_MODE_SETS) else {
@@ -242,7 +238,7 @@ impl ModeSearch {
     /// Difference between the tractions of `modes` and of the laws' next modes, relative to the largest.
     ///
     /// Returns 1 if either set of modes is singular.
-    fn disagreement(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> Result<f64, LawError> {
+    fn disagreement(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> LawResult<f64> {
         if !self.solver.solve_for_modes(input, modes)? {
             return Ok(1.0);
         }
@@ -263,20 +259,12 @@ impl ModeSearch {
     }
 
     /// Whether the solution for `modes` exists and satisfies the laws.
-    fn are_admissible(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &[Mode],
-    ) -> Result<bool, LawError> {
+    fn are_admissible(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> LawResult<bool> {
         Ok(self.solver.solve_for_modes(input, modes)? && self.update_next_modes(input, modes)?)
     }
 
     /// Updates the next modes of all elements after a trial; returns whether all equal `modes`.
-    fn update_next_modes(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &[Mode],
-    ) -> Result<bool, LawError> {
+    fn update_next_modes(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> LawResult<bool> {
         let tolerance = self.solver.tolerance(input);
         let mut is_admissible = true;
         for (e, &mode) in modes.iter().enumerate() {
@@ -288,11 +276,7 @@ impl ModeSearch {
     }
 
     /// Replaces modes by the next modes of the laws until they stay the same; `false` if a set of modes occurs again.
-    fn active_set(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-    ) -> Result<bool, LawError> {
+    fn active_set(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         self.visited_modes.clear();
         let max_trials = match self.method {
             ContactSearch::Robust => ACTIVE_SET_TRIALS,
@@ -324,11 +308,7 @@ impl ModeSearch {
     }
 
     /// Follows paths, and starts the active set at the end of each.
-    fn follow_paths(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-    ) -> Result<bool, LawError> {
+    fn follow_paths(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         for attempt in 0..MAX_PATHS {
             self.trials += self.path.follow(&mut self.solver, input, attempt, modes)?;
             // A path that ends early often ends near the solution.
@@ -340,11 +320,7 @@ impl ModeSearch {
     }
 
     /// Sweeps over the elements from zero changes of traction, until their modes are admissible.
-    fn gauss_seidel(
-        &mut self,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-    ) -> Result<bool, LawError> {
+    fn gauss_seidel(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) -> LawResult<bool> {
         self.solver.response.traction.fill(0.0);
         self.solver.response.evaluate(input);
         self.previous_modes.copy_from_slice(modes);

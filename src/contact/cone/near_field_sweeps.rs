@@ -79,16 +79,14 @@ impl ConeProblem {
 
     /// Copies the data of all elements to their groups.
     fn read_groups(&mut self) {
-        let Some(near_field) = self.form.near_field_mut() else { return };
-        near_field.applied_change.copy_from_slice(&self.force_change);
-        let mut group_data = std::mem::take(&mut near_field.group_data);
-        let groups = self.form.near_field().into_iter().flat_map(|near_field| &near_field.groups);
-        for (group, elements) in group_data.iter_mut().zip(groups) {
-            *group = self.group(*elements);
+        let mut form = std::mem::take(&mut self.form);
+        if let Some(near_field) = form.near_field_mut() {
+            near_field.applied_change.copy_from_slice(&self.force_change);
+            for (group, elements) in near_field.group_data.iter_mut().zip(&near_field.groups) {
+                *group = self.group(*elements);
+            }
         }
-        if let Some(near_field) = self.form.near_field_mut() {
-            near_field.group_data = group_data;
-        }
+        self.form = form;
     }
 
     /// Data of a group of elements, one in each lane.
