@@ -26,9 +26,9 @@ use super::{ContactSearch, SearchMethod};
 use crate::error::StepError;
 use crate::interface::Mode;
 
-/// Largest number of trials of the active set: more of them usually cycle.
+/// Largest number of trials of the active set; a search that needs more counts as cycling.
 const ACTIVE_SET_TRIALS: usize = 60;
-/// Largest number of Gauss–Seidel sweeps: paths converge sooner than more sweeps.
+/// Largest number of Gauss–Seidel sweeps; paths follow.
 const MAX_SWEEPS: usize = 400;
 /// Largest number of paths. At infinite friction and c₁Δt/l from 13 to 60, one run in 5000 has a step that
 /// needs more than eight paths, and one in 100 000 a step that needs more than sixty.

@@ -5,8 +5,6 @@
 use super::status::Normal;
 
 /// Friction coefficient that replaces infinite friction on an element with a bond, and in methods that need a finite disc.
-///
-/// It is far above the friction of any foundation, and leaves half of the digits of a force.
 pub(super) const SUBSTITUTED_FRICTION: f64 = 1e4;
 
 /// Bounds of an element's force.

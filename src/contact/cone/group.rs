@@ -11,7 +11,7 @@ pub(super) const LANE_COUNT: usize = 8;
 pub(super) type Lane = [f64; LANE_COUNT];
 
 /// Data of a group's elements; forces and bounds of a lane without an element are zero.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Group {
     pub(super) q: [Lane; 3],
     /// r₀, and r − r₀.
@@ -34,25 +34,6 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// Group without elements.
-    pub(super) const WITHOUT_ELEMENTS: Self = {
-        let zero = [0.0; LANE_COUNT];
-        Self {
-            q: [zero; 3],
-            static_force: [zero; 3],
-            force_change: [zero; 3],
-            rho: [zero; 2],
-            tangential_coupling: [zero; 2],
-            interval: [zero; 2],
-            closed_gap: zero,
-            hardening_fraction: zero,
-            hardens: false,
-            friction: zero,
-            attraction: zero,
-            shear_strength: zero,
-        }
-    };
-
     /// Projects the trial forces of all elements once, p first.
     ///
     /// `displacement`: of the elements by W, without q. `added_diagonal`: number on W's diagonal. Writes the changes of

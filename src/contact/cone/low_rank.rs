@@ -11,7 +11,7 @@ use crate::contact::OnBed;
 use crate::contact::on_bed::MODE_TOLERANCE;
 use crate::linalg::pivoted_cholesky;
 
-/// Largest number of modes of a structure on a lattice; products with more modes cost more than they save.
+/// Largest number of modes of a structure on a lattice.
 pub(super) const MAX_MODE_COUNT: usize = 24;
 
 /// W = D + L Lᵀ, and the modal amplitudes of the present forces.

@@ -15,9 +15,9 @@ use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
 /// Elements are near each other if a unit force on one adds more than this fixed-point force to the other.
 const NEAR_FORCE_RATIO: f64 = 3e-3;
-/// Largest number of near links, relative to all pairs: more links cost as much as all entries of W.
+/// Largest number of near links, relative to all pairs of elements.
 const MAX_NEAR_FRACTION: f64 = 0.3;
-/// Number of near links, relative to all pairs, above which factors of W solve in less time than sweeps.
+/// Number of near links, relative to all pairs of elements, above which factors of W solve in less time than sweeps.
 const FACTORED_NEAR_FRACTION: f64 = 0.05;
 /// Largest number of elements for which factors of W fit into caches.
 const MAX_FACTORED_ELEMENTS: usize = 600;
@@ -109,7 +109,7 @@ impl NearFieldBlocks {
         Some(Self {
             modes: group_modes,
             mode_count: modes.len(),
-            group_data: vec![Group::WITHOUT_ELEMENTS; groups.len()],
+            group_data: vec![Group::default(); groups.len()],
             applied_change: vec![0.0; 3 * count],
             groups,
             near,

@@ -64,9 +64,7 @@ impl ConeProblem {
             // Factor by which these sweeps reduce the change.
             let rate = far_change / previous_far_change;
             let remaining_sweeps = (tolerance / far_change).ln() / rate.ln() * sweep_count as f64;
-            if sweep > MIN_SWEEPS_FOR_RATE
-                && is_too_slow(rate, remaining_sweeps, max_sweep_count - sweep)
-            {
+            if is_too_slow(rate, remaining_sweeps, sweep, max_sweep_count) {
                 return SolveOutcome::new(sweep, self.near_field_is_solved());
             }
             previous_far_change = far_change;
@@ -91,7 +89,7 @@ impl ConeProblem {
 
     /// Data of a group of elements, one in each lane.
     fn group(&self, elements: [usize; LANE_COUNT]) -> Group {
-        let mut group = Group::WITHOUT_ELEMENTS;
+        let mut group = Group::default();
         for (lane, e) in elements.into_iter().enumerate().filter(|(_, e)| *e < self.element_count) {
             let bounds = &self.bounds[e];
             for (k, i) in self.component_indices(e).into_iter().enumerate() {

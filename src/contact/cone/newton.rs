@@ -10,7 +10,7 @@ use super::problem::{ConeProblem, InfiniteFriction, SolveOutcome};
 use super::status::{Normal, Status, Tangential};
 use super::system::System;
 
-/// Largest number of iterations: most problems take fewer than ten.
+/// Largest number of iterations; other methods follow.
 const MAX_NEWTON_ITERATIONS: usize = 15;
 /// With many elements: factor by which an iteration must reduce the residual.
 const MIN_REDUCTION: f64 = 0.5;

@@ -347,8 +347,9 @@ pub(super) fn max_or_nan(largest: f64, value: f64) -> f64 {
 }
 
 /// Whether sweeps with this rate of convergence will not reach the tolerance within the allowed number.
-pub(super) fn is_too_slow(rate: f64, remaining_sweeps: f64, allowed_sweeps: usize) -> bool {
-    rate >= 1.0 || remaining_sweeps > REMAINING_SWEEPS_FACTOR * allowed_sweeps as f64
+pub(super) fn is_too_slow(rate: f64, remaining: f64, sweep: usize, max_sweep_count: usize) -> bool {
+    let max_remaining = REMAINING_SWEEPS_FACTOR * (max_sweep_count - sweep) as f64;
+    sweep > MIN_SWEEPS_FOR_RATE && (rate >= 1.0 || remaining > max_remaining)
 }
 
 /// Copies the displacements of all elements from their groups to y.

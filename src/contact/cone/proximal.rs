@@ -43,18 +43,12 @@ impl Proximal {
         for _ in 0..MAX_PROXIMAL_ITERATIONS {
             let added_diagonal = fraction * mean_diagonal;
             for i in 0..size {
-                problem.set_diagonal(i, self.diagonal[i] + added_diagonal);
                 problem.q[i] = self.q[i] - added_diagonal * self.last_change[i];
             }
-            problem.added_diagonal = added_diagonal;
-            problem.update_scales();
+            problem.set_added_diagonal(&self.diagonal, added_diagonal);
             let is_solved = solve(problem);
-            problem.added_diagonal = 0.0;
-            for i in 0..size {
-                problem.set_diagonal(i, self.diagonal[i]);
-            }
             problem.q.copy_from_slice(&self.q);
-            problem.update_scales();
+            problem.set_added_diagonal(&self.diagonal, 0.0);
             if !is_solved {
                 problem.force_change.copy_from_slice(&self.last_change);
                 fraction *= FRACTION_GROWTH;
@@ -71,21 +65,19 @@ impl Proximal {
 }
 
 impl ConeProblem {
-    /// Entry on the diagonal of W; the added diagonal is not part of it if W is of low rank.
+    /// Entry on the diagonal of W.
     fn diagonal(&self, i: usize) -> f64 {
-        if self.form.low_rank().is_some() {
-            let component = i / self.element_count;
-            self.element_blocks[i % self.element_count][component][component]
-        } else {
-            self.w[i * (self.component_count() + 1)]
-        }
+        let component = i / self.element_count;
+        self.element_blocks[i % self.element_count][component][component]
     }
 
-    /// Sets an entry on the diagonal of W, unless W is of low rank: then the added diagonal changes it.
-    fn set_diagonal(&mut self, i: usize, value: f64) {
-        let entry_index = i * (self.component_count() + 1);
-        if self.form.low_rank().is_none() {
-            self.w[entry_index] = value;
+    /// Adds a number to the diagonal of W, whose original entries are `diagonal`.
+    fn set_added_diagonal(&mut self, diagonal: &[f64], added_diagonal: f64) {
+        self.added_diagonal = added_diagonal;
+        let size = self.component_count();
+        for (entry, original) in self.w.iter_mut().step_by(size + 1).zip(diagonal) {
+            *entry = original + added_diagonal;
         }
+        self.update_scales();
     }
 }

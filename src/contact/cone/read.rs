@@ -13,7 +13,7 @@ use crate::error::LawError;
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
 
-/// Rounding error of a length relative to the largest: that of a sum of a few numbers.
+/// Rounding error of a length, relative to the largest: a few units in the last place.
 const ROUNDING_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl ForceSearch {

@@ -7,8 +7,7 @@ use super::compliance::ComplianceForm;
 use super::dense_lattice::DenseLattice;
 use super::low_rank::LowRankCompliance;
 use super::problem::{
-    Bounds, ConeProblem, MIN_SWEEPS_FOR_RATE, SWEEP_TOLERANCE_FACTOR, SolveOutcome, is_too_slow,
-    max_or_nan,
+    Bounds, ConeProblem, SWEEP_TOLERANCE_FACTOR, SolveOutcome, is_too_slow, max_or_nan,
 };
 use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
 
@@ -49,9 +48,7 @@ impl ConeProblem {
             // Factor by which a sweep reduces the change.
             let rate = largest_change / previous_change;
             let remaining_sweeps = (tolerance / largest_change).ln() / rate.ln();
-            if sweep > MIN_SWEEPS_FOR_RATE
-                && is_too_slow(rate, remaining_sweeps, max_sweep_count - sweep)
-            {
+            if is_too_slow(rate, remaining_sweeps, sweep, max_sweep_count) {
                 return SolveOutcome::new(sweep, self.is_solved());
             }
             previous_change = largest_change;

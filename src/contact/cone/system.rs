@@ -24,7 +24,7 @@ use super::status::{Status, Tangential};
 use super::unknowns::{ComponentSum, Unknown, Unknowns};
 use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 
-/// Number of columns of W⁻¹ that are solved together: a block fits into the cache.
+/// Number of columns of W⁻¹ that are solved together.
 const INVERSE_BLOCK_COLUMNS: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE_COST_FACTOR: f64 = 4.0;

@@ -78,10 +78,6 @@ fn bonds_break_only_where_brute_force_allows_it() {
             }
         }
     }
-    println!(
-        "{problem_count} problems, {breaking_count} break bonds, {multiple_count} have several solutions, \
-         {broken_count} begin with a broken bond"
-    );
     assert!(breaking_count > problem_count / 20 && multiple_count > problem_count / 50);
     assert!(broken_count < problem_count);
 }
