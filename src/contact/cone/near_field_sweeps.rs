@@ -126,7 +126,7 @@ impl ConeProblem {
         for (elements, group) in near_field.groups.iter().zip(&near_field.group_data) {
             for (lane, e) in elements.iter().enumerate().filter(|(_, e)| **e < *element_count) {
                 (0..3).for_each(|k| {
-                    force_change[k * *element_count + e] = group.force_change[k][lane]
+                    force_change[k * *element_count + e] = group.force_change[k][lane];
                 });
             }
         }
