@@ -56,8 +56,7 @@ pub(super) fn coefficients_in_plan(
     lag_count: usize,
     mut accept: impl FnMut(usize, usize, &[f64]) -> Result<()>,
 ) -> Result<()> {
-    let columns = lattice.counts[0];
-    let rows = lattice.counts[1];
+    let [columns, rows] = lattice.counts;
     let spectrum_counts = lengths.map(|length| length / 2 + 1);
     let axis_factors = [0, 1].map(|axis| cosines_and_sines(lattice.counts[axis], lengths[axis]));
     let max_chunk_lags = LAGS_PER_CHUNK.min(lag_count);
