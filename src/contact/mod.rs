@@ -15,6 +15,7 @@ mod problem;
 mod response;
 mod search;
 mod solver;
+mod trial_line;
 
 pub use contact_problem::{ContactProblem, ContactSolution};
 pub(crate) use delassus::{Delassus, MAX_STRUCTURE_RANK};

@@ -12,6 +12,7 @@
 use std::cell::Cell;
 
 use super::delassus::Delassus;
+use super::trial_line::TrialLine;
 use crate::error::{Error, LawError};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, PreviousContacts,
@@ -46,8 +47,8 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
-    /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
-    pub(crate) trial_settlements: &'a [Cell<f64>],
+    /// Lines in place of the laws' curves, one per element; empty for the tangents at a settlement of zero.
+    pub(crate) trial_lines: &'a [Cell<TrialLine>],
     /// In plan, whether friction and cohesion are left out, as while the weight comes on.
     pub(crate) frictionless: bool,
 }
@@ -68,8 +69,8 @@ impl ContactInput<'_> {
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.element(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
-        if let Some(settlement) = self.trial_settlements.get(element) {
-            start.trial_settlement = settlement.get();
+        if let Some(line) = self.trial_lines.get(element) {
+            start.trial_settlement = line.get().settlement;
         }
         start
     }
@@ -102,7 +103,12 @@ impl ContactInput<'_> {
     ) -> Result<[Condition; 2], LawError> {
         let law = self.law(element);
         let start = self.start_of(element);
-        let pair = law.conditions(mode, &start);
+        let mut pair = law.conditions(mode, &start);
+        if mode.is_yield()
+            && let Some(line) = self.trial_lines.get(element)
+        {
+            line.get().replace_tangent(&mut pair[0]);
+        }
         // A value is not finite, or the sum overflows.
         if !(pair[0].sum() + pair[1].sum()).is_finite()
             && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)

@@ -63,7 +63,7 @@ impl Problem {
             laws: &self.laws,
             length_scale: self.free_jump.iter().fold(0.0, |m, j| m.max(j.abs())),
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: false,
         }
     }
