@@ -28,8 +28,8 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// | closed | g = −w, 0 ≤ p ≤ c |
 /// | yielding | g = −w − v, p = F(h₀ + v) |
 ///
-/// At the end of a step w grows by v, c becomes F(h₀ + v) where the soil yielded, and then min(c, p + η q). The first load is
-/// virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
+/// At the end of a step w grows by v, c becomes F(h₀ + v) where the soil yielded, and then min(c, p + η q). The first
+/// load is virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
 /// [`Yielding`](super::Yielding).
 ///
 /// The soil stores nothing. The energy balance counts p v ≥ 0 in `contact`, whatever the parameters are: dissipation

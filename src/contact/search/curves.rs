@@ -114,8 +114,11 @@ impl ModeSearch {
                     next_line = next_line.tangent();
                 }
                 cell.set(next_line);
-                let turns = next_line.slope != line.slope || !mode.is_yield();
-                motion = motion.max(if turns { LineMotion::Turned } else { LineMotion::Shifted });
+                // Tangents turn with each point.
+                let turns = next_line.slope != line.slope || next_line.slope == 0.0;
+                let is_turned = turns || !mode.is_yield();
+                motion =
+                    motion.max(if is_turned { LineMotion::Turned } else { LineMotion::Shifted });
             }
         }
         Ok(motion)
