@@ -220,7 +220,7 @@ impl ContactProblem {
             laws: &self.laws,
             length_scale: largest(free_jump),
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: false,
         };
         let step = self.step_count + 1;

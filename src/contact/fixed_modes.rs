@@ -1,5 +1,7 @@
 //! Linear system of contact in the plane, for prescribed contact modes (stick, slip, open).
 
+use std::cell::Cell;
+
 use super::delassus::Delassus;
 use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
@@ -76,7 +78,7 @@ impl ContactModeSolver {
             laws,
             length_scale: 0.0,
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: false,
         };
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
@@ -221,7 +223,38 @@ impl ContactModeSolver {
         }
     }
 
+<<<<<<< HEAD
     /// Whether an element yields in `mode`, that of the last solution, and its pressure grows with the settlement.
+=======
+    /// Corrects the last solution for the present lines of yielding elements, which have only shifted.
+    ///
+    /// `modes`: of the last solution.
+    pub(super) fn correct(&mut self, input: &ContactInput<'_>, modes: &[Mode]) {
+        self.rhs.clear();
+        for row in &self.rows {
+            let condition = &mut self.conditions[row.element][row.condition];
+            let mut change = 0.0;
+            if row.condition == 0
+                && modes[row.element].is_yield()
+                && let Some(line) = input.trial_lines.get(row.element).map(Cell::get)
+                && line.slope > 0.0
+            {
+                change = line.value() - condition.value;
+                condition.value = line.value();
+            }
+            self.rhs.push(row.scale * change);
+        }
+        self.factor.solve_small(&mut self.rhs);
+        for (&i, change) in self.dofs.iter().zip(&self.rhs) {
+            self.response.traction[i] += change;
+        }
+        self.response.evaluate(input);
+    }
+
+    /// Whether an element yields in `mode`, and its pressure grows with the settlement.
+    ///
+    /// `mode`: of the last solution.
+>>>>>>> cost
     pub(super) fn yields_with_hardening(&self, element: usize, mode: Mode) -> bool {
         mode.is_yield() && self.conditions[element][0].gap != 0.0
     }

@@ -10,13 +10,20 @@
 //! has too much pressure and too little settlement. The next trial settlement solves each element alone: its line
 //! p + ρ v = constant through the solution meets the curve there. Newton's direction is one of descent for the energy of a
 //! step, which is convex without friction; shorter steps therefore converge where whole ones do not.
+//!
+//! In the plane a line of nearly the same slope takes the place of the tangent: see [`super::trial_line`].
 
 use super::problem::ContactInput;
+use super::trial_line::CurvePoint;
 use crate::error::{LawError, StepError};
 use crate::interface::Limits;
 
 /// Distance from the curve at which a pressure is accepted, relative to the pressure.
-const CURVE_TOLERANCE: f64 = 1e-9;
+///
+/// Laws put their state variables on the curve, so that this error does not grow from step to step.
+const CURVE_TOLERANCE: f64 = 1e-8;
+/// Distance from the curve up to which an element's line meets it near enough to the solution, relative to the pressure.
+const SMALL_DISTANCE: f64 = 1e-2;
 /// Largest number of linearisations of a step.
 const MAX_LINEARISATIONS: usize = 80;
 /// Number of linearisations after which steps are halved.
@@ -24,7 +31,7 @@ const WHOLE_STEPS: usize = 15;
 /// Largest number of tangents in the solution of one element: a curve that bends within 1e-12 of the settlement takes 40.
 const MAX_LOCAL_TANGENTS: usize = 60;
 /// Relative change of a settlement that ends the solution of one element: the other elements still move.
-const LOCAL_TOLERANCE: f64 = 1e-3;
+const LOCAL_TOLERANCE: f64 = 3e-2;
 
 /// Solution of an element with the tangent of its law.
 #[derive(Debug, Clone, Copy)]
@@ -58,20 +65,25 @@ impl Linearisation {
         self.worst = None;
     }
 
-    /// Compares a solution with the curve; returns the next trial settlement of its element, m, unless it is near enough.
+    /// Whether steps are whole.
+    pub(super) fn is_whole(&self) -> bool {
+        self.count <= WHOLE_STEPS
+    }
+
+    /// Compares a solution with the curve; returns the next point of its element, unless it is near enough.
     ///
-    /// `trial_settlement`: the present one.
+    /// `trial_settlement`: the present one, m.
     pub(super) fn compare(
         &mut self,
         input: &ContactInput<'_>,
         solution: &TangentSolution,
         trial_settlement: f64,
-    ) -> Result<Option<f64>, LawError> {
+    ) -> Result<Option<CurvePoint>, LawError> {
         let &TangentSolution { element, pressure, yields, .. } = solution;
         let present = if yields { solution.settlement.max(0.0) } else { 0.0 };
         let limits = input.limits(element, present)?;
-        let Limits { pressure_cap, hardening, .. } = limits;
-        let on_curve = pressure_cap + hardening * present;
+        let mut next = CurvePoint::new(present, &limits);
+        let CurvePoint { pressure: on_curve, hardening, .. } = next;
         let difference = pressure - on_curve;
         let distance = if yields { difference.abs() } else { difference.max(0.0) };
         let tolerance = CURVE_TOLERANCE * on_curve.max(pressure)
@@ -84,9 +96,13 @@ impl Linearisation {
         if self.worst.is_none_or(|(_, worst)| excess > worst) {
             self.worst = Some((element, excess));
         }
-        let next = settlement_on_curve(input, solution, limits, present)?;
-        let is_whole = self.count <= WHOLE_STEPS;
-        Ok(Some(if is_whole { next } else { 0.5 * (trial_settlement + next) }))
+        if distance > SMALL_DISTANCE * on_curve {
+            next = point_on_curve(input, solution, limits)?;
+        }
+        if !self.is_whole() {
+            next.settlement = 0.5 * (trial_settlement + next.settlement);
+        }
+        Ok(Some(next))
     }
 
     /// Whether all pressures are on their curves.
@@ -106,27 +122,26 @@ impl Linearisation {
     }
 }
 
-/// The settlement at which the line p + ρ v = constant through a solution meets the law's curve; zero below it.
+/// The point in which the line p + ρ v = constant through a solution meets the law's curve; not below a settlement of zero.
 ///
-/// `limits`: the tangent at a settlement `begin`.
-pub(super) fn settlement_on_curve(
+/// `limits`: a tangent of the curve.
+pub(super) fn point_on_curve(
     input: &ContactInput<'_>,
     solution: &TangentSolution,
     mut limits: Limits,
-    begin: f64,
-) -> Result<f64, LawError> {
+) -> Result<CurvePoint, LawError> {
     let &TangentSolution { element, pressure, settlement, stiffness, .. } = solution;
     let trial = pressure + stiffness * settlement;
-    let mut found = begin;
+    let mut found = f64::INFINITY;
     for _ in 0..MAX_LOCAL_TANGENTS {
         let Limits { pressure_cap, hardening, .. } = limits;
         let next = ((trial - pressure_cap) / (hardening + stiffness)).max(0.0);
         let change = (next - found).abs();
         found = next;
+        limits = input.limits(element, found)?;
         if change <= LOCAL_TOLERANCE * found {
             break;
         }
-        limits = input.limits(element, found)?;
     }
-    Ok(found)
+    Ok(CurvePoint::new(found, &limits))
 }

@@ -14,6 +14,7 @@ mod path;
 mod problem;
 mod search;
 mod solver;
+mod trial_line;
 
 pub use contact_problem::{ContactProblem, ContactSolution};
 pub(crate) use delassus::{Delassus, MAX_STRUCTURE_RANK};

@@ -12,6 +12,7 @@
 use std::cell::Cell;
 
 use super::delassus::Delassus;
+use super::trial_line::TrialLine;
 use crate::error::{Error, LawError};
 use crate::geometry::ContactLayout;
 use crate::interface::{
@@ -50,9 +51,15 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
+<<<<<<< HEAD
     /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
     pub(crate) trial_settlements: &'a [Cell<f64>],
     /// In space, whether laws act without friction and cohesion, as while the weight is applied.
+=======
+    /// Lines in place of the laws' curves, one per element; empty for the tangents at a settlement of zero.
+    pub(crate) trial_lines: &'a [Cell<TrialLine>],
+    /// In plan, whether friction and cohesion are left out, as while the weight comes on.
+>>>>>>> cost
     pub(crate) frictionless: bool,
 }
 
@@ -72,8 +79,8 @@ impl ContactInput<'_> {
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.element(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
-        if let Some(settlement) = self.trial_settlements.get(element) {
-            start.trial_settlement = settlement.get();
+        if let Some(line) = self.trial_lines.get(element) {
+            start.trial_settlement = line.get().settlement;
         }
         start
     }
@@ -102,10 +109,22 @@ impl ContactInput<'_> {
     pub(super) fn conditions(&self, element: usize, mode: Mode) -> LawResult<[Condition; 2]> {
         let law = self.law(element);
         let start = self.start_of(element);
+<<<<<<< HEAD
         let conditions = law.conditions(mode, &start);
         // The sum also overflows for some finite values.
         if !(conditions[0].sum() + conditions[1].sum()).is_finite()
             && let Some((quantity, value)) = conditions.iter().find_map(Condition::not_finite)
+=======
+        let mut pair = law.conditions(mode, &start);
+        if mode.is_yield()
+            && let Some(line) = self.trial_lines.get(element)
+        {
+            line.get().replace_tangent(&mut pair[0]);
+        }
+        // A value is not finite, or the sum overflows.
+        if !(pair[0].sum() + pair[1].sum()).is_finite()
+            && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
+>>>>>>> cost
         {
             return Err(match law.check_start(&start) {
                 Ok(()) => LawError::not_finite(element, mode.word(), quantity, value),

@@ -21,7 +21,12 @@ use super::element::local_mode;
 use super::fixed_modes::ContactModeSolver;
 use super::linearisation::Linearisation;
 use super::path::Path;
+<<<<<<< HEAD
 use super::problem::{Bond, ContactInput, LawResult};
+=======
+use super::problem::{Bond, ContactInput};
+use super::trial_line::{LineMotion, TrialLine};
+>>>>>>> cost
 use super::{ContactSearch, SearchMethod};
 use crate::error::StepError;
 use crate::interface::Mode;
@@ -51,8 +56,8 @@ pub(crate) struct ModeSearch {
     path: Path,
     bonds: Vec<Bond>,
     overloads: Vec<f64>,
-    /// Settlements at which the laws are linearised, m.
-    trial_settlements: Vec<Cell<f64>>,
+    /// Lines in place of the curves of the laws.
+    trial_lines: Vec<Cell<TrialLine>>,
     /// Number of trials of this search so far.
     trials: usize,
     /// Number of all sets of modes, if the last search tried all of them without success.
@@ -71,7 +76,7 @@ impl ModeSearch {
             path: Path::new(count),
             bonds: vec![Bond::Free; count],
             overloads: Vec::with_capacity(count),
-            trial_settlements: vec![Cell::new(0.0); count],
+            trial_lines: vec![Cell::new(TrialLine::default()); count],
             trials: 0,
             rejected_set_count: None,
             method,
@@ -93,13 +98,13 @@ impl ModeSearch {
         if has_single_modes && self.solver.solve_for_modes(input, modes)? {
             return Ok((1, SearchMethod::ActiveSet));
         }
-        let trial_settlements = std::mem::take(&mut self.trial_settlements);
-        for settlement in &trial_settlements {
-            settlement.set(0.0);
+        let trial_lines = std::mem::take(&mut self.trial_lines);
+        for line in &trial_lines {
+            line.take();
         }
-        let linearised = ContactInput { trial_settlements: &trial_settlements, ..*input };
+        let linearised = ContactInput { trial_lines: &trial_lines, ..*input };
         let method = self.follow_curves(&linearised, modes);
-        self.trial_settlements = trial_settlements;
+        self.trial_lines = trial_lines;
         Ok((self.trials, method?))
     }
 
@@ -288,19 +293,40 @@ impl ModeSearch {
             if !self.solver.solve_for_modes(input, modes)? {
                 return Ok(false);
             }
+<<<<<<< HEAD
             let is_admissible = self.update_next_modes(input, modes)?;
             if self.move_tangents(input, modes, &mut linearisation)? {
                 // Other tangents define another problem, in which the same modes may occur again.
                 modes.copy_from_slice(&self.next_modes);
                 self.visited_modes.clear();
+=======
+            let mut is_admissible = self.update_next_modes(input, modes)?;
+            let mut motion = self.move_tangents(input, modes, &mut linearisation)?;
+            if is_admissible && motion == LineMotion::Shifted {
+                motion = self.correct(input, modes, motion, &mut linearisation)?;
+                is_admissible = self.update_next_modes(input, modes)?;
+            }
+            if motion != LineMotion::None {
+                // Other tangents make another problem, in which the same modes may occur again.
+                self.begin_lines(input, modes);
+                modes.copy_from_slice(&self.next);
+                self.visited.clear();
+>>>>>>> cost
                 continue;
             }
             if is_admissible {
                 return Ok(true);
             }
+<<<<<<< HEAD
             self.visited_modes.extend_from_slice(modes);
             modes.copy_from_slice(&self.next_modes);
             if self.visited_modes.chunks_exact(modes.len()).any(|visited| visited == modes) {
+=======
+            self.visited.extend_from_slice(modes);
+            self.begin_lines(input, modes);
+            modes.copy_from_slice(&self.next);
+            if self.visited.chunks_exact(modes.len()).any(|visited| visited == modes) {
+>>>>>>> cost
                 return Ok(false);
             }
         }

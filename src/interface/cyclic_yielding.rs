@@ -28,8 +28,8 @@ const MIN_RESERVE_FRACTION: f64 = 1e-12;
 /// | closed | g = −w, 0 ≤ p ≤ c |
 /// | yielding | g = −w − v, p = F(h₀ + v) |
 ///
-/// At the end of a step w grows by v, c becomes p where the soil yielded, and then min(c, p + η q). The first load is
-/// virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
+/// At the end of a step w grows by v, c becomes F(h₀ + v) where the soil yielded, and then min(c, p + η q). The first
+/// load is virgin, with c = 0: the weight settles by F⁻¹ of its pressure. With w_r = 0 and q_d = 0 the law is
 /// [`Yielding`](super::Yielding).
 ///
 /// The soil stores nothing. The energy balance counts p v ≥ 0 in `contact`, whatever the parameters are: dissipation
@@ -160,31 +160,42 @@ struct Backbone {
     reference_settlement: f64,
 }
 
-/// Line p = `intercept` + `slope` · v of a tangent.
-struct BackboneTangent {
-    intercept: f64,
+/// Pressure (Pa) and slope (Pa/m) of the backbone at a settlement.
+struct BackbonePoint {
+    pressure: f64,
     slope: f64,
 }
 
 impl Backbone {
+    /// Pressure relative to the bearing pressure, below one.
+    fn load_ratio(&self, pressure: f64) -> f64 {
+        (pressure / self.bearing_pressure).clamp(0.0, 1.0 - MIN_RESERVE_FRACTION)
+    }
+
     /// F⁻¹ of a pressure, m.
     fn settlement(&self, pressure: f64) -> f64 {
-        let max_ratio = 1.0 - MIN_RESERVE_FRACTION;
-        let ratio = (pressure / self.bearing_pressure).max(0.0).min(max_ratio);
+        let ratio = self.load_ratio(pressure);
         self.reference_settlement * ratio / (1.0 - ratio)
     }
 
-    /// Tangent of F(h₀ + v) at a settlement v, with F(h₀) = `threshold`.
-    fn tangent(&self, threshold: f64, settlement: f64) -> BackboneTangent {
+    /// F(h₀ + v) and its slope at a settlement v, with F(h₀) = `threshold`.
+    ///
+    /// With x = F(h₀)/q, F(h₀ + v) = q (x w_r + (1 − x) v)/(w_r + (1 − x) v).
+    fn point(&self, threshold: f64, settlement: f64) -> BackbonePoint {
         let Self { bearing_pressure, reference_settlement } = *self;
-        let virgin_settlement = self.settlement(threshold) + settlement;
-        let distance = virgin_settlement + reference_settlement;
-        if reference_settlement == 0.0 || distance == 0.0 {
-            return BackboneTangent { intercept: bearing_pressure, slope: 0.0 };
+        if reference_settlement == 0.0 {
+            return BackbonePoint { pressure: bearing_pressure, slope: 0.0 };
         }
-        let slope = bearing_pressure * (reference_settlement / distance) / distance;
-        let pressure = bearing_pressure * (virgin_settlement / distance);
-        BackboneTangent { intercept: (pressure - slope * settlement).max(0.0), slope }
+        let ratio = self.load_ratio(threshold);
+        let reserve = 1.0 - ratio;
+        let reduced_settlement = reserve * settlement;
+        let distance = reference_settlement + reduced_settlement;
+        let rate = reserve / distance;
+        let load = (ratio * reference_settlement + reduced_settlement) / distance;
+        BackbonePoint {
+            pressure: bearing_pressure * load,
+            slope: bearing_pressure * reference_settlement * rate * rate,
+        }
     }
 }
 
@@ -222,8 +233,12 @@ impl InterfaceLaw for CyclicYielding {
     ) {
         let pressure = if mode.is_closed() { end.pressure.max(0.0) } else { 0.0 };
         if mode.is_yield() {
-            state_variables[0] = state_variables[0].max(-end.gap);
-            state_variables[1] = pressure;
+            let settlement = state_variables[0];
+            state_variables[0] = settlement.max(-end.gap);
+            // On the backbone, so that errors of pressures do not add up from step to step.
+            let settlement_in_step = state_variables[0] - settlement;
+            let backbone = self.backbone(settlement);
+            state_variables[1] = backbone.point(state_variables[1], settlement_in_step).pressure;
         }
         let bearing_pressure = self.backbone(state_variables[0]).bearing_pressure;
         let max_threshold = pressure + self.elastic_range * bearing_pressure;
@@ -237,10 +252,9 @@ impl InterfaceLaw for CyclicYielding {
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let [settlement, threshold] = settlement_and_threshold(start);
         let backbone = self.backbone(settlement);
-        let BackboneTangent { intercept, slope } =
-            backbone.tangent(threshold, start.trial_settlement);
+        let BackbonePoint { pressure, slope } = backbone.point(threshold, start.trial_settlement);
         Ok(Limits {
-            pressure_cap: intercept,
+            pressure_cap: (pressure - slope * start.trial_settlement).max(0.0),
             hardening: slope,
             gap_offset: -settlement,
             ..self.contact.limits(start)?

@@ -32,6 +32,7 @@ mod passivity;
 mod performance;
 mod precision;
 mod rocking_footing;
+mod settling_cost;
 mod stability;
 mod validation;
 
@@ -67,6 +68,7 @@ enum Study {
     Elements(elements::ElementsOptions),
     Embedded(embedded::EmbeddedOptions),
     RockingFooting(rocking_footing::RockingFootingOptions),
+    SettlingCost(settling_cost::SettlingCostOptions),
 }
 
 fn main() -> ExitCode {
@@ -96,6 +98,7 @@ fn main() -> ExitCode {
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
+        Study::SettlingCost(options) => settling_cost::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

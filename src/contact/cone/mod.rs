@@ -218,7 +218,7 @@ impl ForceSearch {
             if settlement > 0.0 || hardens && self.newton.statuses[e].is_yield() {
                 let solution = self.tangent_solution(input, e, residual);
                 if let Some(next) = linearisation.compare(input, &solution, settlement)? {
-                    self.trial_settlements[e] = next;
+                    self.trial_settlements[e] = next.settlement;
                     self.linearise(input, e)?;
                     has_moved = true;
                 }

@@ -7,7 +7,7 @@ use super::near_field::NearFieldBlocks;
 use super::newton::Newton;
 use super::problem::{Bounds, ConeProblem};
 use crate::contact::OnBed;
-use crate::contact::linearisation::{TangentSolution, settlement_on_curve};
+use crate::contact::linearisation::{TangentSolution, point_on_curve};
 use crate::contact::problem::ContactInput;
 use crate::error::LawError;
 use crate::interface::{Limits, Mode};
@@ -66,7 +66,8 @@ impl ForceSearch {
                     TangentSolution { yields: true, ..self.tangent_solution(input, e, 0.0) };
                 let begin = solution.settlement.max(0.0);
                 let limits = input.limits(e, begin)?;
-                self.trial_settlements[e] = settlement_on_curve(input, &solution, limits, begin)?;
+                let point = point_on_curve(input, &solution, limits)?;
+                self.trial_settlements[e] = point.settlement;
                 self.linearise(input, e)?;
             }
         }

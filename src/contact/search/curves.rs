@@ -2,8 +2,9 @@
 
 use super::ModeSearch;
 use crate::contact::SearchMethod;
-use crate::contact::linearisation::{Linearisation, TangentSolution, settlement_on_curve};
+use crate::contact::linearisation::{Linearisation, TangentSolution, point_on_curve};
 use crate::contact::problem::{ContactInput, ContactResponse};
+use crate::contact::trial_line::{CurvePoint, LineMotion, TrialLine};
 use crate::error::{LawError, StepError};
 use crate::interface::{Mode, Tolerance};
 use crate::linalg::dot;
@@ -47,7 +48,7 @@ impl ModeSearch {
         let mut has_tractions = false;
         for (e, _) in modes.iter().enumerate().filter(|(_, mode)| mode.is_yield()) {
             let Ok(limits) = input.limits(e, 0.0) else { continue };
-            let Some(trial_settlement) = input.trial_settlements.get(e) else { continue };
+            let Some(line) = input.trial_lines.get(e) else { continue };
             if limits.hardening == 0.0 {
                 continue;
             }
@@ -69,7 +70,8 @@ impl ModeSearch {
                 pressure_rounding: 0.0,
                 settlement_rounding: 0.0,
             };
-            trial_settlement.set(settlement_on_curve(input, &solution, limits, 0.0)?);
+            let point = point_on_curve(input, &solution, limits)?;
+            line.set(TrialLine::new(point, limits.gap_offset));
         }
         Ok(())
     }
@@ -83,65 +85,118 @@ impl ModeSearch {
         }
     }
 
-    /// Compares the last trial with the curves of the laws, and moves the tangents; returns whether any has moved.
+    /// Compares the last trial with the curves of the laws, and moves the lines; returns how they have moved.
     pub(super) fn move_tangents(
         &mut self,
         input: &ContactInput<'_>,
         modes: &[Mode],
         linearisation: &mut Linearisation,
-    ) -> Result<bool, LawError> {
+    ) -> Result<LineMotion, LawError> {
         linearisation.begin();
         let mut tolerance = None;
-        let mut has_moved = false;
+        let mut motion = LineMotion::None;
         for (e, mode) in modes.iter().enumerate() {
-            let Some(trial_settlement) = input.trial_settlements.get(e) else { continue };
-            if !self.solver.yields_with_hardening(e, *mode) && trial_settlement.get() == 0.0 {
+            let Some(cell) = input.trial_lines.get(e) else { continue };
+            let mut line = cell.get();
+            if !self.solver.yields_with_hardening(e, *mode) && line.settlement == 0.0 {
                 continue;
             }
             let tolerance = *tolerance.get_or_insert_with(|| self.solver.tolerance(input));
-            let settlement = trial_settlement.get();
-            let solution = self.tangent_solution(input, e, *mode, settlement, tolerance)?;
-            if let Some(solution) = solution
-                && let Some(next) = linearisation.compare(input, &solution, settlement)?
-            {
-                trial_settlement.set(next);
-                has_moved = true;
+            if line.slope == 0.0 && !read_gap_offset(input, e, &mut line)? {
+                continue;
+            }
+            let solution = self.tangent_solution(input, e, *mode, line.gap_offset, tolerance);
+            let next = linearisation.compare(input, &solution, line.settlement)?;
+            if let Some(point) = next {
+                let mut next_line = line.through(point);
+                if !linearisation.is_whole() {
+                    next_line = next_line.tangent();
+                }
+                cell.set(next_line);
+                // Tangents turn with each point.
+                let turns = next_line.slope != line.slope || next_line.slope == 0.0;
+                let is_turned = turns || !mode.is_yield();
+                motion =
+                    motion.max(if is_turned { LineMotion::Turned } else { LineMotion::Shifted });
             }
         }
-        Ok(has_moved)
+        Ok(motion)
     }
 
-    /// Solution of an element in a mode with the tangent at a trial settlement (m).
+    /// Corrects the last trial until its pressures are on the curves, while lines only shift.
     ///
-    /// `None` if the law has no limits that harden there.
+    /// `motion`: of the lines after the trial; returns their last motion.
+    pub(super) fn correct(
+        &mut self,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+        mut motion: LineMotion,
+        linearisation: &mut Linearisation,
+    ) -> Result<LineMotion, LawError> {
+        while motion == LineMotion::Shifted {
+            self.trials += 1;
+            self.solver.correct(input, modes);
+            motion = self.move_tangents(input, modes, linearisation)?;
+        }
+        Ok(motion)
+    }
+
+    /// Solution of an element in a mode, with its line in place of the curve; `gap_offset`: its gap when closed, m.
     fn tangent_solution(
         &self,
         input: &ContactInput<'_>,
         element: usize,
         mode: Mode,
-        trial_settlement: f64,
+        gap_offset: f64,
         tolerance: Tolerance,
-    ) -> Result<Option<TangentSolution>, LawError> {
-        let limits = match input.limits(element, trial_settlement) {
-            Ok(limits) if trial_settlement > 0.0 || limits.hardening > 0.0 => limits,
-            // A law of the plane may have conditions of its own, and no limits.
-            Ok(_) => return Ok(None),
-            Err(_) if trial_settlement == 0.0 => return Ok(None),
-            Err(error) => return Err(error),
-        };
+    ) -> TangentSolution {
         let layer = input.law(element).compliance(Mode::Stick, &input.start_of(element))[0];
         let size = self.solver.response.layout.len();
         let compliance = input.delassus.diagonal(size, element) + layer;
         let state = &self.solver.response.states[element];
         let Tolerance { length, traction } = tolerance;
-        Ok(Some(TangentSolution {
+        TangentSolution {
             element,
             pressure: state.pressure,
-            settlement: limits.gap_offset - state.gap - layer * state.pressure,
+            settlement: gap_offset - state.gap - layer * state.pressure,
             yields: mode.is_yield(),
             stiffness: compliance.recip(),
             pressure_rounding: traction,
             settlement_rounding: length + traction * compliance,
-        }))
+        }
+    }
+
+    /// Draws the lines of elements that begin to yield in the next modes, through the begin of their curves.
+    ///
+    /// `modes`: of the last trial.
+    pub(super) fn begin_lines(&self, input: &ContactInput<'_>, modes: &[Mode]) {
+        for (e, line) in input.trial_lines.iter().enumerate() {
+            let begins = self.next[e].is_yield() && !modes[e].is_yield();
+            if begins
+                && line.get().settlement == 0.0
+                && let Ok(limits) = input.limits(e, 0.0)
+                && limits.hardening > 0.0
+            {
+                line.set(TrialLine::new(CurvePoint::new(0.0, &limits), limits.gap_offset));
+            }
+        }
+    }
+}
+
+/// Reads the gap of a closed element from its law; `false` if the law has no limits, or no curve.
+fn read_gap_offset(
+    input: &ContactInput<'_>,
+    element: usize,
+    line: &mut TrialLine,
+) -> Result<bool, LawError> {
+    match input.limits(element, line.settlement) {
+        Ok(limits) if line.settlement > 0.0 || limits.hardening > 0.0 => {
+            line.gap_offset = limits.gap_offset;
+            Ok(true)
+        }
+        // A law of the plane may have conditions of its own, and no limits.
+        Ok(_) => Ok(false),
+        Err(_) if line.settlement == 0.0 => Ok(false),
+        Err(error) => Err(error),
     }
 }

@@ -67,7 +67,7 @@ impl Problem {
             laws: &self.laws,
             length_scale: self.free_jump.iter().fold(0.0, |max, jump| max.max(jump.abs())),
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: false,
         }
     }

@@ -190,7 +190,7 @@ impl StaticProblem<'_> {
             laws,
             length_scale: largest(&free_jump),
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: self.is_frictionless,
         };
         match solver.solve(&input, &mut state.modes) {

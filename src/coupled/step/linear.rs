@@ -163,7 +163,7 @@ impl LinearStep {
             laws: &scene.laws,
             length_scale,
             bonds: &[],
-            trial_settlements: &[],
+            trial_lines: &[],
             frictionless: false,
         };
         increment.modes.copy_from_slice(&state.modes);

@@ -1,0 +1,163 @@
+//! Processor time of steps on soil that settles in every cycle, relative to soil with a bearing pressure alone.
+//!
+//! ```text
+//! cargo study settling-cost
+//! ```
+//!
+//! A block of 4 × 7 m on 145 m/s under 1.5 times El Centro, whose weight is a third of the bearing pressure: it rocks, lifts
+//! off, and yields in most steps. In plan it is 3 m wide, and shaken across by 0.7 times El Centro.
+
+use basemat::bem::plan::Plan;
+use basemat::interface::{CyclicYielding, Yielding};
+use basemat::motion::Triaxial;
+use basemat::prelude::*;
+use basemat::structure::{RigidBlock, RigidBody};
+use cpu_time::ThreadTime;
+
+use crate::AnyError;
+
+/// Processor time of steps on soil that settles in every cycle.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SettlingCostOptions {
+    /// Few steps, to see that all works.
+    #[arg(long)]
+    short: bool,
+}
+
+const TIME_STEP: f64 = 5e-3;
+const BLOCK_WIDTH: f64 = 4.0;
+const BLOCK_DEPTH: f64 = 3.0;
+const BLOCK_HEIGHT: f64 = 7.0;
+const BLOCK_DENSITY: f64 = 2000.0;
+const FRICTION_COEFFICIENT: f64 = 0.6;
+/// Bearing pressure relative to the pressure of the weight.
+const PRESSURE_RESERVE: f64 = 3.0;
+const REFERENCE_SETTLEMENT: f64 = 5e-3;
+const PRESSURE_GRADIENT: f64 = 1e6;
+const SHORT_RANGE: f64 = 0.1;
+/// Samples of the record before its strong part.
+const WEAK_SAMPLES: usize = 70;
+const STEP_COUNT: usize = 1500;
+/// Each time is the smallest of as many runs, in turns with those of the other laws.
+const REPETITION_COUNT: usize = 7;
+
+/// CellCase below the block.
+#[derive(Debug, Clone, Copy)]
+enum CellCase {
+    /// In the plane.
+    Strips(usize),
+    /// In plan: number along the longer side.
+    Plan(usize),
+}
+
+const CELL_CASES: [CellCase; 4] =
+    [CellCase::Strips(16), CellCase::Strips(40), CellCase::Plan(6), CellCase::Plan(12)];
+
+#[derive(Debug, Clone, Copy)]
+enum LawCase {
+    Yielding,
+    /// Elastic range η, and growth of the bearing pressure, Pa/m.
+    Cyclic {
+        elastic_range: f64,
+        depth_gradient: f64,
+    },
+}
+
+const LAW_CASES: [LawCase; 3] = [
+    LawCase::Yielding,
+    LawCase::Cyclic { elastic_range: 1.0, depth_gradient: 0.0 },
+    LawCase::Cyclic { elastic_range: SHORT_RANGE, depth_gradient: PRESSURE_GRADIENT },
+];
+
+/// Number of cells, processor time of a step (s), and mean number of trials.
+#[derive(Debug, Clone, Copy)]
+struct SettlingStepCost {
+    cells: usize,
+    seconds: f64,
+    trials: f64,
+}
+
+fn strong_motion(factor: f64) -> basemat::Result<Record> {
+    let record = el_centro_1940();
+    let strong = record.accelerations().iter().skip(WEAK_SAMPLES).map(|a| factor * a);
+    Record::new(record.time_step(), strong.collect())
+}
+
+fn simulation(cells: CellCase, law: LawCase) -> basemat::Result<Simulation> {
+    let soil = Soil::new(4e7, 0.3, 1900.0)?;
+    let bearing_pressure = PRESSURE_RESERVE * BLOCK_DENSITY * STANDARD_GRAVITY * BLOCK_HEIGHT;
+    let builder = Simulation::builder(TIME_STEP).expected_steps(STEP_COUNT);
+    let builder = match law {
+        LawCase::Yielding => {
+            builder.interface(Yielding::new(bearing_pressure, FRICTION_COEFFICIENT)?)
+        }
+        LawCase::Cyclic { elastic_range, depth_gradient } => builder.interface(
+            CyclicYielding::new(bearing_pressure, REFERENCE_SETTLEMENT, FRICTION_COEFFICIENT)?
+                .with_elastic_range(elastic_range)?
+                .with_depth_gradient(depth_gradient)?,
+        ),
+    };
+    match cells {
+        CellCase::Strips(count) => {
+            let block = RigidBlock::new(BLOCK_WIDTH, BLOCK_HEIGHT, BLOCK_DENSITY)?;
+            let ground = ElasticGround::under(soil, &block, count)?;
+            builder.ground(ground).structure(block).motion(strong_motion(1.5)?).build()
+        }
+        CellCase::Plan(count) => {
+            let body = RigidBody::cuboid([BLOCK_WIDTH, BLOCK_DEPTH, BLOCK_HEIGHT], BLOCK_DENSITY)?;
+            let half = [BLOCK_WIDTH, BLOCK_DEPTH].map(|side| 0.5 * side);
+            let plan = Plan::rectangle(-half[0]..half[0], -half[1]..half[1], count)?;
+            let motion =
+                Triaxial { x: Some(strong_motion(1.5)?), y: Some(strong_motion(0.7)?), up: None };
+            let ground = ElasticGround::in_plan(soil, plan)?;
+            builder.ground(ground).structure(body).motion(motion).build()
+        }
+    }
+}
+
+fn measure(cells: CellCase, law: LawCase, steps: usize) -> Result<SettlingStepCost, AnyError> {
+    let mut simulation = simulation(cells, law)?;
+    let mut trials = 0;
+    let begin = ThreadTime::try_now()?;
+    for _ in 0..steps {
+        trials += simulation.step()?.trials;
+    }
+    let seconds = begin.try_elapsed()?.as_secs_f64() / steps as f64;
+    let trials = trials as f64 / steps as f64;
+    Ok(SettlingStepCost { cells: simulation.ground().elements().len(), seconds, trials })
+}
+
+pub(crate) fn run(options: &SettlingCostOptions) -> Result<(), AnyError> {
+    let (repetitions, steps) =
+        if options.short { (1, 100) } else { (REPETITION_COUNT, STEP_COUNT) };
+    println!(
+        "| cells | `Yielding`, µs a step | trials | `CyclicYielding`, η = 1: ratio | trials | η = {SHORT_RANGE}: ratio | trials |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for cells in CELL_CASES {
+        let mut costs = [None::<SettlingStepCost>; LAW_CASES.len()];
+        for _ in 0..repetitions {
+            for (cost, law) in costs.iter_mut().zip(LAW_CASES) {
+                let measured = measure(cells, law, steps)?;
+                if cost.is_none_or(|cost| measured.seconds < cost.seconds) {
+                    *cost = Some(measured);
+                }
+            }
+        }
+        let [Some(yielding), Some(long), Some(short)] = costs else { continue };
+        let name = match cells {
+            CellCase::Strips(count) => format!("{count} strips"),
+            CellCase::Plan(_) => format!("{} in plan", yielding.cells),
+        };
+        println!(
+            "| {name} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} |",
+            1e6 * yielding.seconds,
+            yielding.trials,
+            long.seconds / yielding.seconds,
+            long.trials,
+            short.seconds / yielding.seconds,
+            short.trials
+        );
+    }
+    Ok(())
+}
