@@ -8,6 +8,7 @@
 //! |---|---|
 //! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
 //! | moment or settlement of a foundation over its rotation, beside measured points | [`moment_rotation`], [`settlement_rotation`] |
+//! | shear stress over shear strain at points of a solid | [`stress_strain`] |
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, smallest and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
@@ -41,6 +42,7 @@ mod element_state;
 mod key;
 mod lines;
 mod marks;
+mod paths;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
@@ -48,6 +50,7 @@ mod refinement;
 mod rocking;
 mod shells;
 mod site_response;
+mod stress_strain;
 mod svg;
 mod text_width;
 mod ticks;
@@ -62,4 +65,5 @@ pub use refinement::refinement;
 pub use rocking::{moment_rotation, settlement_rotation};
 pub use shells::shell_plan;
 pub use site_response::site_response;
+pub use stress_strain::stress_strain;
 pub use svg::{Svg, page};
