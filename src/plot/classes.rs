@@ -2,8 +2,7 @@
 
 use super::drawing::is_drawable;
 use super::key::KeySample;
-use super::text_width::short;
-use super::ticks::rounded_step;
+use super::ticks::{mark_text, rounded_step};
 use plotters::style::RGBColor;
 
 /// Approximate number of classes from zero to the value of largest magnitude.
@@ -62,11 +61,12 @@ impl Classes {
 
     /// Names of the classes, times `factor` and with a `unit`, with their colours, the largest first.
     pub(super) fn key(&self, factor: f64, unit: &str) -> Vec<(String, KeySample)> {
+        let step = factor * self.step;
         let mut key = Vec::new();
         let mut class = self.positive_count - 1.0;
         while class >= -self.negative_count {
-            let lower_end = short(factor * self.step * class);
-            let upper_end = short(factor * self.step * (class + 1.0));
+            let lower_end = mark_text(step * class, step);
+            let upper_end = mark_text(step * (class + 1.0), step);
             let color = self.color((class + 0.5) * self.step);
             key.push((format!("{lower_end} to {upper_end}{unit}"), KeySample::Area(color)));
             class -= 1.0;
