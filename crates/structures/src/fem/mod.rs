@@ -4,6 +4,7 @@
 
 mod assembly;
 mod beam;
+mod block;
 pub(crate) mod coincident;
 mod duplicate;
 mod element;
@@ -11,6 +12,8 @@ mod element_matrix;
 mod element_nodes;
 mod force_rotation;
 mod grid;
+#[cfg(test)]
+pub(crate) mod hardening;
 mod hex8;
 mod inelastic_force;
 pub(crate) mod internal_energy;

@@ -275,3 +275,6 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         Ok(points)
     }
 }
+
+#[cfg(test)]
+mod tests;
