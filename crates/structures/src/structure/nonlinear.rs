@@ -2,27 +2,8 @@
 
 use super::{Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
+use crate::fem::internal_energy::InternalEnergy;
 use crate::linalg::matrix::SparseMatrix;
-
-/// Stored and dissipated energy of internal forces, J per metre of thickness.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct InternalEnergy {
-    /// Energy that unloading recovers.
-    pub stored: f64,
-    /// Energy turned into heat since the initial state; it never decreases.
-    pub dissipated: f64,
-}
-
-impl std::ops::Add for InternalEnergy {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            stored: self.stored + other.stored,
-            dissipated: self.dissipated + other.dissipated,
-        }
-    }
-}
 
 /// The nonlinear force f(u) of a structure, beyond K u.
 ///
@@ -103,11 +84,36 @@ pub trait NonlinearForce {
     /// As for [`force`](NonlinearForce::force).
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
 
+    /// Whether the tangent is symmetric at every displacement. Default: yes.
+    ///
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent.
+    fn has_symmetric_tangent(&self) -> bool {
+        true
+    }
+
     /// Energies of f at `displacement`. Default: `None`.
     ///
     /// In the energy balance, stored energy counts as strain energy and dissipated energy as `hysteresis`. With `None`
     /// all work of f counts as strain energy.
     fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
+        None
+    }
+
+    /// Work of f inside a step that is neither stored nor dissipated. Default: `None`.
+    ///
+    /// The step leads from the committed displacement to `end`, with f evaluated at `midstep`. The work is
+    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy), from a formula of its own. In the
+    /// energy balance it counts as `midstep_remainder`, so that the residual checks force and energies. With `None` the
+    /// definition takes the place of the formula, and the work counts as algorithmic dissipation.
+    fn remainder(&self, _midstep: &[f64], _end: &[f64]) -> Option<f64> {
+        None
+    }
+
+    /// Where f has its largest plastic deformation, for an error of a step that does not converge. Default: `None`.
+    ///
+    /// `dofs` are the degrees of freedom with the largest out-of-balance force, the largest first. The text names the
+    /// element and its state, such as "element 12 on nodes [3, 4, 9, 8]: plastic strain 0.021, 98 % of its strength".
+    fn describe_state(&self, _displacement: &[f64], _dofs: &[usize]) -> Option<String> {
         None
     }
 
