@@ -4,6 +4,7 @@ mod bearing_capacity;
 mod bearing_factors;
 #[cfg(feature = "serde")]
 mod damping_form;
+mod masing_curves;
 mod maxwell;
 mod nonnegative_least_squares;
 mod profile;
