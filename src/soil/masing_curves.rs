@@ -44,6 +44,7 @@ impl StrainCurves {
         }
         let first_strain = points[0][0];
         let max_strain = MAX_STRAIN_RATIO * previous_strain;
+        positive("range of the curves' strains", max_strain / first_strain)?;
         let decades = (max_strain / first_strain).ln() / LN_10;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let row_count = (decades * ROWS_PER_DECADE).ceil().max(1.0) as usize;
@@ -104,6 +105,7 @@ mod tests {
             [[0.1, 1.0], [0.1, 2.0]],
             [[0.1, f64::NAN], [0.2, 2.0]],
             [[0.1, 1.0], [f64::INFINITY, 2.0]],
+            [[0.1, 1.0], [f64::MAX, 2.0]],
         ] {
             assert!(StrainCurves::masing(&points).is_err(), "{points:?}");
         }
