@@ -37,3 +37,4 @@ mod travel;
 mod trench_springs;
 mod unstable_states;
 mod wave_passage;
+mod yielding_column;

@@ -44,6 +44,7 @@ pub mod tower;
 pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
+pub mod yielding_springs;
 
 pub use basemat_testkit::{
     ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random, series, table,
