@@ -4,6 +4,7 @@
 
 mod assembly;
 mod beam;
+mod block;
 pub(crate) mod coincident;
 mod duplicate;
 mod element;
@@ -11,6 +12,8 @@ mod element_matrix;
 mod element_nodes;
 mod force_rotation;
 mod grid;
+#[cfg(test)]
+pub(crate) mod hardening;
 mod hex8;
 mod inelastic_force;
 pub(crate) mod internal_energy;
@@ -18,11 +21,13 @@ mod layer;
 mod line;
 mod lumped_mass;
 mod material;
+mod mean_dilatation;
 mod merge;
 mod mesh;
 mod numbering;
 mod quad4;
 mod quad8;
+mod quad_force;
 mod shell;
 mod solid;
 mod spring;

@@ -86,6 +86,13 @@ pub trait NonlinearForce {
     /// As for [`force`](NonlinearForce::force).
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
 
+    /// Whether the tangent is symmetric at every displacement. Default: yes.
+    ///
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent.
+    fn has_symmetric_tangent(&self) -> bool {
+        true
+    }
+
     /// Energies of f at `displacement`. Default: `None`.
     ///
     /// In the energy balance, stored energy counts as strain energy and dissipated energy as `hysteresis`. With `None`

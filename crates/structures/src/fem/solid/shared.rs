@@ -21,6 +21,14 @@ enum Kind {
 }
 
 impl SharedMaterial {
+    /// The linear elastic material; `None` for an inelastic one.
+    pub fn elastic(&self) -> Option<&Material> {
+        match &self.kind {
+            Kind::Elastic(material) => Some(material),
+            Kind::Inelastic(_) => None,
+        }
+    }
+
     /// The law of an inelastic material; `None` for a linear elastic one.
     pub fn inelastic(&self) -> Option<&dyn SolidMaterial> {
         match &self.kind {

@@ -255,12 +255,22 @@ impl NonlinearForce for WithSprings {
         self.springs.tangent(displacement, matrix)
     }
 
+    fn has_symmetric_tangent(&self) -> bool {
+        let structure_force = self.structure.nonlinear();
+        structure_force.is_none_or(NonlinearForce::has_symmetric_tangent)
+    }
+
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let spring_energy = self.springs.energy(displacement)?;
         match self.structure.nonlinear() {
             Some(structure_force) => Some(structure_force.energy(displacement)? + spring_energy),
             None => Some(spring_energy),
         }
+    }
+
+    /// State of the structure's force; springs have no text.
+    fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
+        self.structure.nonlinear()?.describe_state(displacement, dofs)
     }
 
     fn commit(&mut self, displacement: &[f64]) {
