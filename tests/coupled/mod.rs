@@ -38,3 +38,4 @@ mod trench_springs;
 mod unstable_states;
 mod wave_passage;
 mod yielding_column;
+mod yielding_soil;

@@ -10,7 +10,7 @@ use basemat::bem::SpringGround;
 use basemat::coupled::{SimulationBuilder, State, StepError};
 use basemat::interface::Bonded;
 use basemat::motion::{AtRest, FreeFieldFn};
-use basemat::structure::{Base, NonlinearForce, RigidBlock, Structure, Triplets};
+use basemat::structure::{Base, NonlinearForce, RigidBlock, RigidBody, Structure, Triplets};
 use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, shake};
@@ -63,7 +63,8 @@ fn piecewise_linear_columns_take_few_iterations() {
 fn yielding_columns_converge_with_the_time_step() {
     let top_motion = |halvings: i32| {
         let stride = 1_usize << halvings;
-        let builder = bonded(yielding_column(4), 0.005 / stride as f64).motion(shaking());
+        let column = bonded(yielding_column(4), 0.005 / stride as f64);
+        let builder = column.motion(shaking()).on_fixed_base();
         let mut simulation = builder.build().unwrap();
         let mut motion = Vec::new();
         let observe = |state: &State| {
@@ -259,6 +260,38 @@ fn unsymmetric_tangents_are_used_as_they_are() {
     for (a, b) in motion.iter().zip(&other_motion) {
         assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
     }
+}
+
+/// A body in plan with a tangent that is not symmetric.
+struct UnsymmetricBody(RigidBody);
+
+impl Structure for UnsymmetricBody {
+    needed_from!(0);
+
+    own_force!();
+}
+
+impl NonlinearForce for UnsymmetricBody {
+    fn force(&self, _: &[f64], _: &mut [f64]) -> basemat::Result<()> {
+        Ok(())
+    }
+
+    fn tangent(&self, _: &[f64], _: &mut Triplets) -> basemat::Result<()> {
+        Ok(())
+    }
+
+    fn has_symmetric_tangent(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn unsymmetric_tangents_are_refused_in_plan() {
+    let body = UnsymmetricBody(RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap());
+    let ground = SpringGround::under(&body, 4, 5e7, 4e7).unwrap();
+    let builder = Simulation::builder(0.01).ground(ground).interface(Bonded).structure(body);
+    let error = builder.motion(AtRest).build().unwrap_err();
+    assert!(matches!(error, Error::Scene { quantity: "tangent of the structure", .. }), "{error}");
 }
 
 /// A block on whose rotation a force acts that jumps, so that a step may have no solution.

@@ -80,7 +80,7 @@ pub trait NonlinearForce {
     ///
     /// The sparsity pattern never grows after the first call: entries that become zero are still written. Entries in the same
     /// order at every call are found fastest. The tangent need not be symmetric: the time integration then factors by LU
-    /// instead of Cholesky, which takes longer. In plan, contact assumes a symmetric compliance of the structure.
+    /// instead of Cholesky, which takes longer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
@@ -88,7 +88,8 @@ pub trait NonlinearForce {
 
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     ///
-    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent.
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In plan `build` refuses it, since
+    /// contact there needs a symmetric compliance of the structure.
     fn has_symmetric_tangent(&self) -> bool {
         true
     }
