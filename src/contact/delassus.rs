@@ -86,6 +86,26 @@ impl Delassus {
         Self { split: Some(split), ..whole }
     }
 
+    /// Computes the operator again for other columns C, without allocating.
+    ///
+    /// `add_structure` adds B C to the values, which have `soil`. Without `columns`, products use the values.
+    pub(crate) fn refill(
+        &mut self,
+        soil: &CompressedMatrix,
+        columns: &[f64],
+        add_structure: impl FnOnce(&mut [f64]),
+    ) {
+        let order = self.values.len().isqrt();
+        soil.fill(order, &mut self.values);
+        add_structure(&mut self.values);
+        match &mut self.split {
+            Some(split) if split.columns.len() == columns.len() => {
+                split.columns.copy_from_slice(columns);
+            }
+            split => *split = None,
+        }
+    }
+
     /// Replaces the values by as many others, without allocating.
     pub(crate) fn set(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);

@@ -1377,7 +1377,8 @@ class Sensitivity:
 @final
 class EnergyBalance:
     """Energies since the start, J, in the plane J per metre of thickness:
-    ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
+    ``kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+    + static_contact = input``.
     """
 
     @property
@@ -1395,6 +1396,9 @@ class EnergyBalance:
     @property
     def algorithmic(self) -> float:
         """Energy that the time scheme removes, J; negative if it adds energy."""
+    @property
+    def midstep_remainder(self) -> float:
+        """Work of yielding parts inside the steps that is neither stored nor dissipated, J."""
     @property
     def soil(self) -> float:
         """Work done on the soil, which radiates and stores it, J."""

@@ -45,6 +45,7 @@ pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
 pub mod yielding_column;
+pub mod yielding_springs;
 
 pub use basemat_testkit::{
     ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random, series, table,

@@ -78,7 +78,9 @@ pub trait NonlinearForce {
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
     ///
-    /// The sparsity pattern never grows after the first call.
+    /// The sparsity pattern never grows after the first call: entries that become zero are still written. Entries in the same
+    /// order at every call are found fastest. The tangent need not be symmetric: the time integration then factors by LU
+    /// instead of Cholesky, which takes longer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
@@ -86,7 +88,8 @@ pub trait NonlinearForce {
 
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     ///
-    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent.
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In plan `build` refuses it, since
+    /// contact there needs a symmetric compliance of the structure.
     fn has_symmetric_tangent(&self) -> bool {
         true
     }
@@ -234,13 +237,19 @@ pub struct Tangent {
     #[doc(hidden)]
     pub matrix: SparseMatrix,
     entries: Triplets,
+    /// Index in the matrix of each of the entries.
+    indices: Vec<usize>,
 }
 
 impl Tangent {
     /// Empty tangent for a number of degrees of freedom.
     #[doc(hidden)]
     pub fn new(dofs: usize) -> Self {
-        Self { matrix: SparseMatrix::default(), entries: Triplets::new(dofs) }
+        Self {
+            matrix: SparseMatrix::default(),
+            entries: Triplets::new(dofs),
+            indices: Vec::new(),
+        }
     }
 
     /// Tangent at a displacement.
@@ -260,8 +269,9 @@ impl Tangent {
             nonlinear_force.tangent(displacement, &mut self.entries)?;
             same_length(TANGENT_NAME, self.entries.order(), displacement.len())?;
         }
-        if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {
-            self.matrix = SparseMatrix::new(TANGENT_NAME, &self.entries)?;
+        let Self { matrix, entries, indices } = self;
+        if matrix.order() != displacement.len() || !matrix.refill(entries, indices) {
+            *matrix = SparseMatrix::new(TANGENT_NAME, entries)?;
         }
         Ok(())
     }
