@@ -52,6 +52,6 @@ pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use shell::{Shell, ShellResultants};
-pub use solid::{SharedMaterial, SolidMaterial, SolidState, StrainPath};
+pub use solid::{DruckerPrager, Iwan, SharedMaterial, SolidMaterial, SolidState, StrainPath};
 pub use spring::{Dashpot, Spring};
 pub use truss::Truss;

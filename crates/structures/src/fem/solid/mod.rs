@@ -1,6 +1,13 @@
 //! Constitutive laws of solids with internal variables.
 
+mod cone;
+mod drucker_prager;
+mod iwan;
+mod iwan_backbone;
 mod shared;
+mod tensor;
+#[cfg(test)]
+mod tests;
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -9,6 +16,8 @@ use super::internal_energy::InternalEnergy;
 use super::material::Material;
 use crate::error::Result;
 
+pub use drucker_prager::DruckerPrager;
+pub use iwan::Iwan;
 pub use shared::SharedMaterial;
 
 /// Strains of a step at a point of a solid, each `[xx, yy, zz, xy]` with the engineering shear strain.
