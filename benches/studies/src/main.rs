@@ -34,6 +34,7 @@ mod precision;
 mod rocking_footing;
 mod stability;
 mod validation;
+mod yielding;
 
 use std::process::ExitCode;
 
@@ -67,6 +68,7 @@ enum Study {
     Elements(elements::ElementsOptions),
     Embedded(embedded::EmbeddedOptions),
     RockingFooting(rocking_footing::RockingFootingOptions),
+    Yielding(yielding::YieldingOptions),
 }
 
 fn main() -> ExitCode {
@@ -96,6 +98,7 @@ fn main() -> ExitCode {
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
+        Study::Yielding(options) => yielding::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

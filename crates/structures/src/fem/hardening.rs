@@ -156,14 +156,12 @@ impl SolidMaterial for Hardening {
         let Returned { stress, deviator, increment, .. } = self.returned(strain, variables);
         let pressure = (stress[0] + stress[1] + stress[2]) / 3.0;
         let arc_length = variables[4] + increment;
-        let radius = self.strength + self.hardening * arc_length;
         let hardening_energy = 0.5 * self.hardening * arc_length * arc_length;
-        let old_hardening_energy = 0.5 * self.hardening * variables[4] * variables[4];
         Ok(InternalEnergy {
             stored: tensor_norm(deviator).powi(2) / (4.0 * self.shear)
                 + 0.5 * pressure * pressure / self.bulk
                 + hardening_energy,
-            dissipated: variables[5] + radius * increment - hardening_energy + old_hardening_energy,
+            dissipated: variables[5] + self.strength * increment,
         })
     }
 
