@@ -11,7 +11,8 @@ use std::time::Instant;
 
 use basemat::fem::SharedMaterial;
 use basemat_problems::yielding_strip::{
-    CLAY_PRESSURES, FINE_CLAY_PRESSURE, SAND_PRESSURES, SETTLEMENTS, StripSoil, clay, sand,
+    CLAY_PRESSURES, FINE_CLAY_PRESSURE, REFERENCE_SETTLEMENTS, SAND_PRESSURES, StripSoil, clay,
+    sand,
 };
 
 use crate::document::AnyError;
@@ -33,6 +34,7 @@ struct StripCase {
     soil: SharedMaterial,
     strip_elements: usize,
     settlement_step: f64,
+    steps: usize,
     /// Pressures at the settlements of reference, Pa; NaN where the reference has none.
     reference: [f64; 6],
     /// Capacity of the theory of plasticity, Pa.
@@ -47,32 +49,29 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
     let factor_c = (factor_q - 1.0) / friction_angle.tan();
     let clay_case = StripCase {
         name: "clay",
-        mesh: StripSoil::CLAY,
+        mesh: StripSoil::CLAY_BOX,
         soil: clay().into(),
         strip_elements: 8,
         settlement_step: 0.0025,
+        steps: 120,
         reference: CLAY_PRESSURES,
         capacity: 2.0 + PI,
     };
     let sand_case = StripCase {
         name: "sand",
-        mesh: StripSoil::SAND,
+        mesh: StripSoil::SAND_BOX,
         soil: sand().into(),
         strip_elements: 6,
         settlement_step: 0.005,
+        steps: 60,
         reference: SAND_PRESSURES,
-        capacity: StripSoil::SAND.surcharge * factor_q + factor_c,
+        capacity: StripSoil::SAND_BOX.surcharge * factor_q + factor_c,
     };
     let mut cases = vec![clay_case, sand_case];
     if !options.short {
         let mut reference = [f64::NAN; 6];
         reference[5] = FINE_CLAY_PRESSURE;
-        cases.push(StripCase {
-            soil: clay().into(),
-            strip_elements: 16,
-            reference,
-            ..cases[0]
-        });
+        cases.push(StripCase { soil: clay().into(), strip_elements: 16, reference, ..cases[0] });
     }
     println!(
         "| soil | elements | settlement | pressure | reference | difference | over capacity |\n\
@@ -87,17 +86,14 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
 /// Prints the rows of a case.
 fn print_case(case: &StripCase) {
     let start = Instant::now();
-    let last_settlement = SETTLEMENTS[SETTLEMENTS.len() - 1];
-    let steps = (last_settlement / case.settlement_step).round() as usize;
-    let (pressures, iterations) = case.mesh.pressures(
+    let run = case.mesh.push_down(
         case.soil.clone(),
         case.strip_elements,
         case.settlement_step,
-        steps,
+        case.steps,
     );
-    for (settlement, reference) in SETTLEMENTS.iter().zip(case.reference) {
-        let step = (settlement / case.settlement_step).round() as usize;
-        let pressure = pressures[step - 1];
+    let rows = REFERENCE_SETTLEMENTS.iter().zip(run.reference_pressures()).zip(case.reference);
+    for ((settlement, pressure), reference) in rows {
         println!(
             "| {} | {} | {settlement} | {pressure:.4} | {reference} | {:.1e} | {:.4} |",
             case.name,
@@ -107,5 +103,5 @@ fn print_case(case: &StripCase) {
         );
     }
     let seconds = start.elapsed().as_secs_f64();
-    println!("{steps} steps, {iterations} iterations, {seconds:.1} s");
+    println!("{} steps, {} iterations, {seconds:.1} s", case.steps, run.iterations);
 }

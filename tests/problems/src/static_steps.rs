@@ -51,18 +51,15 @@ impl StaticSteps {
     /// Replaces the degrees of freedom that are not free.
     pub fn fix(&mut self, fixed: &[usize]) {
         let mut is_free = vec![true; self.model.dofs()];
-        fixed.iter().for_each(|&dof| is_free[dof] = false);
+        for &dof in fixed {
+            is_free[dof] = false;
+        }
         self.free_count = 0;
         self.free_index.clear();
         for is_free in is_free {
             self.free_index.push(is_free.then_some(self.free_count));
             self.free_count += usize::from(is_free);
         }
-    }
-
-    /// The model with the internal variables at the end of the last step.
-    pub fn model(&self) -> &FemModel {
-        &self.model
     }
 
     /// Advances by one step to the present load and by (degree of freedom, displacement) of fixed ones.
@@ -97,7 +94,9 @@ impl StaticSteps {
         self.model.nonlinear().unwrap().tangent(trial, &mut entries).unwrap();
         self.stiffness.add_to(1.0, &mut entries);
         let mut right_hand_side = self.free_residual(&self.internal_force(trial));
-        right_hand_side.iter_mut().for_each(|entry| *entry = -*entry);
+        for entry in &mut right_hand_side {
+            *entry = -*entry;
+        }
         let mut free_entries = Triplets::new(self.free_count);
         for &(row, column, value) in entries.entries() {
             match (self.free_index[row], self.free_index[column]) {

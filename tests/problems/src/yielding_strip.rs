@@ -11,7 +11,7 @@ use super::static_steps::StaticSteps;
 const COORDINATE_TOLERANCE: f64 = 1e-9;
 
 /// Settlements of the pressures of reference, m.
-pub const SETTLEMENTS: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
+pub const REFERENCE_SETTLEMENTS: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
 /// Pressures of reference on clay with 8 elements, Pa.
 pub const CLAY_PRESSURES: [f64; 6] = [3.9147, 4.6523, 4.9730, 5.1446, 5.2442, 5.3077];
 /// Pressure of reference on clay with 16 elements, at the last settlement, Pa.
@@ -55,7 +55,7 @@ pub struct StripSoil {
 
 impl StripSoil {
     /// Soil of the reference on clay.
-    pub const CLAY: Self = Self {
+    pub const CLAY_BOX: Self = Self {
         width_ratio: 1.25,
         graded_width: 4.5,
         width: 6.0,
@@ -65,7 +65,7 @@ impl StripSoil {
         surcharge: 0.0,
     };
     /// Soil of the reference on sand.
-    pub const SAND: Self = Self {
+    pub const SAND_BOX: Self = Self {
         width_ratio: 1.25,
         graded_width: 8.0,
         width: 10.0,
@@ -94,20 +94,21 @@ impl StripSoil {
         lines
     }
 
-    /// Mean pressures under the strip at the end of `steps` equal steps of settlement, and the iterations of all steps.
-    pub fn pressures(
+    /// Pushes the strip down in `steps` equal steps of settlement.
+    pub fn push_down(
         &self,
         soil: impl Into<SharedMaterial>,
         strip_elements: usize,
         settlement_step: f64,
         steps: usize,
-    ) -> (Vec<f64>, usize) {
+    ) -> StripRun {
         let soil = soil.into();
         let x_lines = self.x_lines(strip_elements);
         let y_lines = self.y_lines(strip_elements);
         let mesh = Mesh::quad8_block(&x_lines, &y_lines, |_, _| soil.clone()).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
-        let (strip_rows, mut supports) = self.supports(&model);
+        let strip_rows = strip_rows(&model);
+        let mut supports = self.supports(&model);
         let mut drive = StaticSteps::new(&model, &supports);
         if self.surcharge > 0.0 {
             drive.load = self.surcharge_forces(&model, &x_lines);
@@ -124,30 +125,23 @@ impl StripSoil {
             // The half width is 1 m.
             pressures.push(-strip_rows.iter().map(|&row| drive.force[row]).sum::<f64>());
         }
-        (pressures, iterations)
+        StripRun { settlement_step, pressures, iterations }
     }
 
-    /// Vertical degrees of freedom under the strip, and those that are always fixed.
-    fn supports(&self, model: &FemModel) -> (Vec<usize>, Vec<usize>) {
-        let mut strip_rows = Vec::new();
+    /// Degrees of freedom that are always fixed: horizontally also at the sides and under the strip.
+    fn supports(&self, model: &FemModel) -> Vec<usize> {
         let mut supports = Vec::new();
         for (node, &[x, y, _]) in model.mesh().nodes().iter().enumerate() {
-            let horizontal = model.dof(node, Direction::X).unwrap();
-            let vertical = model.dof(node, Direction::Y).unwrap();
             let is_bottom = y < -self.depth + COORDINATE_TOLERANCE;
             let is_side = x < COORDINATE_TOLERANCE || x > self.width - COORDINATE_TOLERANCE;
-            let is_strip = y > -COORDINATE_TOLERANCE && x < 1.0 + COORDINATE_TOLERANCE;
-            if is_bottom || is_side || is_strip {
-                supports.push(horizontal);
+            if is_bottom || is_side || is_under_strip(x, y) {
+                supports.extend(model.dof(node, Direction::X));
             }
             if is_bottom {
-                supports.push(vertical);
-            }
-            if is_strip {
-                strip_rows.push(vertical);
+                supports.extend(model.dof(node, Direction::Y));
             }
         }
-        (strip_rows, supports)
+        supports
     }
 
     /// Nodal forces of the surcharge: one, four and one sixth on each edge of an element.
@@ -176,4 +170,40 @@ fn graded_distances(first_size: f64, ratio: f64, bound: f64) -> Vec<f64> {
         distance += size;
     }
     distances
+}
+
+fn is_under_strip(x: f64, y: f64) -> bool {
+    y > -COORDINATE_TOLERANCE && x < 1.0 + COORDINATE_TOLERANCE
+}
+
+/// Vertical degrees of freedom under the strip.
+fn strip_rows(model: &FemModel) -> Vec<usize> {
+    let nodes = model.mesh().nodes().iter().enumerate();
+    nodes
+        .filter(|(_, point)| is_under_strip(point[0], point[1]))
+        .filter_map(|(node, _)| model.dof(node, Direction::Y))
+        .collect()
+}
+
+/// Mean pressures under a strip that was pushed down.
+#[derive(Debug, Clone)]
+pub struct StripRun {
+    /// Settlement of a step, m.
+    pub settlement_step: f64,
+    /// Mean pressure at the end of each step, Pa.
+    pub pressures: Vec<f64>,
+    /// Number of iterations of all steps.
+    pub iterations: usize,
+}
+
+impl StripRun {
+    /// Mean pressures at the settlements of reference, Pa.
+    pub fn reference_pressures(&self) -> [f64; 6] {
+        REFERENCE_SETTLEMENTS.map(|settlement| {
+            let mut steps = self.pressures.iter().enumerate();
+            let at_settlement =
+                steps.find(|(step, _)| (*step as f64 + 1.5) * self.settlement_step > settlement);
+            at_settlement.map_or(f64::NAN, |(_, pressure)| *pressure)
+        })
+    }
 }

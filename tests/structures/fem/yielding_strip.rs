@@ -6,39 +6,35 @@
 use std::f64::consts::PI;
 
 use basemat_problems::yielding_strip::{
-    CLAY_PRESSURES, SAND_PRESSURES, SETTLEMENTS, StripSoil, clay, sand,
+    CLAY_PRESSURES, REFERENCE_SETTLEMENTS, SAND_PRESSURES, StripSoil, clay, sand,
 };
 
-/// Relative differences from the pressures of reference, at the steps where the settlement is that of reference.
-fn differences(pressures: &[f64], settlement_step: f64, reference: &[f64; 6]) -> Vec<f64> {
-    let mut differences = Vec::new();
-    for (settlement, expected) in SETTLEMENTS.iter().zip(reference) {
-        let step = (settlement / settlement_step).round() as usize;
-        differences.push(pressures[step - 1] / expected - 1.0);
-    }
-    differences
+/// Relative differences from pressures of reference.
+fn differences(run: &StripRun, reference: &[f64; 6]) -> Vec<f64> {
+    let pairs = run.reference_pressures().into_iter().zip(reference);
+    pairs.map(|(pressure, expected)| pressure / expected - 1.0).collect()
 }
 
 #[test]
 fn strip_on_clay_has_the_pressures_of_reference() {
-    let (pressures, iterations) = StripSoil::CLAY.pressures(clay(), 8, 0.0025, 120);
-    let differences = differences(&pressures, 0.0025, &CLAY_PRESSURES);
-    println!("clay: {differences:.1e?}, {iterations} iterations");
+    let run = StripSoil::CLAY_BOX.push_down(clay(), 8, 0.0025, 120);
+    let differences = differences(&run, &CLAY_PRESSURES);
+    println!("clay: {differences:.1e?}, {} iterations", run.iterations);
     assert!(differences.iter().all(|difference| difference.abs() < 1e-4), "{differences:?}");
     // Prandtl: 2 + π; the mesh is 3 % stiffer.
-    assert!((1.0..1.04).contains(&(pressures[119] / (2.0 + PI))));
-    assert!(iterations < 6 * 120);
+    assert!((1.0..1.04).contains(&(run.pressures[119] / (2.0 + PI))));
+    assert!(run.iterations < 6 * 120);
 }
 
 #[test]
 fn strip_on_sand_has_the_pressures_of_reference() {
-    let (pressures, iterations) = StripSoil::SAND.pressures(sand(), 6, 0.005, 100);
-    let differences = differences(&pressures, 0.005, &SAND_PRESSURES);
-    println!("sand: {differences:.1e?}, {iterations} iterations");
+    let run = StripSoil::SAND_BOX.push_down(sand(), 6, 0.005, 100);
+    let differences = differences(&run, &SAND_PRESSURES);
+    println!("sand: {differences:.1e?}, {} iterations", run.iterations);
     assert!(differences.iter().all(|difference| difference.abs() < 1e-3), "{differences:?}");
-    // Prandtl and Reissner: q N_q + c N_c.
+    // Prandtl and Reissner: q N_q + c N_c, with φ = 30°.
     let factor_q = (PI * (PI / 6.0).tan()).exp() * (PI / 3.0).tan().powi(2);
     let factor_c = (factor_q - 1.0) / (PI / 6.0).tan();
     let capacity = 10.0 * factor_q + factor_c;
-    assert!((1.0..1.08).contains(&(pressures[99] / capacity)), "{}", pressures[99]);
+    assert!((1.0..1.08).contains(&(run.pressures[99] / capacity)), "{}", run.pressures[99]);
 }

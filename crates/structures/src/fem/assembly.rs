@@ -42,9 +42,10 @@ pub(crate) fn assemble(
         element_matrix.clear();
         element_matrix.resize(element.order().pow(2), 0.0);
         match matrix_kind {
-            MatrixKind::Stiffness => element.stiffness(&coordinates, &mut element_matrix),
             MatrixKind::LinearStiffness if element.inelastic().is_some() => continue,
-            MatrixKind::LinearStiffness => element.stiffness(&coordinates, &mut element_matrix),
+            MatrixKind::Stiffness | MatrixKind::LinearStiffness => {
+                element.stiffness(&coordinates, &mut element_matrix);
+            }
             MatrixKind::GeometricStiffness => {
                 element.geometric_stiffness(&coordinates, &mut element_matrix);
                 if let Some(force_rotation) = mesh.force_rotation(element_index) {

@@ -46,12 +46,12 @@ pub(crate) struct Hardening {
     pub(crate) bulk: f64,
     /// Norm of the deviator at first yield, Pa.
     pub(crate) strength: f64,
-    pub(crate) hardening: f64,
+    pub(crate) plastic_modulus: f64,
 }
 
 impl Hardening {
-    pub(crate) const SOIL: Self =
-        Self { shear: 10.0e6, bulk: 30.0e6, strength: 20.0e3, hardening: 1.0e6 };
+    pub(crate) const FIRM_SOIL: Self =
+        Self { shear: 10.0e6, bulk: 30.0e6, strength: 20.0e3, plastic_modulus: 1.0e6 };
 }
 
 /// State after the return to the yield surface.
@@ -81,8 +81,9 @@ impl Hardening {
         }
         trial[3] = self.shear * (strain[3] - variables[3]) + variables[9];
         let trial_norm = tensor_norm(trial);
-        let radius = self.strength + self.hardening * variables[4];
-        let increment = ((trial_norm - radius) / (2.0 * self.shear + self.hardening)).max(0.0);
+        let radius = self.strength + self.plastic_modulus * variables[4];
+        let increment =
+            ((trial_norm - radius) / (2.0 * self.shear + self.plastic_modulus)).max(0.0);
         let flow = trial.map(|s| if trial_norm > 0.0 { s / trial_norm } else { 0.0 });
         let deviator: [f64; 4] =
             std::array::from_fn(|i| trial[i] - 2.0 * self.shear * increment * flow[i]);
@@ -136,7 +137,7 @@ impl SolidMaterial for Hardening {
         }
         let shear = self.shear;
         let shrink = 2.0 * shear * increment / trial_norm;
-        let normal_factor = 2.0 * shear / (2.0 * shear + self.hardening) - shrink;
+        let normal_factor = 2.0 * shear / (2.0 * shear + self.plastic_modulus) - shrink;
         for i in 0..4 {
             for j in 0..4 {
                 let identity = match (i == j, i < 3 && j < 3) {
@@ -156,7 +157,7 @@ impl SolidMaterial for Hardening {
         let Returned { stress, deviator, increment, .. } = self.returned(strain, variables);
         let pressure = (stress[0] + stress[1] + stress[2]) / 3.0;
         let arc_length = variables[4] + increment;
-        let hardening_energy = 0.5 * self.hardening * arc_length * arc_length;
+        let hardening_energy = 0.5 * self.plastic_modulus * arc_length * arc_length;
         Ok(InternalEnergy {
             stored: tensor_norm(deviator).powi(2) / (4.0 * self.shear)
                 + 0.5 * pressure * pressure / self.bulk
@@ -178,7 +179,7 @@ impl SolidMaterial for Hardening {
 
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {
         let Returned { deviator, increment, .. } = self.returned(strain, variables);
-        let radius = self.strength + self.hardening * (variables[4] + increment);
+        let radius = self.strength + self.plastic_modulus * (variables[4] + increment);
         SolidState {
             plastic_strain: 2.0_f64.sqrt() * (variables[4] + increment),
             mobilised_strength: tensor_norm(deviator) / radius,

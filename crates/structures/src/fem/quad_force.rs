@@ -223,9 +223,11 @@ impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
         let mut sum = 0.0;
         self.rule.visit_points(coordinates, |point| {
             let point_variables = &variables[self.variable_range(point.index)];
-            let [start, midstep, end] =
-                displacements.map(|displacement| point.strain(displacement));
-            let path = StrainPath { start, midstep, end };
+            let path = StrainPath {
+                start: point.strain(displacements[0]),
+                midstep: point.strain(displacements[1]),
+                end: point.strain(displacements[2]),
+            };
             sum += point.area * self.law().remainder(&path, point_variables)?;
             Ok(())
         })?;

@@ -1,10 +1,11 @@
 //! Nonlinear force of a model's elements with internal variables.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::error::{CheckpointError, Result, all_finite, same_length};
-use crate::fem::{Direction, Element, InelasticForce, Mesh, SolidPoint};
+use crate::fem::{Direction, Element, InelasticForce, Mesh, SolidPoint, SolidState};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Triplets};
 
 /// An element with internal variables, and its degrees of freedom in the model.
@@ -57,6 +58,18 @@ impl InelasticElement {
     fn name(&self) -> String {
         format!("element {} on nodes {:?}", self.index, self.element.nodes())
     }
+}
+
+/// State of the point of an element that is nearest to failure, and the element's name.
+struct NamedState {
+    name: String,
+    state: SolidState,
+}
+
+/// Order of states by mobilised strength, then by plastic strain.
+fn by_strength(a: &SolidState, b: &SolidState) -> Ordering {
+    let strengths = a.mobilised_strength.total_cmp(&b.mobilised_strength);
+    strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
 }
 
 /// Displacements, forces and matrix of one element.
@@ -309,26 +322,21 @@ impl NonlinearForce for InelasticElements {
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.check_length(displacement).ok()?;
         dofs.iter().find_map(|dof| {
-            let mut texts = Vec::new();
-            for element in &self.elements {
-                if element.terms.iter().any(|(term_dof, _)| term_dof == dof) {
-                    let points = self.points_at(element, displacement).ok()?;
-                    let states = points.iter().map(|point| point.state);
-                    let highest = states.max_by(|a, b| {
-                        let strengths = a.mobilised_strength.total_cmp(&b.mobilised_strength);
-                        strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
-                    });
-                    texts.extend(highest.map(|state| (state, element.name())));
-                }
-            }
-            let (state, name) = texts.into_iter().max_by(|(a, _), (b, _)| {
-                let strengths = a.mobilised_strength.total_cmp(&b.mobilised_strength);
-                strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
-            })?;
-            let strength = 100.0 * state.mobilised_strength;
-            let plastic_strain = state.plastic_strain;
+            let touching_elements = self
+                .elements
+                .iter()
+                .filter(|element| element.terms.iter().any(|(term_dof, _)| term_dof == dof));
+            let states = touching_elements.filter_map(|element| {
+                let points = self.points_at(element, displacement).ok()?;
+                let states = points.iter().map(|point| point.state);
+                Some(NamedState { name: element.name(), state: states.max_by(by_strength)? })
+            });
+            let weakest = states.max_by(|a, b| by_strength(&a.state, &b.state))?;
             Some(format!(
-                "{name}: plastic strain {plastic_strain:.2e}, {strength:.0} % of its strength"
+                "{}: plastic strain {:.2e}, {:.0} % of its strength",
+                weakest.name,
+                weakest.state.plastic_strain,
+                100.0 * weakest.state.mobilised_strength
             ))
         })
     }
@@ -359,9 +367,9 @@ impl NonlinearForce for InelasticElements {
         if values.len() != value_count || values.iter().any(|value| !value.is_finite()) {
             return Err(CheckpointError::Corrupt { quantity: "state of the elements" }.into());
         }
-        let (variables, displacement) = values.split_at(self.variables.len());
-        self.variables.copy_from_slice(variables);
-        self.committed_displacement.copy_from_slice(displacement);
+        let variable_count = self.variables.len();
+        self.variables.copy_from_slice(&values[..variable_count]);
+        self.committed_displacement.copy_from_slice(&values[variable_count..]);
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 use crate::error::Error;
 use crate::fem::hardening::{Hardening, HiddenElastic};
-use crate::fem::{Beam, Direction, Layer, Material, Mesh, SharedMaterial};
+use crate::fem::{Beam, Direction, Layer, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
 use crate::linalg::SparseMatrix;
 use crate::structure::nonlinear::Tangent;
 use crate::structure::{
@@ -16,7 +16,7 @@ fn mesh(material: impl Into<SharedMaterial>) -> Mesh {
 }
 
 fn yielding() -> FemModel {
-    FemModel::on_base(mesh(Hardening::SOIL)).unwrap()
+    FemModel::on_base(mesh(Hardening::FIRM_SOIL)).unwrap()
 }
 
 /// Reproducible displacements (Lehmer's generator).
@@ -92,10 +92,11 @@ fn force_of_an_elastic_law_is_that_of_the_elastic_model() {
             FemModel::on_base(mesh(material)).unwrap(),
         ),
     ];
+    let damping = RayleighDamping::new(0.1, 0.01).unwrap();
     for (user, elastic) in pairs {
         let n = user.dofs();
-        let damping = RayleighDamping::new(0.1, 0.01).unwrap();
-        let [user, elastic] = [user, elastic].map(|model| model.with_rayleigh(damping));
+        let user = user.with_rayleigh(damping);
+        let elastic = elastic.with_rayleigh(damping);
         let u = displacements(3, n, 1e-3);
         let expected = assembled(|m| elastic.stiffness(m).unwrap(), n);
         let linear_part = assembled(|m| user.stiffness(m).unwrap(), n);
@@ -118,7 +119,7 @@ fn force_of_an_elastic_law_is_that_of_the_elastic_model() {
 
 #[test]
 fn pattern_of_the_tangent_never_changes() {
-    let mut model = with_link(Hardening::SOIL);
+    let mut model = with_link(Hardening::FIRM_SOIL);
     let n = model.dofs();
     let places = |matrix: &Triplets| -> Vec<(usize, usize)> {
         matrix.entries().iter().map(|&(row, column, _)| (row, column)).collect()
@@ -133,7 +134,7 @@ fn pattern_of_the_tangent_never_changes() {
 
 #[test]
 fn tangent_is_the_derivative_of_the_force() {
-    let mut model = with_link(Hardening::SOIL);
+    let mut model = with_link(Hardening::FIRM_SOIL);
     let n = model.dofs();
     model.nonlinear_mut().unwrap().commit(&displacements(2, n, 4e-3));
     let u = displacements(9, n, 6e-3);
@@ -150,7 +151,7 @@ fn tangent_is_the_derivative_of_the_force() {
 
 #[test]
 fn work_is_stored_dissipated_or_the_remainder() {
-    for mut model in [yielding(), with_link(Hardening::SOIL)] {
+    for mut model in [yielding(), with_link(Hardening::FIRM_SOIL)] {
         let n = model.dofs();
         let mut start = vec![0.0; n];
         for seed in 1..40 {
@@ -176,13 +177,13 @@ fn work_is_stored_dissipated_or_the_remainder() {
 
 #[test]
 fn saved_state_resumes_to_the_last_bit() {
-    let mut model = with_link(Hardening::SOIL);
+    let mut model = with_link(Hardening::FIRM_SOIL);
     let n = model.dofs();
     for seed in 1..4 {
         model.nonlinear_mut().unwrap().commit(&displacements(seed, n, 5e-3));
     }
     let saved = model.nonlinear().unwrap().save().unwrap();
-    let mut resumed = with_link(Hardening::SOIL);
+    let mut resumed = with_link(Hardening::FIRM_SOIL);
     resumed.nonlinear_mut().unwrap().restore(&saved).unwrap();
     let cloned = model.clone();
     let midstep = displacements(8, n, 4e-3);
@@ -210,7 +211,7 @@ fn saved_state_resumes_to_the_last_bit() {
 
 #[test]
 fn translations_give_no_force() {
-    let model = with_link(Hardening::SOIL);
+    let model = with_link(Hardening::FIRM_SOIL);
     let mut u = vec![0.0; model.dofs()];
     for (node, _) in model.mesh().nodes().iter().enumerate() {
         if let Some(dof) = model.dof(node, Direction::X) {
@@ -313,11 +314,7 @@ fn energies_count_from_the_state_at_rest() {
     for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
         mesh.add_node(x, y).unwrap();
     }
-    let quad = crate::fem::Quad4::new(
-        [0, 1, 2, 3],
-        Hardening::SOIL,
-        crate::fem::QuadFormulation::MeanDilatation,
-    );
+    let quad = Quad4::new([0, 1, 2, 3], Hardening::FIRM_SOIL, QuadFormulation::MeanDilatation);
     mesh.add(quad.with_initial_stress(stress)).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     let at_rest = model.nonlinear().unwrap().energy(&[0.0; 8]).unwrap();
@@ -348,12 +345,12 @@ fn sections_and_reductions_refuse_elements_with_variables() {
     let error = yielding().section(2.0, 0.0).unwrap_err();
     assert!(error.to_string().contains("element 4 above it has internal variables"), "{error}");
     // Below the section they change nothing.
-    let mut layers = mesh(Hardening::SOIL);
+    let mut layers = mesh(Hardening::FIRM_SOIL);
     let roof = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     let left = layers.node_at(0.0, 4.0).unwrap();
     let right = layers.node_at(1.0, 4.0).unwrap();
     let top = [layers.add_node(1.0, 5.0).unwrap(), layers.add_node(0.0, 5.0).unwrap()];
-    let quad = crate::fem::Quad4::new([left, right, top[0], top[1]], roof, Default::default());
+    let quad = Quad4::new([left, right, top[0], top[1]], roof, QuadFormulation::default());
     layers.add(quad).unwrap();
     assert!(FemModel::on_base(layers).unwrap().section(4.0, 0.0).is_ok());
     let error = CraigBampton::new(2).reduce(yielding()).unwrap_err();
@@ -383,7 +380,8 @@ fn merged_nodes_join_yielding_blocks() {
     // The same block in two parts on separate nodes, merged.
     let mut parts = Mesh::new();
     for y_lines in [&[0.0, 1.0][..], &[1.0, 2.0, 4.0]] {
-        let part = Mesh::quad8_block(&[0.0, 1.0, 3.0], y_lines, |_, _| Hardening::SOIL).unwrap();
+        let part =
+            Mesh::quad8_block(&[0.0, 1.0, 3.0], y_lines, |_, _| Hardening::FIRM_SOIL).unwrap();
         let first_node = parts.nodes().len();
         for [x, y, _] in part.nodes() {
             parts.add_node(*x, *y).unwrap();
