@@ -54,7 +54,7 @@ fn remainder_is_of_second_order() {
         let column = response(10, time_step, &clay().into()).unwrap();
         column.midstep_remainder / column.hysteresis
     });
-    println!("R/D {ratios:.2e?}");
+    println!("R/D {ratios:?}");
     for pair in ratios.windows(2) {
         assert!(pair[1] > 0.0 && pair[0] / pair[1] > 3.0, "{ratios:?}");
     }
