@@ -82,7 +82,8 @@
 //! for every time step, mesh and Poisson's ratio:
 //!
 //! ```text
-//! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
+//! kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+//!     + static_contact = input
 //! ```
 //!
 //! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile

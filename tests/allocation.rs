@@ -9,17 +9,19 @@ use std::cell::Cell;
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
+use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, Quad4, QuadFormulation, SharedMaterial};
 use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::interface::{Bonded, Cohesive, CyclicYielding, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
-    NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, Triplets,
+    FemModel, NonlinearForce, RayleighDamping, RigidBlock, RigidBody, Structure, Triplets,
 };
 use basemat::{Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
 use basemat_problems::scenes::{SI_UNITS, block, friction, scene, soil, tower};
+use basemat_problems::yielding_springs::yielding_column;
 use basemat_problems::{needed_from, own_force};
 
 /// The system's allocator, with a count for each thread.
@@ -213,6 +215,7 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
                 .load(Load::new(3, |t: f64| 3e4 * (40.0 * t).sin())),
         ),
         ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
+        ("yielding column", base().structure(yielding_column(8)).interface(friction(0.3))),
     ]
 }
 
@@ -290,4 +293,56 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     }
     assert_eq!(ALLOCATION_COUNT.get() - start_count, 0);
     assert_eq!(time_series.times().len(), ALL_STEPS + 1);
+}
+
+/// Blocks of soil: eight-node quadrilaterals, and one with four nodes.
+fn soil_blocks(soil: &SharedMaterial) -> [FemModel; 2] {
+    let lines = [0.0, 1.0, 3.0, 4.0];
+    let mesh = Mesh::quad8_block(&lines, &lines, |_, _| soil.clone()).unwrap();
+    let mut small_mesh = Mesh::new();
+    for [x, y] in [[0.0, 0.0], [1.2, 0.1], [1.0, 1.0], [0.0, 1.1]] {
+        small_mesh.add_node(x, y).unwrap();
+    }
+    let quad = Quad4::new([0, 1, 2, 3], soil.clone(), QuadFormulation::MeanDilatation);
+    small_mesh.add(quad).unwrap();
+    [FemModel::on_base(mesh).unwrap(), FemModel::new(small_mesh, &[0, 1]).unwrap()]
+}
+
+#[test]
+fn forces_of_yielding_elements_do_not_allocate() {
+    let clay = Iwan::hyperbolic(20.0e6, 40.0e3, 0.4, 0.49, 1900.0).unwrap();
+    let elastic = Material::new(50.0e6, 0.3, 1900.0).unwrap();
+    let sand = DruckerPrager::new(elastic, 5.0e3, 0.6, 0.2).unwrap();
+    for soil in [clay.into(), sand.into()] {
+        for mut model in soil_blocks(&soil) {
+            let n = model.dofs();
+            let mut displacement = vec![0.0; n];
+            let mut midstep = vec![0.0; n];
+            let mut force = vec![0.0; n];
+            let mut tangent = Triplets::new(n);
+            let mut allocations = 0;
+            let mut dissipated = 0.0;
+            for step in 0..20 {
+                let start_count = ALLOCATION_COUNT.get();
+                for (dof, value) in displacement.iter_mut().enumerate() {
+                    midstep[dof] = *value;
+                    *value = 5e-3 * ((dof * (step + 3)) as f64).sin();
+                    midstep[dof] = 0.5 * (midstep[dof] + *value);
+                }
+                let nonlinear = model.nonlinear_mut().unwrap();
+                nonlinear.force(&midstep, &mut force).unwrap();
+                tangent.clear();
+                nonlinear.tangent(&midstep, &mut tangent).unwrap();
+                assert!(nonlinear.remainder(&midstep, &displacement).unwrap().is_finite());
+                dissipated = nonlinear.energy(&displacement).unwrap().dissipated;
+                nonlinear.commit(&displacement);
+                // The first tangent reserves its entries.
+                if step > 0 {
+                    allocations += ALLOCATION_COUNT.get() - start_count;
+                }
+            }
+            assert_eq!(allocations, 0);
+            assert!(dissipated > 0.0);
+        }
+    }
 }

@@ -89,6 +89,26 @@ impl Delassus {
         Self { structure: Some(structure), ..operator }
     }
 
+    /// Computes the operator again for other columns C, without allocating.
+    ///
+    /// `add_structure` adds B C to the values, which have `soil`. Without `columns`, products use the values.
+    pub(crate) fn refill(
+        &mut self,
+        soil: &CompressedMatrix,
+        columns: &[f64],
+        add_structure: impl FnOnce(&mut [f64]),
+    ) {
+        let order = self.values.len().isqrt();
+        soil.fill(order, &mut self.values);
+        add_structure(&mut self.values);
+        match &mut self.structure {
+            Some(structure) if structure.columns.len() == columns.len() => {
+                structure.columns.copy_from_slice(columns);
+            }
+            structure => *structure = None,
+        }
+    }
+
     /// Replaces all entries, without allocating.
     pub(crate) fn set(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);

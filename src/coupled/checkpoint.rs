@@ -17,7 +17,7 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; increase it when the order of its numbers changes.
-const CHECKPOINT_FORMAT: u32 = 12;
+const CHECKPOINT_FORMAT: u32 = 13;
 /// Largest number of steps of a checkpoint: no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,

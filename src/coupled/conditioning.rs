@@ -1,6 +1,6 @@
 //! Condition numbers of a scene: the loss of digits in double precision.
 
-use crate::coupled::model::operators;
+use crate::coupled::model::effective_stiffness::EFFECTIVE_STIFFNESS_NAME;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
 use crate::coupled::step::solver::Solver;
@@ -105,7 +105,7 @@ pub(crate) fn conditioning(
         let Cause { quantity, ratio } =
             cause_of_stiffness_condition(scene, operators, effective_stiffness);
         return Err(Error::IllConditioned {
-            matrix: operators::EFFECTIVE_STIFFNESS_NAME,
+            matrix: EFFECTIVE_STIFFNESS_NAME,
             condition: effective_stiffness,
             limit: MAX_STIFFNESS_CONDITION,
             quantity,

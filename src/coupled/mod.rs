@@ -35,7 +35,9 @@
 //! 5. energy balance (`energy_accumulator.rs`), state (`advance.rs`); ground and structure commit the increment.
 //!
 //! For a linear structure W is computed once. For a nonlinear structure Newton's method repeats steps 2 and 3,
-//! with a new W whenever the tangent changes.
+//! with a new W whenever the tangent changes. Where a full step of the iteration does not reduce the out-of-balance
+//! force, a search along the increment shortens it (`step/increment_search.rs`). A step that does not converge returns
+//! [`StepError::Newton`] with the place and state of the structure there. Nothing of it is kept.
 //!
 //! # Mode search
 //!
@@ -59,7 +61,8 @@
 //! # Energy balance
 //!
 //! ```text
-//! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
+//! kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+//!     + static_contact = input
 //! ```
 //!
 //! holds exactly for the discrete equations; see [`EnergyBalance`] for the terms. [`Run::energy_error`]

@@ -12,7 +12,8 @@
 //! slip in any direction. Points are (x, y, 0) in the plane, y up, and (x, y, z) in plan, z up; the nodes of the base
 //! lie at height zero.
 //!
-//! A single state, such as the static one or a vibration mode, is a grid by itself ([`write_state`]).
+//! A single state, such as the static one or a vibration mode, is a grid by itself ([`write_state`]). So is the state of
+//! soil that yields ([`write_solid_state`]).
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -32,10 +33,12 @@ use std::fmt::{Display, Write};
 use std::path::Path;
 
 use crate::error::{Result, require_part};
+use crate::fem::SolidPoint;
 use crate::geometry::ContactElement;
 use crate::interface::ContactState;
 use crate::results::shape_cell::ShapeCell;
 use crate::results::{ContactFrame, DeformedShape, ShapePoint, TimeSeries};
+use crate::structure::FemModel;
 use crate::text::file::{write_error, write_file};
 
 /// Writes `name.pvd` and the grids of all kept frames into `folder`; returns the number of grids.
@@ -81,7 +84,45 @@ pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries
 /// [`Error::Index`](crate::Error::Index) if `shape` has degrees of freedom beyond `dofs`;
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
 pub fn write_state(path: impl AsRef<Path>, shape: &DeformedShape, dofs: &[f64]) -> Result<()> {
-    write_file(path.as_ref(), structure_grid(shape, shape.up(), &[("displacement", dofs)])?)
+    write_file(path.as_ref(), structure_grid(shape, shape.up(), &[("displacement", dofs)])?.xml())
+}
+
+/// Writes a grid of the elements with internal variables, with their state at the end of the last step.
+///
+/// Cells have `plastic_strain`, `mobilised_strength` (from 0 to 1) and `mean_stress` (Pa; tension is positive), means
+/// over the integration points of each element. Points have the vectors `displacement` by `dofs`, as for
+/// [`write_state`]. During a run, `model` is [`Simulation::structure`](crate::Simulation::structure) after a downcast.
+/// The folder is made if it does not exist.
+///
+/// # Errors
+/// [`Error::Scene`](crate::Error::Scene) for a model without such elements, errors of their materials,
+/// [`Error::Index`](crate::Error::Index) if `dofs` has too few values; [`Error::File`](crate::Error::File) if the file
+/// cannot be written.
+pub fn write_solid_state(path: impl AsRef<Path>, model: &FemModel, dofs: &[f64]) -> Result<()> {
+    let shape = DeformedShape::of_model(model);
+    let mut cells = Vec::new();
+    let mut plastic_strains = Vec::new();
+    let mut mobilised_strengths = Vec::new();
+    let mut mean_stresses = Vec::new();
+    for element in model.inelastic_elements() {
+        let points = model.solid_points(element)?;
+        let area: f64 = points.iter().map(|point| point.area).sum();
+        let mean = |value: fn(&SolidPoint) -> f64| {
+            points.iter().map(|point| point.area * value(point)).sum::<f64>() / area
+        };
+        plastic_strains.push(mean(|point| point.state.plastic_strain));
+        mobilised_strengths.push(mean(|point| point.state.mobilised_strength));
+        mean_stresses.push(mean(|point| point.stress[..3].iter().sum::<f64>() / 3.0));
+        cells.push(shape.grid()[element].clone());
+    }
+    require_part("model", !cells.is_empty(), "must have elements with internal variables")?;
+    let cell_scalars = vec![
+        ("plastic_strain", plastic_strains),
+        ("mobilised_strength", mobilised_strengths),
+        ("mean_stress", mean_stresses),
+    ];
+    let grid = structure_grid(&shape, shape.up(), &[("displacement", dofs)])?;
+    write_file(path.as_ref(), VtuGrid { cells: &cells, cell_scalars, ..grid }.xml())
 }
 
 /// Writes the collection and its grids; returns the number of grids.
@@ -106,7 +147,7 @@ fn write_grids(
                 vectors.push(("static_displacement", static_displacement));
             }
             let grid = structure_grid(shape, time_series.up(), &vectors)?;
-            write_file(&folder.join(&file_name), grid)?;
+            write_file(&folder.join(&file_name), grid.xml())?;
             entries.push(CollectionEntry { time: frame.time, part: 0, file_name });
         }
     }
@@ -145,27 +186,26 @@ fn shape_vector(up_axis: usize, [right, height, away]: [f64; 3]) -> [f64; 3] {
     in_file_axes(up_axis, [right, away, height])
 }
 
-/// Text of a grid of the structure with vectors at its points.
+/// Grid of the structure with vectors at its points.
 ///
 /// `vectors`: the name of each vector, and the degrees of freedom from which it is computed.
-fn structure_grid(
-    shape: &DeformedShape,
+fn structure_grid<'a>(
+    shape: &'a DeformedShape,
     up_axis: usize,
     vectors: &[(&'static str, &[f64])],
-) -> Result<String> {
+) -> Result<VtuGrid<'a>> {
     let mut point_vectors = Vec::new();
     for &(name, dofs) in vectors {
         let values = shape.displacements(dofs)?.into_iter();
         point_vectors.push((name, values.map(|vector| shape_vector(up_axis, vector)).collect()));
     }
     let positions = shape.points().iter().map(ShapePoint::place);
-    let grid = VtuGrid {
+    Ok(VtuGrid {
         points: positions.map(|position| shape_vector(up_axis, position)).collect(),
         cells: shape.grid(),
         point_vectors,
         cell_scalars: Vec::new(),
-    };
-    Ok(grid.xml())
+    })
 }
 
 /// Text of a grid of the base with the state of its contact elements.

@@ -28,6 +28,8 @@ pub(super) enum KeySample {
     Point(Stroke),
     /// A filled rectangle.
     Area(RGBColor),
+    /// The outline of a rectangle.
+    Outline(RGBColor),
     /// No sample: the name is a remark.
     Nothing,
 }
@@ -87,6 +89,9 @@ impl PictureKey {
                 KeySample::Point(stroke) => draw_marker(strip, stroke, y)?,
                 KeySample::Area(color) => {
                     strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color.filled()))?;
+                }
+                KeySample::Outline(color) => {
+                    strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color))?;
                 }
                 KeySample::Nothing => {}
             }

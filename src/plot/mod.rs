@@ -8,10 +8,12 @@
 //! |---|---|
 //! | one quantity of one or more runs over time | [`time_series`], [`probe_time_series`], [`curves`] |
 //! | moment or settlement of a foundation over its rotation, beside measured points | [`moment_rotation`], [`settlement_rotation`] |
+//! | shear stress over shear strain at points of a solid | [`stress_strain`] |
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, smallest and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
 //! | one value for each shell of a mat, such as a bending moment | [`shell_plan`] |
+//! | one value for each solid element of a section, such as a plastic strain | [`solid_section`] |
 //! | terms of the energy balance over time | [`energy`] |
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`] |
@@ -34,20 +36,23 @@ mod animation;
 mod axes;
 mod base;
 mod base_axis;
+mod cells;
 mod classes;
 mod deformed;
 mod drawing;
 mod element_state;
+mod element_values;
 mod key;
 mod lines;
 mod marks;
+mod paths;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
 mod refinement;
 mod rocking;
-mod shells;
 mod site_response;
+mod stress_strain;
 mod svg;
 mod text_width;
 mod ticks;
@@ -56,10 +61,11 @@ mod view;
 pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
+pub use element_values::{shell_plan, solid_section};
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
 pub use plan::contact_plan;
 pub use refinement::refinement;
 pub use rocking::{moment_rotation, settlement_rotation};
-pub use shells::shell_plan;
 pub use site_response::site_response;
+pub use stress_strain::stress_strain;
 pub use svg::{Svg, page};

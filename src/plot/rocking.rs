@@ -1,23 +1,10 @@
 //! Pictures of rocking: moment and settlement over the rotation, beside measured points.
 
-use std::ops::Range;
-
-use super::axes::{Chart, ChartAxis, chart, draw_curve};
-use super::drawing::{Drawing, Stroke, is_drawable, range_of};
-use super::key::{KeySample, PictureKey};
 use super::lines::{Curve, with_unit};
-use super::svg::{PictureLayout, Svg};
-use super::ticks::{Ticks, linear_ticks};
+use super::paths::PathChart;
+use super::svg::Svg;
 use crate::error::{Result, at_least, require_part};
 use crate::results::{Quantity, Rocking};
-use plotters::prelude::*;
-
-/// Number of points of a path above which close points are omitted.
-const MAX_DRAWN_POINTS: usize = 6000;
-/// Distance between points of a long path, over the range of the picture: about half a pixel.
-const POINT_DISTANCE: f64 = 5e-4;
-/// Number of marks of the axis of settlement.
-const SETTLEMENT_MARKS: usize = 10;
 
 /// Moment on the soil over the rotation of a foundation, for one or more runs, with measured points.
 ///
@@ -33,7 +20,7 @@ pub fn moment_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    RockingChart::new(runs, measured, Quantity::BaseMoment)?.picture(title)
+    rocking_chart(runs, measured, Quantity::BaseMoment)?.picture(title)
 }
 
 /// Settlement over the rotation of a foundation, for one or more runs, with measured points.
@@ -48,157 +35,41 @@ pub fn settlement_rotation(
     runs: &[(&str, Rocking<'_>)],
     measured: &[Curve],
 ) -> Result<Svg> {
-    RockingChart::new(runs, measured, Quantity::Settlement)?.picture(title)
+    rocking_chart(runs, measured, Quantity::Settlement)?.picture(title)
 }
 
-/// Paths and measured points over the rotation, in the units of the picture.
-struct RockingChart {
-    runs: Vec<Curve>,
-    measured: Vec<Curve>,
-    x_description: String,
-    y_description: String,
-    /// Whether the values increase downwards.
-    is_downward: bool,
-}
-
-impl RockingChart {
-    /// Chart of the moment, or of the settlement if that is the `quantity`.
-    fn new(runs: &[(&str, Rocking<'_>)], measured: &[Curve], quantity: Quantity) -> Result<Self> {
-        at_least("runs of a picture", runs.len(), 1)?;
-        let in_plan = runs[0].1.in_plan;
-        let needed = "the same in all runs: in the plane it is per metre";
-        let have_same_unit = runs.iter().all(|(_, rocking)| rocking.in_plan == in_plan);
-        require_part("unit of a moment", have_same_unit, needed)?;
-        let rotation_unit = Quantity::BaseRotation.printed(in_plan);
-        let value_unit = quantity.printed(in_plan);
-        let is_downward = quantity == Quantity::Settlement;
-        let y_factor = if is_downward { -value_unit.factor } else { value_unit.factor };
-        let scaled = |x: &f64, y: &f64| (rotation_unit.factor * x, y_factor * y);
-        let mut run_curves = Vec::with_capacity(runs.len());
-        for (name, rocking) in runs {
-            let values = if is_downward { rocking.settlement } else { rocking.moment };
-            let points = rocking.rotation.iter().zip(values).map(|(x, y)| scaled(x, y)).collect();
-            run_curves.push(Curve { name: (*name).to_owned(), points });
-        }
-        let mut measured_points = Vec::with_capacity(measured.len());
-        for Curve { name, points } in measured {
-            let points = points.iter().map(|(x, y)| scaled(x, y)).collect();
-            measured_points.push(Curve { name: name.clone(), points });
-        }
-        Ok(Self {
-            runs: run_curves,
-            measured: measured_points,
-            x_description: with_unit(Quantity::BaseRotation.name(), rotation_unit.symbol),
-            y_description: with_unit(quantity.name(), value_unit.symbol),
-            is_downward,
-        })
+/// Chart of the moment over the rotation, or of the settlement if that is the `quantity`.
+fn rocking_chart(
+    runs: &[(&str, Rocking<'_>)],
+    measured: &[Curve],
+    quantity: Quantity,
+) -> Result<PathChart> {
+    at_least("runs of a picture", runs.len(), 1)?;
+    let in_plan = runs[0].1.in_plan;
+    let needed = "the same in all runs: in the plane it is per metre";
+    let have_same_unit = runs.iter().all(|(_, rocking)| rocking.in_plan == in_plan);
+    require_part("unit of a moment", have_same_unit, needed)?;
+    let rotation_unit = Quantity::BaseRotation.printed(in_plan);
+    let value_unit = quantity.printed(in_plan);
+    let is_downward = quantity == Quantity::Settlement;
+    let y_factor = if is_downward { -value_unit.factor } else { value_unit.factor };
+    let scaled = |x: &f64, y: &f64| (rotation_unit.factor * x, y_factor * y);
+    let mut paths = Vec::with_capacity(runs.len());
+    for (name, rocking) in runs {
+        let values = if is_downward { rocking.settlement } else { rocking.moment };
+        let points = rocking.rotation.iter().zip(values).map(|(x, y)| scaled(x, y)).collect();
+        paths.push(Curve { name: (*name).to_owned(), points });
     }
-
-    fn picture(&self, title: &str) -> Result<Svg> {
-        let points = self.runs.iter().chain(&self.measured).flat_map(|curve| &curve.points);
-        at_least("points of a chart", points.clone().count(), 1)?;
-        let x_range = range_of(points.clone().map(|point| point.0));
-        let y_range = range_of(points.map(|point| point.1));
-        let mut key = Vec::new();
-        for (k, curve) in self.runs.iter().enumerate() {
-            key.push((curve.name.as_str(), KeySample::Line(Stroke::nth(k))));
-        }
-        for (k, curve) in self.measured.iter().enumerate() {
-            key.push((curve.name.as_str(), KeySample::Point(Stroke::points(k))));
-        }
-        PictureLayout::new(title, PictureKey::new(key)).picture(|area| {
-            let x_axis = ChartAxis::linear(x_range.clone(), &self.x_description);
-            let y_axis = if self.is_downward {
-                downward_axis(&y_range, &self.y_description)
-            } else {
-                ChartAxis::linear(y_range.clone(), &self.y_description)
-            };
-            let mut chart = chart(area, &x_axis, &y_axis, true)?;
-            for (k, curve) in self.runs.iter().enumerate() {
-                let path = thinned_path(&curve.points, [&x_range, &y_range]);
-                draw_curve(&mut chart, &path, Stroke::nth(k), 2)?;
-            }
-            for (k, curve) in self.measured.iter().enumerate() {
-                draw_points(&mut chart, &curve.points, Stroke::points(k))?;
-            }
-            Ok(())
-        })
+    let mut measured_points = Vec::with_capacity(measured.len());
+    for Curve { name, points } in measured {
+        let points = points.iter().map(|(x, y)| scaled(x, y)).collect();
+        measured_points.push(Curve { name: name.clone(), points });
     }
-}
-
-/// Axis of values that increase downwards; `range`: of the negative values.
-fn downward_axis(range: &Range<f64>, description: &str) -> ChartAxis {
-    let Ticks { marks, offset } = linear_ticks(&(-range.end..-range.start), SETTLEMENT_MARKS);
-    let marks = marks.into_iter().rev().map(|(value, name)| (0.0 - value, name)).collect();
-    let description = match offset {
-        Some(offset) => format!("{description} (plus {offset})"),
-        None => description.to_owned(),
-    };
-    ChartAxis::marked(range.clone(), marks, &description)
-}
-
-/// Draws a marker at each point.
-fn draw_points(chart: &mut Chart<'_, '_>, points: &[(f64, f64)], stroke: Stroke) -> Drawing<()> {
-    let Some(marker) = stroke.marker else { return Ok(()) };
-    let drawable_points =
-        points.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y));
-    let style = stroke.color.filled();
-    // Half as large as on a curve: a measurement has hundreds of points.
-    let corners: Vec<_> = marker.iter().map(|(x, y)| (x / 2, y / 2)).collect();
-    chart.draw_series(
-        drawable_points.map(|point| EmptyElement::at(point) + Polygon::new(corners.clone(), style)),
-    )?;
-    Ok(())
-}
-
-/// Points of a path; a path of many points loses those that are close to the previous point.
-fn thinned_path(points: &[(f64, f64)], ranges: [&Range<f64>; 2]) -> Vec<(f64, f64)> {
-    if points.len() <= MAX_DRAWN_POINTS {
-        return points.to_vec();
-    }
-    let min_distances = ranges.map(|range| POINT_DISTANCE * (range.end - range.start));
-    let mut drawn_points = vec![points[0]];
-    for (k, point) in points.iter().enumerate().skip(1) {
-        let previous = drawn_points[drawn_points.len() - 1];
-        // Comparisons with NaN are false, so that a point with NaN remains and interrupts the curve.
-        let is_close = (point.0 - previous.0).abs() < min_distances[0]
-            && (point.1 - previous.1).abs() < min_distances[1];
-        if !is_close || k + 1 == points.len() {
-            drawn_points.push(*point);
-        }
-    }
-    drawn_points
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_paths_keep_their_shape() {
-        let mut points = Vec::new();
-        for k in 0..200_000 {
-            let angle = 1e-4 * f64::from(k);
-            points.push((angle.cos(), 2.0 * angle.sin()));
-        }
-        points[70_001].1 = f64::NAN;
-        let range = -1.06..1.06;
-        let path = thinned_path(&points, [&range, &(-2.12..2.12)]);
-        assert!(path.len() > 5000 && path.len() < 60_000, "{}", path.len());
-        assert_eq!(path.iter().filter(|point| point.1.is_nan()).count(), 1);
-        assert_eq!((path[0], path[path.len() - 1]), (points[0], points[199_999]));
-        for pair in path.windows(2).filter(|pair| !(pair[0].1 + pair[1].1).is_nan()) {
-            let step = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-            assert!(step < 5e-3, "{pair:?}");
-        }
-        assert_eq!(thinned_path(&points[..100], [&range, &range]), points[..100]);
-    }
-
-    #[test]
-    fn settlement_increases_downwards() {
-        let axis = downward_axis(&(-20.0..1.0), "settlement, mm");
-        let marks = vec![(-20.0, "20"), (-15.0, "15"), (-10.0, "10"), (-5.0, "5"), (0.0, "0")];
-        let marks = marks.into_iter().map(|(value, name)| (value, name.to_owned())).collect();
-        assert_eq!(axis, ChartAxis::marked(-20.0..1.0, marks, "settlement, mm"));
-    }
+    Ok(PathChart {
+        paths,
+        measured: measured_points,
+        x_description: with_unit(Quantity::BaseRotation.name(), rotation_unit.symbol),
+        y_description: with_unit(quantity.name(), value_unit.symbol),
+        is_downward,
+    })
 }

@@ -82,7 +82,7 @@ fn exponent(value: f64) -> i32 {
 }
 
 /// Text of a multiple of `step`, with the digits that distinguish it from its neighbours.
-fn mark_text(value: f64, step: f64) -> String {
+pub(super) fn mark_text(value: f64, step: f64) -> String {
     // This multiple differs from zero by rounding only.
     if value.abs() < 1e-3 * step {
         return "0".to_owned();

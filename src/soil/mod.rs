@@ -4,12 +4,14 @@ mod bearing_capacity;
 mod bearing_factors;
 #[cfg(feature = "serde")]
 mod damping_form;
+mod masing_curves;
 mod maxwell;
 mod nonnegative_least_squares;
 mod profile;
 mod profile_moduli;
 mod published_curves;
 mod relaxation;
+mod strain_backbone;
 mod strain_curves;
 mod strength;
 

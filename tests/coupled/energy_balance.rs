@@ -17,6 +17,7 @@ use basemat::structure::{
 };
 
 use basemat_problems::scenes::{Rider, SI_UNITS, block, friction, scene, shake, soil, tower};
+use basemat_problems::yielding_springs::yielding_column;
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()
@@ -51,6 +52,11 @@ fn on_yielding_building(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     let damper = Bilinear::new(1e7, 2e4, 0.1).unwrap();
     let structure = WithSprings::new(building).spring(drift, damper).unwrap();
     scene(SI_UNITS, 0.6).structure(structure).interface(law)
+}
+
+/// A column of springs that yield, with the remainder of their work in a step.
+fn on_yielding_column() -> SimulationBuilder {
+    scene(SI_UNITS, 0.6).structure(yielding_column(8)).interface(friction(0.4))
 }
 
 fn thin_layer() -> ThinLayer {
@@ -93,18 +99,22 @@ fn other_runs() -> Vec<(&'static str, Run)> {
         ("rate", run(on_block(rate), 400)),
         ("nonlinear", run(on_rider(), 400)),
         ("yielding damper", run(on_yielding_building(friction(0.4)), 400)),
+        ("yielding column", run(on_yielding_column(), 300)),
+        ("yielding column, θ", run(on_yielding_column().scheme(theta), 300)),
+        ("yielding column, Newmark", run(on_yielding_column().scheme(Newmark::default()), 300)),
         ("spring bed", run(on_block(friction(0.4)).ground(springs), 400)),
     ]
 }
 
 /// The terms of an energy balance, its left-hand side first.
-fn terms(energy_balance: &mut EnergyBalance) -> [(&'static str, &mut f64); 10] {
+fn terms(energy_balance: &mut EnergyBalance) -> [(&'static str, &mut f64); 11] {
     [
         ("kinetic", &mut energy_balance.kinetic),
         ("strain", &mut energy_balance.strain),
         ("hysteresis", &mut energy_balance.hysteresis),
         ("damping", &mut energy_balance.damping),
         ("algorithmic", &mut energy_balance.algorithmic),
+        ("midstep_remainder", &mut energy_balance.midstep_remainder),
         ("soil", &mut energy_balance.soil),
         ("contact", &mut energy_balance.contact),
         ("interface", &mut energy_balance.interface),
@@ -115,12 +125,12 @@ fn terms(energy_balance: &mut EnergyBalance) -> [(&'static str, &mut f64); 10] {
 
 #[test]
 fn energy_balance_closes_and_every_term_counts() {
-    let mut tested_terms = [false; 10];
+    let mut tested_terms = [false; 11];
     for (name, run) in dissipative_runs().into_iter().chain(other_runs()) {
         let residual = run.energy_balance.residual();
         println!("{name}: largest {:.1e}, end {residual:.1e}", run.energy_error);
         assert!(run.energy_error < 1e-10, "{name}: {:e}", run.energy_error);
-        for k in 0..10 {
+        for k in 0..11 {
             let mut energy_balance = run.energy_balance;
             let (term, value) = terms(&mut energy_balance).into_iter().nth(k).unwrap();
             let size = value.abs();
@@ -138,7 +148,41 @@ fn energy_balance_closes_and_every_term_counts() {
             }
         }
     }
-    assert_eq!(tested_terms, [true; 10], "a term was never tested");
+    assert_eq!(tested_terms, [true; 11], "a term was never tested");
+}
+
+/// The balance of a yielding column closes with the right remainder only, which falls with the step.
+///
+/// REFERENCE: without the force's formula, the remainder counts as algorithmic, from the difference of the work.
+#[test]
+fn remainder_of_yielding_springs_is_that_of_their_work() {
+    let scene = |time_step: f64| {
+        let ground = SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
+        Simulation::builder(time_step)
+            .ground(ground)
+            .motion(shake(SI_UNITS, 0.6))
+            .interface(Bonded)
+    };
+    let ratio = |time_step: f64, steps: usize| {
+        let run = run(scene(time_step).structure(yielding_column(8)), steps);
+        let energies = run.energy_balance;
+        assert!(run.energy_error < 1e-11, "{time_step}: {:e}", run.energy_error);
+        assert!(energies.algorithmic == 0.0 && energies.midstep_remainder > 0.0, "{energies}");
+        let column = yielding_column(8).without_remainder();
+        let other_run = self::run(scene(time_step).structure(column), steps);
+        let difference = other_run.energy_balance.algorithmic - energies.midstep_remainder;
+        assert_eq!(other_run.energy_balance.midstep_remainder, 0.0);
+        assert!(difference.abs() < 1e-9 * energies.largest, "{difference:e}");
+        let mut column = yielding_column(8);
+        column.remainder_factor = 1.01;
+        let wrong_run = self::run(scene(time_step).structure(column), steps);
+        let error = wrong_run.energy_balance.residual() * energies.largest;
+        assert!((error / (0.01 * energies.midstep_remainder) - 1.0).abs() < 1e-3, "{error:e}");
+        energies.midstep_remainder / energies.hysteresis
+    };
+    let ratios = [ratio(4e-3, 300), ratio(2e-3, 600), ratio(1e-3, 1200)];
+    println!("remainder over hysteresis: {ratios:?}");
+    assert!(ratios[0] < 0.1 && ratios[1] < 0.4 * ratios[0] && ratios[2] < 0.4 * ratios[1]);
 }
 
 /// Stiff structures that move far open the energy balance only by rounding of the displacement.

@@ -2,3 +2,4 @@
 
 mod properties;
 mod random_scenes;
+mod yielding_solids;

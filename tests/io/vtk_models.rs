@@ -5,14 +5,14 @@ use std::path::Path;
 
 use basemat::bem::SpringGround;
 use basemat::fem::{
-    BeamSection, Direction, Element, ElementFace, Hex8, LumpedMass, MassKind, Material, Mesh,
-    Shell, SpaceBeam,
+    BeamSection, Direction, Element, ElementFace, Hex8, Iwan, LumpedMass, MassKind, Material, Mesh,
+    SharedMaterial, Shell, SpaceBeam,
 };
 use basemat::interface::Bonded;
 use basemat::io::paraview;
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::{DeformedShape, Recorder};
-use basemat::structure::FemModel;
+use basemat::structure::{FemModel, Structure};
 use basemat::{Error, Simulation};
 
 use super::vtk::arrays;
@@ -74,6 +74,47 @@ fn model() -> FemModel {
     let foot = SpaceBeam::new([6, tip], concrete, section, [1.0, 0.0, 0.0]).unwrap();
     mesh.add(foot).unwrap();
     FemModel::on_base(mesh).unwrap().with_rigid_link(head, &[arm]).unwrap()
+}
+
+/// Two blocks of clay beside a mat of concrete, sheared by 1 % and compressed.
+#[test]
+fn state_of_soil_that_yields_is_cell_data() {
+    let clay = SharedMaterial::from(Iwan::hyperbolic(20.0e6, 40.0e3, 0.4, 0.49, 1900.0).unwrap());
+    let concrete = SharedMaterial::from(Material::new(30.0e9, 0.2, 2400.0).unwrap());
+    let mesh = Mesh::quad8_block(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0], |column, _| {
+        if column == 1 { concrete.clone() } else { clay.clone() }
+    });
+    let mut model = FemModel::on_base(mesh.unwrap()).unwrap();
+    let mut dofs = vec![0.0; model.dofs()];
+    for (node, &[_, y, _]) in model.mesh().nodes().iter().enumerate() {
+        dofs[model.dof(node, Direction::X).unwrap()] = 0.01 * y;
+        dofs[model.dof(node, Direction::Y).unwrap()] = -1e-4 * y;
+    }
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk_yielding.vtu");
+    model.nonlinear_mut().unwrap().commit(&dofs);
+    paraview::write_solid_state(&path, &model, &dofs).unwrap();
+    let arrays = arrays(&std::fs::read_to_string(&path).unwrap());
+    assert_eq!(arrays["types"].len(), 2);
+    // All points have the same strain. The bulk modulus is 2 G (1 + ν)/(3 (1 − 2ν)).
+    let bulk_modulus = 2.0 * 20.0e6 * 1.49 / (3.0 * 0.02);
+    for mean_stress in &arrays["mean_stress"] {
+        assert!((mean_stress / (-1e-4 * bulk_modulus) - 1.0).abs() < 1e-9, "{mean_stress}");
+    }
+    let state = model.solid_points(2).unwrap()[1].state;
+    for cell in 0..2 {
+        assert!((arrays["plastic_strain"][cell] / state.plastic_strain - 1.0).abs() < 1e-12);
+        assert!(
+            (arrays["mobilised_strength"][cell] / state.mobilised_strength - 1.0).abs() < 1e-12
+        );
+    }
+    assert!((5e-3..1e-2).contains(&state.plastic_strain), "{state:?}");
+    assert!((0.5..1.0).contains(&state.mobilised_strength), "{state:?}");
+    assert_eq!(arrays["displacement"].len(), 3 * model.mesh().nodes().len());
+    let linear = FemModel::on_base(
+        Mesh::quad8_block(&[0.0, 1.0], &[0.0, 1.0], |_, _| concrete.clone()).unwrap(),
+    );
+    let error = paraview::write_solid_state(&path, &linear.unwrap(), &dofs).unwrap_err();
+    assert!(matches!(error, Error::Scene { .. }), "{error}");
 }
 
 /// Volume of a brick of VTK: positive if its second side lies where the first one faces, counter-clockwise.

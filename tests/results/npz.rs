@@ -132,6 +132,7 @@ fn arrays_are_what_was_kept() {
     archive.assert_holds_energy("hysteresis_energy_j_per_m", |l| l.hysteresis);
     archive.assert_holds_energy("damping_energy_j_per_m", |l| l.damping);
     archive.assert_holds_energy("algorithmic_energy_j_per_m", |l| l.algorithmic);
+    archive.assert_holds_energy("midstep_remainder_energy_j_per_m", |l| l.midstep_remainder);
     archive.assert_holds_energy("soil_energy_j_per_m", |l| l.soil);
     archive.assert_holds_energy("contact_energy_j_per_m", |l| l.contact);
     archive.assert_holds_energy("interface_energy_j_per_m", |l| l.interface);

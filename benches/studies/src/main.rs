@@ -35,6 +35,7 @@ mod rocking_footing;
 mod settling_cost;
 mod stability;
 mod validation;
+mod yielding;
 
 use std::process::ExitCode;
 
@@ -69,6 +70,7 @@ enum Study {
     Embedded(embedded::EmbeddedOptions),
     RockingFooting(rocking_footing::RockingFootingOptions),
     SettlingCost(settling_cost::SettlingCostOptions),
+    Yielding(yielding::YieldingOptions),
 }
 
 fn main() -> ExitCode {
@@ -99,6 +101,7 @@ fn main() -> ExitCode {
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
         Study::SettlingCost(options) => settling_cost::run(&options),
+        Study::Yielding(options) => yielding::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -60,14 +60,17 @@ impl Elimination {
             .0
             .get()
             .filter(|order| MIN_CONDENSATION_RATIO * last_rows.len().pow(2) <= order.entry_count)?;
-        let mut is_last = vec![false; order.rows.len()];
-        for row in last_rows {
-            is_last[*row] = true;
-        }
-        let first_rows = order.rows.iter().filter(|row| !is_last[**row]);
-        let rows = first_rows.chain(last_rows).copied().collect();
-        let new_order = EliminationOrder::new(rows, order.entry_count);
-        Some(Self(Arc::new(OnceLock::from(new_order))))
+        Some(order.ending_with(last_rows))
+    }
+
+    /// The order for a pattern with `last_rows` moved to the end, whatever its number of entries.
+    pub(super) fn of_pattern_ending_with(
+        &self,
+        pattern: Pattern<'_>,
+        last_rows: &[usize],
+    ) -> Option<Self> {
+        let order = EliminationOrder::of_factor(&self.analyse(pattern)?)?;
+        Some(order.ending_with(last_rows))
     }
 
     /// Symbolic factor in the shared order, or in the order of minimum degree before an order is chosen.
@@ -110,6 +113,17 @@ impl EliminationOrder {
             positions: permutation.1.to_vec(),
             entry_count: factor.len_val(),
         })
+    }
+
+    /// This order with `last_rows` moved to the end.
+    fn ending_with(&self, last_rows: &[usize]) -> Elimination {
+        let mut is_last = vec![false; self.rows.len()];
+        for row in last_rows {
+            is_last[*row] = true;
+        }
+        let first_rows = self.rows.iter().filter(|row| !is_last[**row]);
+        let rows = first_rows.chain(last_rows).copied().collect();
+        Elimination(Arc::new(OnceLock::from(Self::new(rows, self.entry_count))))
     }
 
     /// Order of nested dissection.
@@ -178,21 +192,35 @@ fn minimum_degree_order(graph: &Adjacency) -> Option<Vec<usize>> {
 /// The matrix, compressed by columns.
 pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
     let order = matrix.order();
-    let mut column_starts = vec![0; order + 1];
-    matrix.entries().for_each(|(_, column, _)| column_starts[column + 1] += 1);
-    (0..order).for_each(|column| column_starts[column + 1] += column_starts[column]);
-    // Index of the next entry of each column.
-    let mut next_index = column_starts.clone();
     let mut rows = vec![0; matrix.entry_count()];
     let mut values = vec![0.0; matrix.entry_count()];
-    for (row, column, value) in matrix.entries() {
-        let index = next_index[column];
+    for ((row, _, value), index) in matrix.entries().zip(column_indices(matrix)) {
         rows[index] = row;
         values[index] = value;
-        next_index[column] += 1;
     }
-    let pattern = SymbolicSparseColMat::new_checked(order, order, column_starts, None, rows);
+    let starts = column_starts(matrix);
+    let pattern = SymbolicSparseColMat::new_checked(order, order, starts, None, rows);
     SparseColMat::new(pattern, values)
+}
+
+/// Index by columns of each entry by rows.
+pub(super) fn column_indices(matrix: &SparseMatrix) -> Vec<usize> {
+    // Index of the next entry of each column.
+    let mut next_index = column_starts(matrix);
+    let next = |(_, column, _): (usize, usize, f64)| {
+        let index = next_index[column];
+        next_index[column] += 1;
+        index
+    };
+    matrix.entries().map(next).collect()
+}
+
+/// Index by columns of the first entry of each column, then the number of entries.
+fn column_starts(matrix: &SparseMatrix) -> Vec<usize> {
+    let mut starts = vec![0; matrix.order() + 1];
+    matrix.entries().for_each(|(_, column, _)| starts[column + 1] += 1);
+    (0..matrix.order()).for_each(|column| starts[column + 1] += starts[column]);
+    starts
 }
 
 #[cfg(test)]

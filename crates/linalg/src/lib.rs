@@ -35,6 +35,7 @@ mod matrix_market;
 #[cfg(feature = "io")]
 mod matrix_market_reader;
 mod matrix_scalar;
+mod matrix_values;
 mod number;
 pub mod orthonormal;
 mod partition;
@@ -63,7 +64,7 @@ pub use product::{
     dense_multiply_add, dot, largest, magnitude, mixing_sum, row_products, symmetric_products,
     transposed_multiply_add, vectorized, weighted_dot,
 };
-pub use sparse::{SparseFactor, indefinite_row};
+pub use sparse::{ChangingFactor, SparseFactor, indefinite_row};
 pub use thinned::CompressedMatrix;
 pub use triplets::Triplets;
 

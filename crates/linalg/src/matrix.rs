@@ -134,39 +134,6 @@ impl SparseMatrix {
         self.columns[range.clone()].iter().copied().zip(self.values[range].iter().copied())
     }
 
-    /// The values in the pattern of another matrix; `None` if an entry is outside this pattern.
-    pub fn values_at(&self, pattern: &Self) -> Option<Vec<f64>> {
-        let mut values = vec![0.0; pattern.entry_count()];
-        for row in 0..self.order {
-            let mut index = *pattern.row_starts.get(row)?;
-            let end = *pattern.row_starts.get(row + 1)?;
-            for (column, value) in self.row(row) {
-                index += pattern.columns[index..end].iter().take_while(|j| **j < column).count();
-                if index == end || pattern.columns[index] != column {
-                    return None;
-                }
-                values[index] = value;
-            }
-        }
-        Some(values)
-    }
-
-    /// Replaces the values by the sums of `triplets`, without allocating.
-    ///
-    /// Returns false, with undefined values, if an entry is outside the pattern or not finite.
-    pub fn refill(&mut self, triplets: &Triplets) -> bool {
-        self.values.fill(0.0);
-        triplets.entries().iter().all(|&(row, column, value)| {
-            let start = self.row_starts.get(row).copied().unwrap_or(0);
-            let end = self.row_starts.get(row + 1).copied().unwrap_or(0);
-            let Ok(k) = self.columns[start..end.max(start)].binary_search(&column) else {
-                return false;
-            };
-            self.values[start + k] += value;
-            value.is_finite()
-        })
-    }
-
     /// Number of stored entries.
     #[inline]
     pub fn entry_count(&self) -> usize {
@@ -316,22 +283,6 @@ impl Matrix {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn refill_sums_entries_or_rejects_them() {
-        let mut triplets = Triplets::new(2);
-        triplets.add(0, 1, 1.0);
-        triplets.add(0, 1, 2.0);
-        let mut matrix = SparseMatrix::new("test", &triplets).unwrap();
-        triplets.add(0, 1, 0.5);
-        assert!(matrix.refill(&triplets));
-        assert_eq!(matrix.entries().collect::<Vec<_>>(), [(0, 1, 3.5)]);
-        for (row, column, value) in [(1, 1, 1.0), (5, 1, 1.0), (0, 1, f64::NAN)] {
-            let mut invalid_triplets = triplets.clone();
-            invalid_triplets.add(row, column, value);
-            assert!(!matrix.refill(&invalid_triplets));
-        }
-    }
 
     #[test]
     fn diagonal_and_sparse_agree() {

@@ -10,6 +10,10 @@ use faer::sparse::linalg::lu::{
 };
 use faer::{Conj, MatMut, MatRef, Par, Side, Spec};
 
+mod changing;
+
+pub use changing::ChangingFactor;
+
 use crate::elimination::{Elimination, by_columns};
 use crate::error::{Error, Result};
 use crate::product::symmetric_product;
@@ -18,8 +22,6 @@ use crate::{SparseMatrix, Triplets};
 /// Largest number of values in the right-hand sides of one solve: a solve needs as much workspace.
 const MAX_SOLVE_BLOCK_VALUES: usize = 1 << 22;
 
-/// Largest relative asymmetry of a matrix that is factored as a symmetric one: a rounding error.
-const MAX_ASYMMETRY: f64 = 1e-13;
 /// Smallest number of right-hand sides in one solve, if there are more.
 const MIN_SOLVE_BLOCK_COLUMNS: usize = 8;
 
@@ -64,9 +66,8 @@ impl SparseFactor {
         elimination: &Elimination,
     ) -> Result<Self> {
         let columns = by_columns(matrix);
-        let is_symmetric = matrix.asymmetry() <= MAX_ASYMMETRY;
         let cholesky_factor =
-            if is_symmetric { Self::cholesky(&columns, elimination).ok() } else { None };
+            if matrix.is_symmetric() { Self::cholesky(&columns, elimination).ok() } else { None };
         cholesky_factor
             .or_else(|| Self::lu(&columns))
             .and_then(Self::checked_by_solve)
@@ -166,13 +167,23 @@ impl SparseFactor {
 
     /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub fn solve_many(&self, rhs: &mut [f64]) {
+        let mut buffer = MemBuffer::new(self.factors.scratch(self.block_columns(rhs.len())));
+        self.solve_blocks(rhs, &mut buffer);
+    }
+
+    /// Number of right-hand sides in one solve, of this many values in all.
+    fn block_columns(&self, value_count: usize) -> usize {
         let order = self.order.max(1);
         let max_columns = (MAX_SOLVE_BLOCK_VALUES / order).max(MIN_SOLVE_BLOCK_COLUMNS);
-        let block_columns = (rhs.len() / order).min(max_columns);
-        let mut buffer = MemBuffer::new(self.factors.scratch(block_columns));
-        for block in rhs.chunks_mut(block_columns.max(1) * order) {
+        (value_count / order).min(max_columns)
+    }
+
+    /// Overwrites many right-hand sides with A⁻¹ rhs, in a workspace for [`Self::block_columns`] of them.
+    fn solve_blocks(&self, rhs: &mut [f64], buffer: &mut MemBuffer) {
+        let order = self.order.max(1);
+        for block in rhs.chunks_mut(self.block_columns(rhs.len()).max(1) * order) {
             let column_count = block.len() / order;
-            Self::solve_with(&self.factors, self.order, column_count, false, block, &mut buffer);
+            Self::solve_with(&self.factors, self.order, column_count, false, block, buffer);
         }
     }
 

@@ -2,6 +2,9 @@
 
 use super::matrix::SparseMatrix;
 
+/// Largest relative asymmetry of a matrix that is factored as a symmetric one: a rounding error.
+pub(super) const MAX_ASYMMETRY: f64 = 1e-13;
+
 /// Stored entry a_ij with its mirrored entry a_ji.
 struct MirroredEntry {
     row: usize,
@@ -11,15 +14,14 @@ struct MirroredEntry {
 }
 
 impl SparseMatrix {
+    /// Whether the matrix is symmetric up to rounding, so that it may be factored as a symmetric one.
+    pub fn is_symmetric(&self) -> bool {
+        self.asymmetry() <= MAX_ASYMMETRY
+    }
+
     /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
     pub fn asymmetry(&self) -> f64 {
-        let mut max_value = 0.0_f64;
-        let mut max_difference = 0.0_f64;
-        for entry in self.mirrored_entries() {
-            max_value = max_value.max(entry.value.abs());
-            max_difference = max_difference.max((entry.value - entry.mirrored_value).abs());
-        }
-        if max_value > 0.0 { max_difference / max_value } else { 0.0 }
+        relative_asymmetry(self.mirrored_entries().map(|entry| (entry.value, entry.mirrored_value)))
     }
 
     /// The pair of mirrored entries with the largest excess of their difference; `None` without an excess.
@@ -44,18 +46,36 @@ impl SparseMatrix {
 
     /// All stored entries with their mirrored entries.
     fn mirrored_entries(&self) -> impl Iterator<Item = MirroredEntry> {
+        self.entries().zip(self.mirrored_indices()).map(|((row, column, value), index)| {
+            let mirrored_value = self.values.get(index).copied().unwrap_or(0.0);
+            MirroredEntry { row, column, value, mirrored_value }
+        })
+    }
+
+    /// Index of the mirrored entry of each stored entry; the largest number if it is not stored.
+    pub(super) fn mirrored_indices(&self) -> impl Iterator<Item = usize> {
         // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search there.
         let mut search_starts = self.row_starts.clone();
-        self.entries().map(move |(row, column, value)| {
+        self.entries().map(move |(row, column, _)| {
             let end = self.row_starts[column + 1];
             let start = search_starts[column];
             let index = start + self.columns[start..end].iter().take_while(|j| **j < row).count();
             search_starts[column] = index;
             let is_stored = index < end && self.columns[index] == row;
-            let mirrored_value = if is_stored { self.values[index] } else { 0.0 };
-            MirroredEntry { row, column, value, mirrored_value }
+            if is_stored { index } else { usize::MAX }
         })
     }
+}
+
+/// Largest difference of mirrored entries relative to the largest entry, from the pairs of all stored entries.
+pub(super) fn relative_asymmetry(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut max_value = 0.0_f64;
+    let mut max_difference = 0.0_f64;
+    for (value, mirrored_value) in pairs {
+        max_value = max_value.max(value.abs());
+        max_difference = max_difference.max((value - mirrored_value).abs());
+    }
+    if max_value > 0.0 { max_difference / max_value } else { 0.0 }
 }
 
 #[cfg(test)]

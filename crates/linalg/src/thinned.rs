@@ -65,12 +65,20 @@ impl CompressedMatrix {
 
     /// All entries of this matrix of `order`, row by row.
     pub fn filled(&self, order: usize) -> Vec<f64> {
-        let Some(diagonal) = self.as_diagonal() else { return self.values.clone() };
         let mut entries = vec![0.0; order * order];
+        self.fill(order, &mut entries);
+        entries
+    }
+
+    /// Overwrites `entries` with all entries, row by row, of this matrix of `order`.
+    pub fn fill(&self, order: usize, entries: &mut [f64]) {
+        let Some(diagonal) = self.as_diagonal() else {
+            return entries.copy_from_slice(&self.values);
+        };
+        entries.fill(0.0);
         for (entry, value) in entries.iter_mut().step_by(order + 1).zip(diagonal) {
             *entry = *value;
         }
-        entries
     }
 
     /// Matrix of three components of elements on a lattice, component by component.

@@ -1377,7 +1377,8 @@ class Sensitivity:
 @final
 class EnergyBalance:
     """Energies since the start, J, in the plane J per metre of thickness:
-    ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
+    ``kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+    + static_contact = input``.
     """
 
     @property
@@ -1395,6 +1396,9 @@ class EnergyBalance:
     @property
     def algorithmic(self) -> float:
         """Energy that the time scheme removes, J; negative if it adds energy."""
+    @property
+    def midstep_remainder(self) -> float:
+        """Work of yielding parts inside the steps that is neither stored nor dissipated, J."""
     @property
     def soil(self) -> float:
         """Work done on the soil, which radiates and stores it, J."""
@@ -3807,6 +3811,26 @@ class Mesh:
             elements: numbers of the shells, which lie more or less flat.
             values: array of shape (elements,), in the unit of the quantity.
             quantity: name of the values with their unit for the key, such as "m_x, kN·m/m"; empty by default.
+            axes: axes of matplotlib to draw into; unless given, axes of a new figure.
+            title: text above the picture; none unless given.
+        """
+    def plot_solids(
+        self,
+        elements: Sequence[int],
+        values: ArrayLike,
+        *,
+        quantity: str = "",
+        axes: Axes | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws one value for each solid of a mesh in the plane, such as a plastic strain; returns the axes.
+
+        Colours are in classes on both sides of zero. Solids without a value are drawn as their outlines, bars as lines.
+
+        Args:
+            elements: numbers of the quadrilaterals with a value, each once.
+            values: array of shape (elements,), in the unit of the quantity.
+            quantity: name of the values with their unit for the key, such as "plastic shear strain, %"; empty by default.
             axes: axes of matplotlib to draw into; unless given, axes of a new figure.
             title: text above the picture; none unless given.
         """

@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use crate::array::OrderedDict;
 
 /// Energies since the start, J, in the plane J per metre of thickness:
-/// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
+/// ``kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+/// + static_contact = input``.
 #[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
@@ -41,6 +42,12 @@ impl PyEnergyBalance {
     #[getter]
     fn algorithmic(&self) -> f64 {
         self.0.algorithmic
+    }
+
+    /// Work of yielding parts inside the steps that is neither stored nor dissipated, J.
+    #[getter]
+    fn midstep_remainder(&self) -> f64 {
+        self.0.midstep_remainder
     }
 
     /// Work done on the soil, which radiates and stores it, J.

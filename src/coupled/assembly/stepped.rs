@@ -16,6 +16,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
+use crate::interface::LawForm;
 use crate::linalg::SparseMatrix;
 use crate::structure::{Structure, Tangent};
 
@@ -66,6 +67,7 @@ impl SteppedStructure {
     ) -> Result<Self> {
         let Parts { builder, coefficients, .. } = parts;
         let structure = parts.structure.as_ref();
+        check_tangent(structure, assembled)?;
         let tangent = Tangent::at(structure, &static_state.displacement)?.matrix;
         let steps = if builder.expected_steps > 0 {
             builder.expected_steps
@@ -115,6 +117,16 @@ impl SteppedStructure {
         let operators = Operators::new(&model, &base, &parts.step_compliance, factor, tangent)?;
         Ok(Self { model, base, operators })
     }
+}
+
+/// Returns an error for an unsymmetric tangent in plan, where contact needs a symmetric compliance.
+fn check_tangent(structure: &dyn Structure, assembled: &Assembled) -> Result<()> {
+    let is_symmetric = structure.nonlinear().is_none_or(|force| force.has_symmetric_tangent());
+    if is_symmetric || LawForm::of(assembled.base.layout()) == LawForm::Modes {
+        return Ok(());
+    }
+    let quantity = "tangent of the structure";
+    Err(Error::Scene { quantity, needed: "symmetric on a base in plan" })
 }
 
 /// Ritz modes of a tolerance, or all modes of a small structure whose Ritz modes do not reach it.

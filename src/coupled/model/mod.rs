@@ -1,7 +1,9 @@
 //! A structure in its stepping coordinates.
 
 pub(crate) mod assembled;
+mod base_responses;
 pub(crate) mod condensed;
+pub(crate) mod effective_stiffness;
 pub(crate) mod kinematics;
 pub(crate) mod load;
 pub(crate) mod mechanism;

@@ -1,7 +1,11 @@
 //! Precomputed operators of a step, valid while the structure's tangent does not change.
 
-use super::Model;
 use std::sync::Arc;
+
+use super::Model;
+use super::effective_stiffness::{
+    ChangingStiffness, EFFECTIVE_STIFFNESS_NAME, effective_stiffness,
+};
 
 use crate::contact::{Delassus, MAX_STRUCTURE_RANK, OnBed, StructurePart};
 use crate::coupled::base::PlacedBase;
@@ -16,21 +20,23 @@ pub(crate) struct Operators {
     /// Tangent ∂f/∂u of the nonlinear force.
     pub(crate) tangent: SparseMatrix,
     factorization: StiffnessFactorization,
-    /// K_eff⁻¹BᵀA, stored column by column.
+    /// K_eff⁻¹BᵀA, stored column by column; not used after a change of the tangent of a large structure.
     pub(crate) traction_responses: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
+    /// Tractions and mean displacements of the elements, for new responses; empty before the first change of the tangent.
+    unit_traction: Vec<f64>,
+    means: Vec<f64>,
 }
 
 /// Factorization of K_eff, or its inverse if diagonal.
 pub(crate) enum StiffnessFactorization {
     Sparse(Box<SparseFactor>),
+    /// After the first change of the tangent.
+    Changing(Box<ChangingStiffness>),
     /// Inverse of the diagonal K_eff, in modal coordinates.
     Diagonal(Vec<f64>),
 }
-
-/// Name of K_eff in errors.
-pub(crate) const EFFECTIVE_STIFFNESS_NAME: &str = "effective stiffness matrix";
 
 impl Operators {
     /// Computes W from the factored K_eff with this tangent.
@@ -43,6 +49,7 @@ impl Operators {
         factorization: StiffnessFactorization,
         tangent: SparseMatrix,
     ) -> Result<Self> {
+        let mut factorization = factorization;
         let (traction_responses, delassus) = condense(
             |rhs| factorization.solve_many(rhs),
             base,
@@ -56,14 +63,68 @@ impl Operators {
                 base.means(u, out);
             },
         );
-        Ok(Self { tangent, factorization, traction_responses, delassus })
+        let [unit_traction, means] = [Vec::new(), Vec::new()];
+        Ok(Self { tangent, factorization, traction_responses, delassus, unit_traction, means })
+    }
+
+    /// Computes the operators for another tangent.
+    ///
+    /// After the first change nothing is allocated while the pattern of the tangent stays, except for a base of many
+    /// elements on a bed of springs.
+    pub(crate) fn change_tangent(
+        &mut self,
+        model: &Model,
+        base: &PlacedBase,
+        step_compliance: &Arc<CompressedMatrix>,
+        coefficients: &SchemeCoefficients,
+        tangent: &SparseMatrix,
+    ) -> Result<()> {
+        let has_same_pattern = self.tangent.has_pattern_of(tangent);
+        match &mut self.factorization {
+            StiffnessFactorization::Changing(stiffness) if has_same_pattern => {
+                if let Err(error) = stiffness.refactor(tangent) {
+                    // The factor belongs to no tangent now, so the next change computes all anew.
+                    self.tangent = SparseMatrix::default();
+                    return Err(error);
+                }
+            }
+            factorization => {
+                let stiffness = ChangingStiffness::new(model, base, coefficients, tangent)?;
+                *factorization = StiffnessFactorization::Changing(Box::new(stiffness));
+            }
+        }
+        self.tangent.copy_from(tangent);
+        let factorization = &mut self.factorization;
+        if self.delassus.on_bed().is_some() {
+            let solve = |rhs: &mut [f64]| factorization.solve_many(rhs);
+            (self.traction_responses, self.delassus) =
+                condense(solve, base, step_compliance, model.coordinate_count)?;
+            return Ok(());
+        }
+        if let StiffnessFactorization::Changing(stiffness) = factorization
+            && let Some(responses) = &mut stiffness.base_responses
+        {
+            let factor = &mut stiffness.factor;
+            self.delassus.refill(step_compliance, &[], |values| responses.add_to(factor, values));
+            return Ok(());
+        }
+        let Self { traction_responses, delassus, unit_traction, means, .. } = self;
+        let order = base.layout().len();
+        unit_traction.resize(order, 0.0);
+        means.resize(order, 0.0);
+        set_unit_forces(base, unit_traction, model.coordinate_count, traction_responses);
+        factorization.solve_many(traction_responses);
+        delassus.refill(step_compliance, traction_responses, |values| {
+            add_means(base, traction_responses, model.coordinate_count, means, values);
+        });
+        Ok(())
     }
 
     /// Inverse of the diagonal K_eff in modal coordinates; empty if K_eff is factored.
     pub(crate) fn inverse_diagonal(&self) -> &[f64] {
         match &self.factorization {
             StiffnessFactorization::Diagonal(values) => values,
-            StiffnessFactorization::Sparse(_) => &[],
+            StiffnessFactorization::Sparse(_) | StiffnessFactorization::Changing(_) => &[],
         }
     }
 
@@ -71,9 +132,32 @@ impl Operators {
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
         match &mut self.factorization {
             StiffnessFactorization::Sparse(factor) => factor.solve(rhs),
+            StiffnessFactorization::Changing(stiffness) => stiffness.factor.solve(rhs),
             StiffnessFactorization::Diagonal(inverse_diagonal) => {
                 rhs.iter_mut().zip(inverse_diagonal).for_each(|(x, inverse)| *x *= *inverse);
             }
+        }
+    }
+
+    /// Adds the response −K_eff⁻¹BᵀAτ to tractions; `scratch` has an entry for each coordinate.
+    pub(crate) fn add_response(
+        &mut self,
+        base: &PlacedBase,
+        traction: &[f64],
+        scratch: &mut [f64],
+        displacement: &mut [f64],
+    ) {
+        let has_base_responses = matches!(
+            &self.factorization,
+            StiffnessFactorization::Changing(stiffness) if stiffness.base_responses.is_some()
+        );
+        if has_base_responses && self.delassus.on_bed().is_none() {
+            scratch.fill(0.0);
+            base.add_forces(-1.0, traction, scratch);
+            self.solve(scratch);
+            displacement.iter_mut().zip(&*scratch).for_each(|(u, response)| *u += response);
+        } else {
+            transposed_multiply_add(&self.traction_responses, -1.0, traction, displacement);
         }
     }
 
@@ -83,13 +167,13 @@ impl Operators {
         model: &Model,
         coefficients: &SchemeCoefficients,
     ) -> Result<f64> {
-        match &self.factorization {
-            StiffnessFactorization::Diagonal(_) => Ok(1.0),
-            StiffnessFactorization::Sparse(factor) => {
-                let matrix = effective_stiffness(model, coefficients, &self.tangent)?;
-                Ok(sparse_condition(&matrix, factor))
-            }
-        }
+        let factor = match &self.factorization {
+            StiffnessFactorization::Diagonal(_) => return Ok(1.0),
+            StiffnessFactorization::Sparse(factor) => Some(&**factor),
+            StiffnessFactorization::Changing(stiffness) => stiffness.factor.factor(),
+        };
+        let matrix = effective_stiffness(model, coefficients, &self.tangent)?;
+        Ok(factor.map_or(f64::INFINITY, |factor| sparse_condition(&matrix, factor)))
     }
 
     /// Diagonal of K_eff without the inertia term.
@@ -103,26 +187,6 @@ impl Operators {
         let matrix = effective_stiffness(model, &coefficients_without_inertia, &self.tangent);
         matrix.map_or_else(|_| Vec::new(), |matrix| matrix.diagonal())
     }
-}
-
-/// The effective stiffness matrix K_eff.
-///
-/// It is the sum of M, C and K + ∂f/∂u, each times the scheme's coefficient of Δu.
-fn effective_stiffness(
-    model: &Model,
-    coefficients: &SchemeCoefficients,
-    tangent: &SparseMatrix,
-) -> Result<SparseMatrix> {
-    let mass = model.mass.as_sparse();
-    let damping = model.damping.as_sparse();
-    let stiffness = model.stiffness.as_sparse();
-    let terms = [
-        (coefficients.acceleration[0], &*mass),
-        (coefficients.velocity[0], &*damping),
-        (coefficients.displacement[0], &*stiffness),
-        (coefficients.displacement[0], tangent),
-    ];
-    SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinate_count, &terms)
 }
 
 impl StiffnessFactorization {
@@ -157,12 +221,14 @@ impl StiffnessFactorization {
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
-    fn solve_many(&self, rhs: &mut [f64]) {
+    fn solve_many(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
+            Self::Changing(stiffness) => stiffness.factor.solve_many(rhs),
             Self::Diagonal(inverse_diagonal) => {
                 for column in rhs.chunks_exact_mut(inverse_diagonal.len()) {
-                    column.iter_mut().zip(inverse_diagonal).for_each(|(x, inverse)| *x *= *inverse);
+                    let entries = column.iter_mut().zip(&*inverse_diagonal);
+                    entries.for_each(|(x, inverse)| *x *= *inverse);
                 }
             }
         }
@@ -182,13 +248,7 @@ pub(crate) fn condense(
 ) -> Result<(Vec<f64>, Delassus)> {
     let order = base.layout().len();
     let mut traction_responses = vec![0.0; order * dofs];
-    let mut unit_traction = vec![0.0; order];
-    let mut means = vec![0.0; order];
-    for (i, force) in traction_responses.chunks_exact_mut(dofs.max(1)).enumerate() {
-        unit_traction[i] = 1.0;
-        base.add_forces(1.0, &unit_traction, force);
-        unit_traction[i] = 0.0;
-    }
+    set_unit_forces(base, &mut vec![0.0; order], dofs, &mut traction_responses);
     solve(&mut traction_responses);
     if let Some(diagonal) = ground_compliance.as_diagonal() {
         if let Some(operator) = operator_on_bed(&traction_responses, base, diagonal, dofs) {
@@ -197,13 +257,37 @@ pub(crate) fn condense(
         check_count(base.elements().len(), base.layout().components())?;
     }
     let mut delassus = ground_compliance.filled(order);
+    add_means(base, &traction_responses, dofs, &mut vec![0.0; order], &mut delassus);
+    Ok((traction_responses, delassus.into()))
+}
+
+/// Overwrites `forces` with the forces BᵀA of unit tractions, column by column.
+///
+/// `unit_traction` is a buffer of zeros.
+fn set_unit_forces(base: &PlacedBase, unit_traction: &mut [f64], dofs: usize, forces: &mut [f64]) {
+    forces.fill(0.0);
+    for (i, force) in forces.chunks_exact_mut(dofs.max(1)).enumerate() {
+        unit_traction[i] = 1.0;
+        base.add_forces(1.0, unit_traction, force);
+        unit_traction[i] = 0.0;
+    }
+}
+
+/// Adds the mean displacements of the responses to tractions to the row-major operator.
+fn add_means(
+    base: &PlacedBase,
+    traction_responses: &[f64],
+    dofs: usize,
+    means: &mut [f64],
+    operator: &mut [f64],
+) {
+    let order = means.len();
     for (i, response) in traction_responses.chunks_exact(dofs.max(1)).enumerate() {
-        base.means(response, &mut means);
+        base.means(response, means);
         for (row, mean) in means.iter().enumerate() {
-            delassus[row * order + i] += mean;
+            operator[row * order + i] += mean;
         }
     }
-    Ok((traction_responses, delassus.into()))
 }
 
 /// Delassus operator of a structure on a bed.

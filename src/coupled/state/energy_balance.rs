@@ -20,7 +20,7 @@ enum Side {
 
 /// Declares the terms as an enum, and the energy balance with a field for each, from rows in the order of columns.
 macro_rules! energies {
-    ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
+    ($($(#[$doc:meta])* $variant:ident $field:ident $(($default:ident))?, $side:ident, $name:literal;)+) => {
         /// A term of the [`EnergyBalance`].
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[non_exhaustive]
@@ -39,13 +39,17 @@ macro_rules! energies {
         /// Energies since the start, J, in the plane J per metre of thickness.
         ///
         /// ```text
-        /// kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
+        /// kinetic + strain + hysteresis + damping + algorithmic + midstep_remainder + soil + contact + interface
+        ///     + static_contact = input
         /// ```
         ///
-        /// holds exactly for the discrete equations. Every term is computed from its own definition and none as a
-        /// remainder, so that [`EnergyBalance::residual`] checks the whole step. It does not check the stored and
-        /// dissipated energies that a nonlinear structure returns. The difference between the work of its force and
-        /// these energies is in `algorithmic`, and decreases with the square of the time step.
+        /// holds exactly for the discrete equations. Every term is computed from its own definition and none as the
+        /// difference of the others, so that [`EnergyBalance::residual`] checks the whole step.
+        ///
+        /// For a nonlinear force with a [`remainder`](crate::structure::NonlinearForce::remainder), the residual also
+        /// checks the stored and dissipated energies that the force returns: the balance closes only if force, energies
+        /// and remainder agree. Without a remainder, the difference between the force's work and its energies counts as
+        /// `algorithmic`, and the residual does not check these energies.
         #[derive(Debug, Clone, Copy, Default)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -54,6 +58,7 @@ macro_rules! energies {
             $(
                 $(#[$doc])*
                 #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+                $(#[cfg_attr(feature = "serde", serde($default))])?
                 pub $field: f64,
             )+
         }
@@ -91,10 +96,19 @@ energies! {
     /// Loss by the time scheme, in the structure and in compliant interfaces.
     ///
     /// In the structure it is zero for the midpoint rule. In compliant interfaces the traction at the end of the step acts
-    /// throughout the step. With a nonlinear force that returns its energies, the term includes the difference between the
-    /// force's work in the discrete equation and these energies. This is the error of one integration point in a step, of
-    /// either sign.
+    /// throughout the step. With a nonlinear force that returns its energies without a
+    /// [`remainder`](crate::structure::NonlinearForce::remainder), the term includes the difference between the force's
+    /// work in the discrete equation and these energies. This is the error of one integration point in a step, of either
+    /// sign.
     Algorithmic algorithmic, Balance, "time scheme";
+    /// Work of yielding parts inside the steps that is neither stored nor dissipated.
+    ///
+    /// The force acts at mid-step, and plastic strains follow at the end of the step. The term is from the
+    /// [`remainder`](crate::structure::NonlinearForce::remainder) of the nonlinear force; without one it is zero. In each
+    /// step it is of second order in the time step, but it accumulates. For Iwan's model, and for Drucker–Prager with
+    /// equal angles of friction and dilation, it never decreases: the time scheme takes energy. With a smaller angle of
+    /// dilation it has either sign.
+    MidstepRemainder midstep_remainder (default), Balance, "mid-step remainder";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
@@ -240,7 +254,12 @@ impl fmt::Display for EnergyBalance {
         }
         let in_kilojoules = |energy: f64| number(1e-3 * energy);
         writeln!(f, "energy, kJ (in the plane kJ/m): input {}", in_kilojoules(self.input))?;
-        for pair in self.parts().chunks(2) {
+        let mut parts = self.parts();
+        // Only yielding parts have a remainder.
+        parts.retain(|(name, energy)| {
+            *energy != 0.0 || *name != EnergyTerm::MidstepRemainder.name()
+        });
+        for pair in parts.chunks(2) {
             let cell =
                 |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", in_kilojoules(*energy));
             writeln!(f, "  {}", pair.iter().map(cell).collect::<Vec<_>>().join("    "))?;
@@ -270,21 +289,22 @@ mod tests {
             hysteresis: 256.0,
             damping: 4.0,
             algorithmic: 8.0,
+            midstep_remainder: 512.0,
             soil: 16.0,
             contact: 32.0,
             interface: 64.0,
             static_contact: -7.0,
-            input: 376.0,
+            input: 888.0,
             relative_input: 300.0,
-            largest: 376.0,
+            largest: 888.0,
             ..EnergyBalance::default()
         };
         assert_eq!(energy_balance.residual(), 0.0);
         let fractions = energy_balance.fractions().unwrap();
         assert!((fractions.iter().map(|(_, fraction)| fraction).sum::<f64>() - 1.0).abs() < 1e-15);
-        assert_eq!(fractions.len(), 8);
-        assert!(fractions.contains(&("kinetic and strain", 3.0 / 376.0)));
-        assert_eq!(energy_balance.fraction(EnergyTerm::Soil), Some(16.0 / 376.0));
+        assert_eq!(fractions.len(), 9);
+        assert!(fractions.contains(&("kinetic and strain", 3.0 / 888.0)));
+        assert_eq!(energy_balance.fraction(EnergyTerm::Soil), Some(16.0 / 888.0));
         for input in [0.0, -1.0, f64::NAN] {
             assert_eq!(EnergyBalance { input, ..energy_balance }.fractions(), None);
         }

@@ -237,7 +237,7 @@ impl StaticProblem<'_> {
     ///
     /// Each iteration then minimises the energy. With softer springs it may end at an unstable equilibrium, for
     /// example of a block on its corner. The springs stay unchanged if a factor of [`MAX_STIFFENING_FACTOR`] is not sufficient
-    /// (Lagrange multipliers), or if rounding is the cause.
+    /// (Lagrange multipliers), if rounding is the cause, or if the tangent is not symmetric and so has no energy.
     fn stiffened_compliance(
         &self,
         springs: &mut FictitiousSprings,
@@ -253,6 +253,7 @@ impl StaticProblem<'_> {
         drop(shared);
         let compliance = self.compliance(tangent, springs.shift)?;
         if compliance.factor.factor.is_positive_definite()
+            || !tangent.is_symmetric()
             || compliance.factor.condition() > MAX_ACCEPTED_CONDITION
         {
             return Ok(compliance);

@@ -210,6 +210,8 @@ impl EnergyAccumulator {
     }
 
     /// Adds stored and dissipated energy of the nonlinear force, or its work if they are unknown.
+    ///
+    /// The rest of the work is the force's remainder inside the step. Without a remainder it counts as algorithmic.
     fn add_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
         let work = dot(&increment.nonlinear_force, &increment.total_displacement);
@@ -219,9 +221,19 @@ impl EnergyAccumulator {
             self.nonlinear_energy += work;
             return;
         };
+        let Increment { midstep_displacement, force_displacement, .. } = increment;
+        let remainder = structure
+            .nonlinear()
+            .and_then(|force| force.remainder(midstep_displacement, force_displacement));
         let energy_balance = &mut self.energy_balance;
-        energy_balance.algorithmic +=
-            work - (stored - self.nonlinear_energy) - (dissipated - energy_balance.hysteresis);
+        match remainder {
+            Some(remainder) => energy_balance.midstep_remainder += remainder,
+            None => {
+                energy_balance.algorithmic += work
+                    - (stored - self.nonlinear_energy)
+                    - (dissipated - energy_balance.hysteresis);
+            }
+        }
         self.nonlinear_energy = stored;
         energy_balance.hysteresis = dissipated;
     }

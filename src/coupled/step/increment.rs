@@ -43,6 +43,8 @@ pub(crate) struct Increment {
     pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state; empty for a linear structure.
     pub(crate) nonlinear_force: Vec<f64>,
+    /// Displacement u* that f receives in the equation of motion; empty for a linear structure.
+    pub(crate) midstep_displacement: Vec<f64>,
     /// Displacement at the end of the step that f receives; empty for a linear structure.
     pub(crate) force_displacement: Vec<f64>,
 }
@@ -70,6 +72,7 @@ impl Increment {
             method: SearchMethod::ActiveSet,
             substituted_friction: None,
             nonlinear_force: vec![0.0; force_count],
+            midstep_displacement: vec![0.0; force_count],
             force_displacement: vec![0.0; force_count],
         }
     }

@@ -17,7 +17,6 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
 use crate::error::StepError;
-use crate::linalg::transposed_multiply_add;
 
 /// Solver of a linear step: factored operators, contact problem and buffers.
 pub(crate) struct LinearStep {
@@ -121,12 +120,9 @@ impl LinearStep {
         self.operators.solve(&mut increment.displacement);
         increment.set_end_displacement(data.state);
         self.solve_tractions(data, increment)?;
-        transposed_multiply_add(
-            &self.operators.traction_responses,
-            -1.0,
-            &self.contact.response().traction,
-            &mut increment.displacement,
-        );
+        let Self { operators, contact, scratch, .. } = self;
+        let traction = &contact.response().traction;
+        operators.add_response(&data.scene.base, traction, scratch, &mut increment.displacement);
         Ok(())
     }
 

@@ -4,6 +4,7 @@ pub(crate) mod advance;
 pub(crate) mod energy_accumulator;
 pub(crate) mod forcing;
 pub(crate) mod increment;
+mod increment_search;
 mod linear;
 mod modal_loops;
 mod newton;

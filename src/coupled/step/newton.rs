@@ -2,10 +2,11 @@
 
 use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
-use crate::coupled::model::operators::{Operators, StiffnessFactorization};
+use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step::forcing::StepData;
 use crate::coupled::step::increment::Increment;
+use crate::coupled::step::increment_search::IncrementSearch;
 use crate::coupled::step::linear::LinearStep;
 use crate::error::StepError;
 use crate::linalg::largest;
@@ -21,6 +22,9 @@ const STAGNATION_TOLERANCE: f64 = 1e3 * RESIDUAL_TOLERANCE;
 const DISPLACEMENT_ROUNDING_FACTOR: f64 = 32.0;
 /// Number of iterations without a smaller out-of-balance force after which the iteration counts as a cycle.
 const MAX_STAGNANT_ITERATIONS: usize = 15;
+
+/// Number of degrees of freedom with the largest out-of-balance force that an error passes to the structure.
+const REPORTED_DOFS: usize = 8;
 
 /// Largest number of iterations of a stage of the continuation: a stage with one kink converges within them.
 const MAX_STAGE_ITERATIONS: usize = 8;
@@ -38,6 +42,7 @@ pub(crate) struct NewtonIteration {
     linearised_force: Vec<f64>,
     /// Displacement u* that the nonlinear force receives.
     force_displacement: Vec<f64>,
+    search: IncrementSearch,
     /// Iterate at the end of the last stage of the continuation.
     stage_solution: Vec<f64>,
     /// Out-of-balance force at the start of the continuation.
@@ -61,6 +66,7 @@ impl NewtonIteration {
             guess: zeros.clone(),
             linearised_force: zeros.clone(),
             force_displacement: zeros.clone(),
+            search: IncrementSearch::new(dofs),
             stage_solution: zeros.clone(),
             initial_imbalance: zeros,
             force_scale: 0.0,
@@ -79,6 +85,7 @@ impl NewtonIteration {
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
         self.trials = 0;
+        self.iterations = 0;
         self.method = SearchMethod::ActiveSet;
         // The first iterate is the increment with the last velocity, without the ground's translation.
         let velocity = state.kinematics.velocity.iter();
@@ -87,28 +94,11 @@ impl NewtonIteration {
             *guess = v * scene.time_step - dy;
         }
         self.evaluate(linear, data, increment)?;
-        let mut residual = f64::INFINITY;
-        let mut smallest_residual = f64::INFINITY;
-        let mut stagnant_iterations = 0;
-        self.iterations = 0;
-        for iteration in 0..MAX_NEWTON_ITERATIONS {
-            residual = self.iterate(linear, data, 0.0, increment)?;
-            // The first solution is only a prediction, since its tangent may belong to the previous step.
-            if residual <= RESIDUAL_TOLERANCE && (iteration > 0 || residual == 0.0) {
-                break;
-            }
-            stagnant_iterations =
-                if residual < smallest_residual { 0 } else { stagnant_iterations + 1 };
-            smallest_residual = smallest_residual.min(residual);
-            if stagnant_iterations >= MAX_STAGNANT_ITERATIONS
-                && smallest_residual > STAGNATION_TOLERANCE
-            {
-                break;
-            }
-        }
+        let residual = self.iterate_whole_step(linear, data, increment)?;
         if residual.is_nan() || residual > STAGNATION_TOLERANCE.max(self.rounding(linear)) {
             self.continue_in_stages(linear, data, residual, increment)?;
         }
+        increment.midstep_displacement.copy_from_slice(&self.force_displacement);
         increment.trials = self.trials;
         increment.method = self.method;
         let u = &state.kinematics.displacement;
@@ -122,6 +112,47 @@ impl NewtonIteration {
             translations,
         );
         Ok(())
+    }
+
+    /// Iterates until the out-of-balance force vanishes or does not decrease; returns its last relative value.
+    fn iterate_whole_step(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+        increment: &mut Increment,
+    ) -> Result<f64, StepError> {
+        let mut residual = f64::INFINITY;
+        let mut smallest_residual = f64::INFINITY;
+        let mut stagnant_iterations = 0;
+        // Whether the last increment did not reduce the out-of-balance force.
+        let mut has_grown = false;
+        for iteration in 0..MAX_NEWTON_ITERATIONS {
+            if has_grown && residual > STAGNATION_TOLERANCE.max(self.rounding(linear)) {
+                self.search_along_increment(linear, data, increment)?;
+                residual = self.relative_imbalance(increment);
+            }
+            // The iterate before the first solution does not satisfy the linear part of the equation.
+            if iteration > 0 {
+                let force = &increment.nonlinear_force;
+                self.search.start_at(&self.guess, &self.linearised_force, force);
+            }
+            let previous_residual = residual;
+            residual = self.iterate(linear, data, 0.0, increment)?;
+            has_grown = iteration > 0 && residual >= previous_residual;
+            // The first solution is only a prediction, since its tangent may belong to the previous step.
+            if residual <= RESIDUAL_TOLERANCE && (iteration > 0 || residual == 0.0) {
+                break;
+            }
+            stagnant_iterations =
+                if residual < smallest_residual { 0 } else { stagnant_iterations + 1 };
+            smallest_residual = smallest_residual.min(residual);
+            if stagnant_iterations >= MAX_STAGNANT_ITERATIONS
+                && smallest_residual > STAGNATION_TOLERANCE
+            {
+                break;
+            }
+        }
+        Ok(residual)
     }
 
     /// Relative out-of-balance force due to rounding of displacements.
@@ -181,10 +212,8 @@ impl NewtonIteration {
             }
             stage_fraction = 0.5 * stage_fraction.min(remaining_fraction);
             if stage_fraction < MIN_STAGE_FRACTION || self.iterations > MAX_TOTAL_ITERATIONS {
-                let modes = increment.modes.iter().map(|mode| mode.word()).collect();
-                let iterations = self.iterations;
                 let residual = remaining_fraction * initial_residual;
-                return Err(StepError::Newton { iterations, residual, modes });
+                return Err(self.failure(data, residual, increment));
             }
             self.guess.copy_from_slice(&self.stage_solution);
             self.evaluate(linear, data, increment)?;
@@ -210,20 +239,12 @@ impl NewtonIteration {
             .refill(structure, &self.force_displacement)
             .map_err(StepError::part("tangent of the structure"))?;
         let tangent = &self.tangent.matrix;
-        if !tangent.entries().eq(linear.operators.tangent.entries()) {
-            let model = &scene.model;
-            let base = &scene.base;
-            let factor = StiffnessFactorization::in_dofs(model, &scene.coefficients, tangent)
+        if tangent != &linear.operators.tangent {
+            let Scene { model, base, step_compliance, coefficients, .. } = scene;
+            linear
+                .operators
+                .change_tangent(model, base, step_compliance, coefficients, tangent)
                 .map_err(StepError::part("tangent of the structure"))?;
-            let tangent = tangent.clone();
-            linear.operators = Operators::new(
-                model,
-                base,
-                &scene.step_compliance,
-                StiffnessFactorization::Sparse(factor),
-                tangent,
-            )
-            .map_err(StepError::part("tangent of the structure"))?;
             linear.contact.invalidate();
         }
         // f(u*) linearised about the iterate g: f + θ D (Δu − g), with θ = `stiffness_factor`.
@@ -247,12 +268,47 @@ impl NewtonIteration {
         self.evaluate(linear, data, increment)?;
         self.force_scale =
             largest(&linear.right_hand_side).max(largest(&increment.nonlinear_force));
+        Ok(self.relative_imbalance(increment))
+    }
+
+    /// Largest out-of-balance force of the iterate, relative to the largest force.
+    fn relative_imbalance(&self, increment: &Increment) -> f64 {
         let imbalance = self
             .linearised_force
             .iter()
             .zip(&increment.nonlinear_force)
             .fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
-        Ok(if self.force_scale > 0.0 { imbalance / self.force_scale } else { 0.0 })
+        if self.force_scale > 0.0 { imbalance / self.force_scale } else { 0.0 }
+    }
+
+    /// Moves the iterate back along its last increment, if the increment passed the balance on this line.
+    fn search_along_increment(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+        increment: &mut Increment,
+    ) -> Result<(), StepError> {
+        let Self { search, guess, linearised_force, force_displacement, .. } = self;
+        search.search(guess, linearised_force, &mut increment.nonlinear_force, |guess, force| {
+            evaluate_force(linear, data, guess, force_displacement, force)
+        })
+    }
+
+    /// Error for an iteration that did not converge; `residual` is its relative out-of-balance force.
+    fn failure(&self, data: StepData<'_>, residual: f64, increment: &Increment) -> StepError {
+        let forces = self.linearised_force.iter().zip(&increment.nonlinear_force);
+        let imbalance: Vec<f64> = forces.map(|(a, b)| (a - b).abs()).collect();
+        let mut dofs: Vec<usize> = (0..imbalance.len()).filter(|i| imbalance[*i] > 0.0).collect();
+        dofs.sort_by(|i, j| imbalance[*j].total_cmp(&imbalance[*i]));
+        dofs.truncate(REPORTED_DOFS);
+        let nonlinear_force = data.structure.nonlinear();
+        let state = nonlinear_force.and_then(|f| f.describe_state(&self.force_displacement, &dofs));
+        StepError::Newton {
+            iterations: self.iterations,
+            residual,
+            modes: increment.modes.iter().map(|mode| mode.word()).collect(),
+            state,
+        }
     }
 
     /// Evaluates f at u* for the present iterate, minus f at the static state.
@@ -262,31 +318,40 @@ impl NewtonIteration {
         data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        let StepData { scene, structure, state, forcing } = data;
-        let c = scene.coefficients.displacement;
-        let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
-        for (i, entry) in self.force_displacement.iter_mut().enumerate() {
-            *entry = u[i] + SchemeCoefficients::apply(c, self.guess[i], v[i], a[i]);
-        }
-        let translations = forcing
-            .translations
-            .iter()
-            .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
-        scene.convert_to_force_displacement(
-            &mut self.force_displacement,
-            &mut linear.base_means,
-            translations,
-        );
-        increment.nonlinear_force.fill(0.0);
-        if let Some(nonlinear_force) = structure.nonlinear() {
-            nonlinear_force
-                .force(&self.force_displacement, &mut increment.nonlinear_force)
-                .map_err(StepError::part("nonlinear force of the structure"))?;
-        }
-        let static_forces = &scene.static_state.force;
-        for (force, static_force) in increment.nonlinear_force.iter_mut().zip(static_forces) {
-            *force -= static_force;
-        }
-        StepError::check_finite("nonlinear force of the structure", &increment.nonlinear_force)
+        let Self { guess, force_displacement, .. } = self;
+        evaluate_force(linear, data, guess, force_displacement, &mut increment.nonlinear_force)
     }
+}
+
+/// Evaluates f at u* for an iterate of Δu, minus f at the static state.
+///
+/// `displacement` becomes u*.
+fn evaluate_force(
+    linear: &mut LinearStep,
+    data: StepData<'_>,
+    guess: &[f64],
+    displacement: &mut [f64],
+    force: &mut [f64],
+) -> Result<(), StepError> {
+    let StepData { scene, structure, state, forcing } = data;
+    let c = scene.coefficients.displacement;
+    let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
+    for (i, entry) in displacement.iter_mut().enumerate() {
+        *entry = u[i] + SchemeCoefficients::apply(c, guess[i], v[i], a[i]);
+    }
+    let translations = forcing
+        .translations
+        .iter()
+        .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
+    scene.convert_to_force_displacement(displacement, &mut linear.base_means, translations);
+    force.fill(0.0);
+    if let Some(nonlinear_force) = structure.nonlinear() {
+        nonlinear_force
+            .force(displacement, force)
+            .map_err(StepError::part("nonlinear force of the structure"))?;
+    }
+    for (force, static_force) in force.iter_mut().zip(&scene.static_state.force) {
+        *force -= static_force;
+    }
+    StepError::check_finite("nonlinear force of the structure", force)
 }

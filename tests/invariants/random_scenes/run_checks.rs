@@ -13,13 +13,14 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The left-hand side's terms and the input.
-pub(crate) fn terms(energy_balance: &EnergyBalance) -> [f64; 10] {
+pub(crate) fn terms(energy_balance: &EnergyBalance) -> [f64; 11] {
     [
         energy_balance.kinetic,
         energy_balance.strain,
         energy_balance.hysteresis,
         energy_balance.damping,
         energy_balance.algorithmic,
+        energy_balance.midstep_remainder,
         energy_balance.soil,
         energy_balance.contact,
         energy_balance.interface,

@@ -37,6 +37,7 @@ pub mod scenes;
 pub mod settling_law;
 pub mod settling_strips;
 pub mod space_beams;
+pub mod static_steps;
 pub mod stiff_element;
 pub mod supported;
 pub mod tabled_structures;
@@ -44,6 +45,9 @@ pub mod tower;
 pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
+pub mod yielding_column;
+pub mod yielding_springs;
+pub mod yielding_strip;
 
 pub use basemat_testkit::{
     ReferenceTable, assert_close, check_sum, csv, data_path, heavy, random, series, table,

@@ -69,6 +69,20 @@ fn nearly_incompressible_material_locks_only_with_full_integration() {
     assert!((free - fine).abs() < 0.02 && (fine - 1.0).abs() < 0.05, "{free} {fine}");
 }
 
+#[test]
+fn mean_dilatation_does_not_lock_in_nearly_incompressible_material() {
+    let ratios = [[2, 20], [4, 40], [8, 80]].map(|mesh| {
+        [0.3, 0.49, 0.4999].map(|nu| tip_ratio(mesh, nu, QuadFormulation::MeanDilatation))
+    });
+    println!("mean dilatation at 0.3, 0.49, 0.4999: {ratios:?}");
+    for (row, lower_bound) in ratios.iter().zip([0.8, 0.94, 0.97]) {
+        assert!(row.iter().all(|ratio| (lower_bound..1.02).contains(ratio)), "{row:?}");
+        // Poisson's ratio changes little.
+        assert!((row[2] - row[1]).abs() < 0.01 && (row[2] - row[0]).abs() < 0.06, "{row:?}");
+    }
+    assert!(tip_ratio([4, 40], 0.4999, QuadFormulation::Full) < 0.5);
+}
+
 /// Rectangles in pure bending are exact: rotation at the end M L / (YOUNG_MODULUS' I), any aspect ratio.
 #[test]
 fn pure_bending_of_rectangles_is_exact() {

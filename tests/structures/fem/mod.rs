@@ -28,3 +28,4 @@ mod shear_building;
 mod shells;
 mod space_section;
 mod user_element;
+mod yielding_strip;

@@ -43,8 +43,8 @@ pub enum StepError {
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration did not converge in {iterations} iterations, residual {residual:.2e}, \
-         modes {} (`analyses::largest_convergent_step` finds a time step that converges)",
-        modes.join(" ")
+         {}modes {} (`analyses::largest_convergent_step` finds a time step that converges)",
+        state.as_ref().map(|state| format!("{state}, ")).unwrap_or_default(), modes.join(" ")
     )]
     Newton {
         /// Number of iterations.
@@ -54,6 +54,10 @@ pub enum StepError {
         /// Words (`Mode`'s `Display`) of the contact modes of the last iteration, left to
         /// right.
         modes: Vec<&'static str>,
+        /// Where the force is out of balance, with the state of the structure there.
+        ///
+        /// `None` unless the structure describes its state (`NonlinearForce::describe_state`).
+        state: Option<String>,
     },
     /// A part of the scene returned an error.
     ///

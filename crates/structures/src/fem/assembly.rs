@@ -10,8 +10,10 @@ use crate::linalg::Triplets;
 /// Element matrix to assemble.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MatrixKind {
-    /// Stiffness without the geometric stiffness.
+    /// Stiffness without the geometric stiffness; of small displacements for elements with internal variables.
     Stiffness,
+    /// The same without the elements with internal variables.
+    LinearStiffness,
     GeometricStiffness,
     Mass(MassKind),
     /// Damping of the elements, without Rayleigh damping.
@@ -40,7 +42,10 @@ pub(crate) fn assemble(
         element_matrix.clear();
         element_matrix.resize(element.order().pow(2), 0.0);
         match matrix_kind {
-            MatrixKind::Stiffness => element.stiffness(&coordinates, &mut element_matrix),
+            MatrixKind::LinearStiffness if element.inelastic().is_some() => continue,
+            MatrixKind::Stiffness | MatrixKind::LinearStiffness => {
+                element.stiffness(&coordinates, &mut element_matrix);
+            }
             MatrixKind::GeometricStiffness => {
                 element.geometric_stiffness(&coordinates, &mut element_matrix);
                 if let Some(force_rotation) = mesh.force_rotation(element_index) {

@@ -2,6 +2,7 @@
 
 use std::any::Any;
 
+use super::inelastic_force::InelasticForce;
 use crate::error::Result;
 use crate::geometry::Direction;
 
@@ -78,6 +79,14 @@ pub trait Element: Any + Send + Sync {
     ///
     /// It is symmetric; a rigid motion of all nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]);
+
+    /// Force of an element with internal variables, in place of K u. Default: `None`, for a linear element.
+    ///
+    /// [`stiffness`](Element::stiffness) is then the stiffness of small displacements. Rayleigh damping and the static
+    /// forces of P–Δ use it, but the force of the element in a run is the [`InelasticForce`] alone.
+    fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        None
+    }
 
     /// Adds the geometric stiffness (P–Δ) of the static axial force, N/m.
     ///

@@ -173,6 +173,11 @@ impl Mesh {
         self.elements.iter().map(AsRef::as_ref)
     }
 
+    /// All elements, as shared pointers.
+    pub(crate) fn shared_elements(&self) -> impl Iterator<Item = &Arc<dyn Element>> {
+        self.elements.iter()
+    }
+
     /// Smallest and largest density of the elements with mass, kg/m³; `None` without any.
     pub(crate) fn densities(&self) -> Option<[f64; 2]> {
         let mut density_range: Option<[f64; 2]> = None;

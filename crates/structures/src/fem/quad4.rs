@@ -2,8 +2,10 @@
 
 use super::element::{Element, ElementFace, MassKind};
 use super::element_matrix::{add_matrix, condense, leading_block};
-use super::material::Material;
-use crate::error::{Result, require, same_length};
+use super::inelastic_force::InelasticForce;
+use super::quad_force::QuadSolid;
+use super::solid::SharedMaterial;
+use crate::error::{Result, require, require_part, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
 
@@ -36,9 +38,18 @@ pub enum QuadFormulation {
         /// Hourglass stiffness, in per cent of the hourglass stiffness of `Full`.
         percent: u8,
     },
+    /// 2 × 2 Gauss points, each with the mean dilatation of the element (B-bar: Hughes 1980, IJNME 15, 1413–1418).
+    ///
+    /// Nothing locks as ν → 1/2. Bending is as stiff as with `Full`. This is the only formulation of an inelastic
+    /// material.
+    MeanDilatation,
 }
 
 /// Plane-strain quadrilateral with nodes counter-clockwise, 1 m thick.
+///
+/// The material is a [`Material`](super::Material), or any [`SolidMaterial`](super::SolidMaterial) with the formulation
+/// [`QuadFormulation::MeanDilatation`]; a mesh returns an error for another formulation. An inelastic element has
+/// internal variables at its integration points. [`Quad8`](super::Quad8) bends far better.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Quad4, QuadFormulation};
@@ -54,9 +65,11 @@ pub enum QuadFormulation {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quad4 {
     nodes: [usize; 4],
-    material: Material,
-    formulation: QuadFormulation,
+    solid: QuadSolid<QuadFormulation, DOF_COUNT>,
 }
+
+/// Number of degrees of freedom.
+pub(super) const DOF_COUNT: usize = 8;
 
 /// Strains `[ε_xx, ε_yy, γ_xy]` by a displacement along x, and by one along y, with these derivatives.
 ///
@@ -67,44 +80,58 @@ pub(super) fn plane_strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
 
 impl Quad4 {
     /// Quadrilateral between `nodes`, which run counter-clockwise.
-    pub fn new(nodes: [usize; 4], material: Material, formulation: QuadFormulation) -> Self {
-        Self { nodes, material, formulation }
+    pub fn new(
+        nodes: [usize; 4],
+        material: impl Into<SharedMaterial>,
+        formulation: QuadFormulation,
+    ) -> Self {
+        Self { nodes, solid: QuadSolid::new(material.into(), formulation) }
+    }
+
+    /// Replaces the stresses `[xx, yy, zz, xy]` of the undeformed element, Pa; tension is positive.
+    ///
+    /// As [`Quad8::with_initial_stress`](super::Quad8::with_initial_stress).
+    #[must_use]
+    pub fn with_initial_stress(self, stress: [f64; 4]) -> Self {
+        Self { solid: self.solid.with_initial_stress(stress), ..self }
     }
 
     /// Stiffness by integration points of one common weight.
     fn integrated_stiffness<const N: usize>(
-        &self,
+        elasticity: &[[f64; 3]; 3],
         points: [[f64; 2]; N],
         weight: f64,
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
         let weighted_points = points.into_iter().map(|point| (point, weight));
-        integrate_stiffness(&self.material.elasticity(), weighted_points, |point| {
+        integrate_stiffness(elasticity, weighted_points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             (node_strains(point, &jacobian), jacobian.determinant)
         })
     }
 
     /// Stiffness of the nodes after condensation of the two bending modes.
-    fn stiffness_with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
+    fn stiffness_with_bending_modes(
+        elasticity: &[[f64; 3]; 3],
+        coordinates: &[[f64; 3]],
+    ) -> [[f64; 8]; 8] {
         let centre_jacobian = Jacobian::at([0.0; 2], coordinates);
         let weighted_points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut full_stiffness =
-            integrate_stiffness(&self.material.elasticity(), weighted_points, |point| {
-                let jacobian = Jacobian::at(point, coordinates);
-                let mut strains = [[0.0; 3]; 12];
-                strains[..8].copy_from_slice(&node_strains(point, &jacobian));
-                // Derivatives of the modes 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that
-                // their integral over the element vanishes: a constant stress does no work on them.
-                let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
-                let xi_mode_strains =
-                    plane_strains(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
-                let eta_mode_strains =
-                    plane_strains(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
-                strains[8..10].copy_from_slice(&xi_mode_strains);
-                strains[10..].copy_from_slice(&eta_mode_strains);
-                (strains, jacobian.determinant)
-            });
+        let mut full_stiffness = integrate_stiffness(elasticity, weighted_points, |point| {
+            let jacobian = Jacobian::at(point, coordinates);
+            let mut strains = [[0.0; 3]; 12];
+            strains[..8].copy_from_slice(&node_strains(point, &jacobian));
+            // Derivatives of the modes 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that
+            // their integral over the element vanishes: a constant stress does no work on them.
+            let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
+            let xi_mode_strains =
+                plane_strains(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
+            let eta_mode_strains =
+                plane_strains(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
+            strains[8..10].copy_from_slice(&xi_mode_strains);
+            strains[10..].copy_from_slice(&eta_mode_strains);
+            (strains, jacobian.determinant)
+        });
         condense(&mut full_stiffness, 8);
         leading_block(&full_stiffness)
     }
@@ -171,14 +198,26 @@ impl Element for Quad4 {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let element_matrix = match self.formulation {
-            QuadFormulation::Full => self.integrated_stiffness(gauss_points(), 1.0, coordinates),
-            QuadFormulation::OnePoint => self.integrated_stiffness([[0.0; 2]], 4.0, coordinates),
-            QuadFormulation::IncompatibleModes => self.stiffness_with_bending_modes(coordinates),
+        let Some(material) = self.solid.material.elastic() else {
+            return self.solid.add_small_strain_stiffness(coordinates, matrix);
+        };
+        let elasticity = &material.elasticity();
+        let element_matrix = match self.solid.rule {
+            QuadFormulation::Full => {
+                Self::integrated_stiffness(elasticity, gauss_points(), 1.0, coordinates)
+            }
+            QuadFormulation::OnePoint => {
+                Self::integrated_stiffness(elasticity, [[0.0; 2]], 4.0, coordinates)
+            }
+            QuadFormulation::IncompatibleModes => {
+                Self::stiffness_with_bending_modes(elasticity, coordinates)
+            }
             QuadFormulation::Hourglass { percent } => {
                 let fraction = f64::from(percent) / 100.0;
-                let full_integration = self.integrated_stiffness(gauss_points(), 1.0, coordinates);
-                let mut stiffness = self.integrated_stiffness([[0.0; 2]], 4.0, coordinates);
+                let full_integration =
+                    Self::integrated_stiffness(elasticity, gauss_points(), 1.0, coordinates);
+                let mut stiffness =
+                    Self::integrated_stiffness(elasticity, [[0.0; 2]], 4.0, coordinates);
                 for (entry, full_entry) in
                     stiffness.iter_mut().flatten().zip(full_integration.as_flattened())
                 {
@@ -186,19 +225,27 @@ impl Element for Quad4 {
                 }
                 stiffness
             }
+            QuadFormulation::MeanDilatation => {
+                return self.solid.add_small_strain_stiffness(coordinates, matrix);
+            }
         };
         add_matrix(matrix, &element_matrix);
     }
 
+    fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        self.solid.inelastic()
+    }
+
     fn density(&self) -> Option<f64> {
-        Some(self.material.density())
+        Some(self.solid.material.law().density())
     }
 
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
+        let density = self.solid.material.law().density();
         let mut element_matrix = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of third degree in ξ and in η.
         for point in gauss_points() {
-            let point_mass = self.material.density() * Jacobian::at(point, coordinates).determinant;
+            let point_mass = density * Jacobian::at(point, coordinates).determinant;
             let shape_values = shape_functions(point);
             for i in 0..4 {
                 for j in 0..4 {
@@ -214,6 +261,9 @@ impl Element for Quad4 {
     }
 
     /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
+    ///
+    /// [`Error::Scene`](crate::Error::Scene) for an inelastic material with a formulation other than
+    /// [`QuadFormulation::MeanDilatation`]. Also errors of the initial stress.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
         for corner in NODE_COORDINATES {
@@ -222,7 +272,13 @@ impl Element for Quad4 {
             let needed = "above zero: convex, nodes counter-clockwise";
             require(quantity, determinant, determinant.is_finite() && determinant > 0.0, needed)?;
         }
-        Ok(())
+        require_part(
+            "four-node quadrilateral of an inelastic material",
+            self.solid.material.elastic().is_some()
+                || self.solid.rule == QuadFormulation::MeanDilatation,
+            "its formulation must be QuadFormulation::MeanDilatation",
+        )?;
+        self.solid.check_initial_stress()
     }
 }
 

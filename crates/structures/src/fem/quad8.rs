@@ -2,13 +2,15 @@
 
 use super::element::{Element, ElementFace, MassKind};
 use super::element_matrix::add_matrix;
-use super::material::Material;
+use super::inelastic_force::InelasticForce;
+use super::quad_force::{IntegrationPoint, IntegrationRule, QuadSolid};
 use super::quad4::{determinant, integrate_stiffness, jacobian_matrix, plane_strains};
+use super::solid::SharedMaterial;
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
 
-/// Integration of the stiffness of a [`Quad8`].
+/// Integration of the stiffness, or of the stresses, of a [`Quad8`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -28,6 +30,9 @@ pub enum Quad8Integration {
 /// Nodes are the four corners counter-clockwise, then the nodes between the first and second corner, the
 /// second and third, and so on. Edges may be curved. The ground assumes straight lines between neighbouring nodes of
 /// the base, whose contact nodes are corners and mid-edge nodes.
+///
+/// The material is a [`Material`](super::Material), or any [`SolidMaterial`](super::SolidMaterial): soil that yields.
+/// The element then has internal variables at its integration points.
 ///
 /// ```
 /// use basemat::fem::{Element, MassKind, Material, Quad8};
@@ -49,9 +54,11 @@ pub enum Quad8Integration {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quad8 {
     nodes: [usize; 8],
-    material: Material,
-    integration: Quad8Integration,
+    solid: QuadSolid<Quad8Integration, DOF_COUNT>,
 }
+
+/// Number of degrees of freedom.
+const DOF_COUNT: usize = 16;
 
 /// Natural coordinates (ξ, η) of the nodes.
 const NODE_COORDINATES: [[f64; 2]; 8] = [
@@ -67,14 +74,23 @@ const NODE_COORDINATES: [[f64; 2]; 8] = [
 
 impl Quad8 {
     /// Quadrilateral between `nodes`, with reduced integration.
-    pub fn new(nodes: [usize; 8], material: Material) -> Self {
-        Self { nodes, material, integration: Quad8Integration::default() }
+    pub fn new(nodes: [usize; 8], material: impl Into<SharedMaterial>) -> Self {
+        Self { nodes, solid: QuadSolid::new(material.into(), Quad8Integration::default()) }
     }
 
     /// Replaces the rule of integration.
     #[must_use]
     pub fn with_integration(self, integration: Quad8Integration) -> Self {
-        Self { integration, ..self }
+        Self { solid: self.solid.with_rule(integration), ..self }
+    }
+
+    /// Replaces the stresses `[xx, yy, zz, xy]` of the undeformed element, Pa; tension is positive.
+    ///
+    /// They are constant in the element, and their nodal forces act at zero displacement. Adding the element to a mesh
+    /// returns an error for a stress that the material cannot have: any but zero for a linear elastic one.
+    #[must_use]
+    pub fn with_initial_stress(self, stress: [f64; 4]) -> Self {
+        Self { solid: self.solid.with_initial_stress(stress), ..self }
     }
 }
 
@@ -129,6 +145,33 @@ impl Quad8Integration {
     }
 }
 
+impl IntegrationRule<DOF_COUNT> for Quad8Integration {
+    fn point_count(self) -> usize {
+        self.points_per_axis().pow(2)
+    }
+
+    fn visit_points(
+        self,
+        coordinates: &[[f64; 3]],
+        mut visit: impl FnMut(&IntegrationPoint<DOF_COUNT>) -> Result<()>,
+    ) -> Result<()> {
+        for (index, (natural, weight)) in gauss::square(self.points_per_axis()).enumerate() {
+            let (derivatives, determinant) = global_derivatives(natural, coordinates);
+            let mut strains = [[0.0; 4]; DOF_COUNT];
+            for ([dx, dy], columns) in derivatives.into_iter().zip(strains.chunks_exact_mut(2)) {
+                columns[0] = [dx, 0.0, 0.0, dy];
+                columns[1] = [0.0, dy, 0.0, dx];
+            }
+            visit(&IntegrationPoint { index, natural, area: weight * determinant, strains })?;
+        }
+        Ok(())
+    }
+
+    fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64> {
+        shape_functions(natural)
+    }
+}
+
 impl Element for Quad8 {
     fn nodes(&self) -> &[usize] {
         &self.nodes
@@ -147,29 +190,36 @@ impl Element for Quad8 {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let points = gauss::square(self.integration.points_per_axis());
-        let element_matrix = integrate_stiffness(&self.material.elasticity(), points, |point| {
+        let Some(material) = self.solid.material.elastic() else {
+            return self.solid.add_small_strain_stiffness(coordinates, matrix);
+        };
+        let points = gauss::square(self.solid.rule.points_per_axis());
+        let element_matrix = integrate_stiffness(&material.elasticity(), points, |point| {
             let (derivatives, determinant) = global_derivatives(point, coordinates);
             let column_pairs = derivatives.map(plane_strains);
-            (std::array::from_fn::<_, 16, _>(|i| column_pairs[i / 2][i % 2]), determinant)
+            (std::array::from_fn::<_, DOF_COUNT, _>(|i| column_pairs[i / 2][i % 2]), determinant)
         });
         add_matrix(matrix, &element_matrix);
     }
 
+    fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        self.solid.inelastic()
+    }
+
     fn density(&self) -> Option<f64> {
-        Some(self.material.density())
+        Some(self.solid.material.law().density())
     }
 
     /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element.
     ///
     /// The method is due to Hinton, Rock & Zienkiewicz (1976). Row sums would be negative at the corners.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
+        let density = self.solid.material.law().density();
         let mut nodal_mass = [[0.0; 8]; 8];
         let mut total_mass = 0.0;
         for (point, weight) in gauss::square(Quad8Integration::Full.points_per_axis()) {
             let shape_values = shape_functions(point);
-            let point_mass =
-                weight * self.material.density() * global_derivatives(point, coordinates).1;
+            let point_mass = weight * density * global_derivatives(point, coordinates).1;
             total_mass += point_mass;
             for i in 0..8 {
                 for j in 0..8 {
@@ -197,6 +247,8 @@ impl Element for Quad8 {
     }
 
     /// [`Error::Input`](crate::Error::Input) unless the Jacobian is positive at the nodes and Gauss points.
+    ///
+    /// Also errors of the initial stress.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
         let points =
@@ -207,6 +259,6 @@ impl Element for Quad8 {
             let needed = "above zero: nodes counter-clockwise, those of edges near the middle";
             require(quantity, determinant, determinant.is_finite() && determinant > 0.0, needed)?;
         }
-        Ok(())
+        self.solid.check_initial_stress()
     }
 }

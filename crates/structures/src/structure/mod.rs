@@ -39,6 +39,7 @@ mod rigid_motions;
 
 #[doc(inline)]
 pub use crate::error::StructureError;
+pub use crate::fem::internal_energy::InternalEnergy;
 #[doc(inline)]
 pub use crate::linalg::Triplets;
 pub use base::Base;
@@ -58,7 +59,7 @@ pub use models::{
     RigidBody, Section, ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding,
     StructureGroup,
 };
-pub use nonlinear::{InternalEnergy, NonlinearForce};
+pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};

@@ -2,27 +2,8 @@
 
 use super::{Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
+use crate::fem::internal_energy::InternalEnergy;
 use crate::linalg::matrix::SparseMatrix;
-
-/// Stored and dissipated energy of internal forces, J per metre of thickness.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct InternalEnergy {
-    /// Energy that unloading recovers.
-    pub stored: f64,
-    /// Energy turned into heat since the initial state; it never decreases.
-    pub dissipated: f64,
-}
-
-impl std::ops::Add for InternalEnergy {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            stored: self.stored + other.stored,
-            dissipated: self.dissipated + other.dissipated,
-        }
-    }
-}
 
 /// The nonlinear force f(u) of a structure, beyond K u.
 ///
@@ -97,17 +78,45 @@ pub trait NonlinearForce {
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
     ///
-    /// The sparsity pattern never grows after the first call.
+    /// The sparsity pattern never grows after the first call: entries that become zero are still written. Entries in the same
+    /// order at every call are found fastest. The tangent need not be symmetric: the time integration then factors by LU
+    /// instead of Cholesky, which takes longer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
+
+    /// Whether the tangent is symmetric at every displacement. Default: yes.
+    ///
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In plan `build` refuses it, since
+    /// contact there needs a symmetric compliance of the structure.
+    fn has_symmetric_tangent(&self) -> bool {
+        true
+    }
 
     /// Energies of f at `displacement`. Default: `None`.
     ///
     /// In the energy balance, stored energy counts as strain energy and dissipated energy as `hysteresis`. With `None`
     /// all work of f counts as strain energy.
     fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
+        None
+    }
+
+    /// Work of f inside a step that is neither stored nor dissipated. Default: `None`.
+    ///
+    /// The step leads from the committed displacement to `end`, with f evaluated at `midstep`. The work is
+    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy), from a formula of its own. In the
+    /// energy balance it counts as `midstep_remainder`, so that the residual checks force and energies. With `None` the
+    /// definition takes the place of the formula, and the work counts as algorithmic dissipation.
+    fn remainder(&self, _midstep: &[f64], _end: &[f64]) -> Option<f64> {
+        None
+    }
+
+    /// Where f has its largest plastic deformation, for an error of a step that does not converge. Default: `None`.
+    ///
+    /// `dofs` are the degrees of freedom with the largest out-of-balance force, the largest first. The text names the
+    /// element and its state, such as "element 12 on nodes [3, 4, 9, 8]: plastic strain 0.021, 98 % of its strength".
+    fn describe_state(&self, _displacement: &[f64], _dofs: &[usize]) -> Option<String> {
         None
     }
 
@@ -228,13 +237,19 @@ pub struct Tangent {
     #[doc(hidden)]
     pub matrix: SparseMatrix,
     entries: Triplets,
+    /// Index in the matrix of each of the entries.
+    indices: Vec<usize>,
 }
 
 impl Tangent {
     /// Empty tangent for a number of degrees of freedom.
     #[doc(hidden)]
     pub fn new(dofs: usize) -> Self {
-        Self { matrix: SparseMatrix::default(), entries: Triplets::new(dofs) }
+        Self {
+            matrix: SparseMatrix::default(),
+            entries: Triplets::new(dofs),
+            indices: Vec::new(),
+        }
     }
 
     /// Tangent at a displacement.
@@ -254,8 +269,9 @@ impl Tangent {
             nonlinear_force.tangent(displacement, &mut self.entries)?;
             same_length(TANGENT_NAME, self.entries.order(), displacement.len())?;
         }
-        if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {
-            self.matrix = SparseMatrix::new(TANGENT_NAME, &self.entries)?;
+        let Self { matrix, entries, indices } = self;
+        if matrix.order() != displacement.len() || !matrix.refill(entries, indices) {
+            *matrix = SparseMatrix::new(TANGENT_NAME, entries)?;
         }
         Ok(())
     }

@@ -172,6 +172,14 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }
 
+    /// The structure between whose degrees of freedom the springs act, with its present internal variables.
+    ///
+    /// A downcast of it to its type gives access to its results, such as
+    /// [`FemModel::solid_points`](crate::structure::FemModel::solid_points).
+    pub fn structure(&self) -> &dyn Structure {
+        self.structure.as_ref()
+    }
+
     /// Adds a spring with one `deformation`.
     ///
     /// # Errors
@@ -255,12 +263,22 @@ impl NonlinearForce for WithSprings {
         self.springs.tangent(displacement, matrix)
     }
 
+    fn has_symmetric_tangent(&self) -> bool {
+        let structure_force = self.structure.nonlinear();
+        structure_force.is_none_or(NonlinearForce::has_symmetric_tangent)
+    }
+
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let spring_energy = self.springs.energy(displacement)?;
         match self.structure.nonlinear() {
             Some(structure_force) => Some(structure_force.energy(displacement)? + spring_energy),
             None => Some(spring_energy),
         }
+    }
+
+    /// State of the structure's force; springs have no text.
+    fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
+        self.structure.nonlinear()?.describe_state(displacement, dofs)
     }
 
     fn commit(&mut self, displacement: &[f64]) {

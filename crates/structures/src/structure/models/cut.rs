@@ -1,7 +1,7 @@
 //! Horizontal section of a finite-element model: forces of the elements above on the part below.
 
-use crate::error::{Result, finite, require};
-use crate::fem::{Direction, MatrixKind, assemble};
+use crate::error::{Error, Result, finite, require};
+use crate::fem::{Direction, MatrixKind, Mesh, assemble};
 use crate::structure::{FemModel, SectionRows, Triplets};
 
 /// Horizontal section of a model, from which its resultants are computed.
@@ -24,7 +24,7 @@ impl<'a> SectionCut<'a> {
     ///
     /// # Errors
     /// [`Error::Input`] when a number is not finite, when no node lies at the height, when no element lies above it,
-    /// or when an element crosses it.
+    /// or when an element crosses it; [`Error::Part`] when an element above it has internal variables.
     pub(super) fn new(model: &'a FemModel, height: f64, reference: [f64; 2]) -> Result<Self> {
         for coordinate in reference {
             finite("reference point of the section", coordinate)?;
@@ -44,6 +44,7 @@ impl<'a> SectionCut<'a> {
         let needed = "the height of a row of nodes with elements above it";
         let is_section = !section_nodes.is_empty() && has_part_above;
         require("height of the section", height, is_section, needed)?;
+        check_linear_above(mesh, &level)?;
         let mut is_below: Vec<bool> =
             mesh.nodes().iter().map(|node| node[up_axis] <= height + tolerance).collect();
         // A rigid body with a node below transfers the forces of the elements on all its nodes.
@@ -101,6 +102,20 @@ impl<'a> SectionCut<'a> {
             acceleration: model.remaining_row(weighted_rows(&weights, &self.mass)),
         }
     }
+}
+
+/// Returns an error for an element above a section that has internal variables.
+fn check_linear_above(mesh: &Mesh, level: &Level) -> Result<()> {
+    let mut elements = mesh.elements().enumerate();
+    let inelastic = elements.find(|(_, element)| {
+        element.inelastic().is_some()
+            && level.position(&mesh.coordinates(element.nodes())) == Position::Above
+    });
+    let Some((index, _)) = inelastic else { return Ok(()) };
+    let reason = format!(
+        "element {index} above it has internal variables: its force is no weighted sum of displacements"
+    );
+    Err(Error::part(format!("section at height {} m", level.height), reason))
 }
 
 /// Position of an element relative to a section.

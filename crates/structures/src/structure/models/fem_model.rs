@@ -2,11 +2,13 @@
 
 use super::dof_names::describe;
 use super::feet::{self, Foot};
+use super::inelastic_elements::InelasticElements;
 use super::rigid_links::RigidLinks;
-use crate::error::{Error, Result, in_bounds, same_length};
-use crate::fem::{Direction, Element, MassKind, MatrixKind, Mesh, Numbering, assemble};
+use crate::error::{Error, Result, in_bounds};
+use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{
-    Base, BaseNode, DofCombination, RayleighDamping, Structure, StructureDescription, Triplets,
+    Base, BaseNode, DofCombination, NonlinearForce, RayleighDamping, Structure,
+    StructureDescription, Triplets,
 };
 
 /// Finite-element structure on a flat base, in the plane or in space.
@@ -14,6 +16,9 @@ use crate::structure::{
 /// Degrees of freedom are numbered node by node, and at a node in the order of
 /// [`Mesh::directions`](crate::fem::Mesh::directions). A node has those directions that one of its elements has;
 /// [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh damping.
+///
+/// Elements with internal variables, such as soil that yields, act by the model's [`NonlinearForce`];
+/// [`solid_points`](FemModel::solid_points) returns their stresses and plastic strains.
 ///
 /// Elements act on each other through common nodes. A part without a common node with the part on the ground must be
 /// connected to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
@@ -49,6 +54,8 @@ pub struct FemModel {
     pub(super) p_delta_gravity: Option<f64>,
     /// Entries (row, column, value) of the geometric stiffness by rigid links and by reactions at the base.
     pub(super) link_and_base_stiffness: Vec<(usize, usize, f64)>,
+    /// Elements with internal variables; `None` if all are linear.
+    pub(super) inelastic: Option<InelasticElements>,
 }
 
 impl FemModel {
@@ -77,8 +84,13 @@ impl FemModel {
             has_active_stiffness: false,
             p_delta_gravity: None,
             link_and_base_stiffness: Vec::new(),
+            inelastic: None,
         };
-        Ok(Self { base: model.foot_base()?, ..model })
+        Ok(Self {
+            base: model.foot_base()?,
+            inelastic: model.undeformed_inelastic_elements()?,
+            ..model
+        })
     }
 
     /// Base by the present degrees of freedom.
@@ -208,7 +220,8 @@ impl FemModel {
 
     /// Replaces the Rayleigh damping, which adds to the elements' own damping.
     ///
-    /// The geometric stiffness of P–Δ does not contribute to it.
+    /// The geometric stiffness of P–Δ does not contribute to it. Elements with internal variables contribute their
+    /// stiffness of small displacements.
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
@@ -245,7 +258,8 @@ impl FemModel {
     /// The model with other links, and with base and static forces of P–Δ by these links.
     pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
         let linked = Self { links: Some(links), ..self };
-        let linked = Self { base: linked.foot_base()?, ..linked };
+        let inelastic = linked.undeformed_inelastic_elements()?;
+        let linked = Self { base: linked.foot_base()?, inelastic, ..linked };
         match linked.p_delta_gravity {
             Some(gravity) => linked.with_p_delta(gravity),
             None => Ok(linked),
@@ -289,29 +303,6 @@ impl FemModel {
         }
     }
 
-    /// Displacements of an element's degrees of freedom, in the order of its matrices.
-    ///
-    /// [`Shell::resultants`](crate::fem::Shell::resultants) and forces of other elements are computed from them.
-    /// `displacement` holds all degrees of freedom of the model, such as `State::displacement`. A follower of a rigid
-    /// link or a diaphragm moves with its leader. The element need not belong to the mesh.
-    ///
-    /// # Errors
-    /// [`Error::Size`] for a displacement of another length; as for [`row`](FemModel::row).
-    pub fn element_displacements(
-        &self,
-        element: &dyn Element,
-        displacement: &[f64],
-    ) -> Result<Vec<f64>> {
-        same_length("displacement of the model", displacement.len(), self.dofs())?;
-        let mut values = Vec::with_capacity(element.order());
-        for &node in element.nodes() {
-            for &direction in element.directions() {
-                values.push(self.row(node, direction)?.value(displacement));
-            }
-        }
-        Ok(values)
-    }
-
     /// Adds matrices of all elements, times their factors, for the remaining degrees of freedom.
     pub(super) fn add_matrices(&self, matrix: &mut Triplets, weighted_kinds: &[(MatrixKind, f64)]) {
         match &self.links {
@@ -352,10 +343,11 @@ impl Structure for FemModel {
         Ok(())
     }
 
+    /// Stiffness of the linear elements; the others act by the nonlinear force.
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_matrices(
             matrix,
-            &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)],
+            &[(MatrixKind::LinearStiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)],
         );
         Ok(())
     }
@@ -392,5 +384,13 @@ impl Structure for FemModel {
         weighted_kinds.retain(|(_, factor)| *factor > 0.0);
         self.add_matrices(matrix, &weighted_kinds);
         Ok(())
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.inelastic.as_ref().map(|force| force as &dyn NonlinearForce)
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.inelastic.as_mut().map(|force| force as &mut dyn NonlinearForce)
     }
 }

@@ -27,6 +27,10 @@ impl NonlinearForce for StructureGroup {
         Ok(())
     }
 
+    fn has_symmetric_tangent(&self) -> bool {
+        self.nonlinear_members().all(|(_, force)| force.has_symmetric_tangent())
+    }
+
     /// Energies of all members; `None` unless all nonlinear members return theirs.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         self.nonlinear_members().try_fold(
@@ -35,6 +39,29 @@ impl NonlinearForce for StructureGroup {
                 Some(sum + nonlinear_force.energy(displacement.get(member.dof_range())?)?)
             },
         )
+    }
+
+    /// Remainders of all members; `None` unless all nonlinear members return theirs.
+    fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
+        self.nonlinear_members().try_fold(0.0, |sum, (member, nonlinear_force)| {
+            let range = member.dof_range();
+            let midstep = midstep.get(range.clone())?;
+            Some(sum + nonlinear_force.remainder(midstep, end.get(range)?)?)
+        })
+    }
+
+    /// Text of the first member that has one for its degrees of freedom, which are tried in their order.
+    fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
+        dofs.iter().find_map(|dof| {
+            let members = self.members.iter().enumerate();
+            let (index, member) =
+                members.into_iter().find(|(_, member)| member.dof_range().contains(dof))?;
+            let member_displacement = displacement.get(member.dof_range())?;
+            let member_dofs = [dof - member.first_dof];
+            let force = member.structure.nonlinear()?;
+            let text = force.describe_state(member_displacement, &member_dofs)?;
+            Some(format!("structure {index}: {text}"))
+        })
     }
 
     fn commit(&mut self, displacement: &[f64]) {

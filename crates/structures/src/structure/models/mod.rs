@@ -4,12 +4,14 @@ mod base_reactions;
 mod beam_rows;
 mod cut;
 mod dof_names;
+mod element_state;
 mod feet;
 mod fem_model;
 mod group;
 mod group_forces;
 #[cfg(feature = "embedded")]
 mod in_trench;
+mod inelastic_elements;
 mod line_load;
 mod linked;
 mod matrix_model;

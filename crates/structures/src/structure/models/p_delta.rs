@@ -1,6 +1,7 @@
 //! P–Δ effect of finite-element models: static forces by the weight, and the buckling factor.
 
-use crate::error::{Error, Result, StructureError, not_negative};
+use super::inelastic_elements::InelasticElements;
+use crate::error::{Error, Result, StructureError, not_negative, require_part};
 use crate::fem::{MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::submatrix;
@@ -32,6 +33,7 @@ impl FemModel {
     ///   force increases downwards by the weight of the beam; a truss has the mean force.
     ///   [`Element::compression`](crate::fem::Element::compression) returns the force.
     /// * Reactions of the ground that are not vertical, such as the thrust of a portal, rotate with the base.
+    /// * Elements with internal variables have the static forces of small displacements, as if they did not yield.
     /// * A force prescribed by [`Beam::with_compression`](crate::fem::Beam::with_compression) does not change.
     ///   Prescribed forces are not in equilibrium with the weights, so the previous rule and the last paragraph do not
     ///   hold with them.
@@ -68,9 +70,14 @@ impl FemModel {
     /// # Errors
     /// [`Error::Input`] unless `gravity` is finite and not negative, [`Error::Singular`] when the structure is a
     /// mechanism on fixed contact nodes, [`StructureError::Buckling`] when it buckles there, also under prescribed
-    /// forces; and errors of its matrices.
+    /// forces; [`Error::Scene`] for elements with an initial stress; and errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
+        require_part(
+            "model with P–Δ",
+            !self.inelastic.as_ref().is_some_and(InelasticElements::has_initial_stress),
+            "its elements must have no initial stress: their static forces do not follow from the weight",
+        )?;
         // The present entries belong to the links of an earlier call.
         self.link_and_base_stiffness = Vec::new();
         let displacement = self.static_displacement(gravity)?;
@@ -86,6 +93,7 @@ impl FemModel {
             self.add_base_stiffness(&displacement, gravity, &mut link_entries)?;
         }
         self.link_and_base_stiffness = link_entries;
+        self.inelastic = self.undeformed_inelastic_elements()?;
         self.p_delta_gravity = Some(gravity);
         let fixed_base = FixedBaseModel::new(&self)?;
         if fixed_base.is_stable_at(1.0)? {

@@ -51,7 +51,8 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no
-    /// element lies above it, or when an element crosses it; [`Error::Scene`](crate::Error::Scene) for a mesh in
+    /// element lies above it, or when an element crosses it; [`Error::Part`](crate::Error::Part) when an element above
+    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in
     /// space, for which [`section_in_space`](FemModel::section_in_space) exists.
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
         require_part(

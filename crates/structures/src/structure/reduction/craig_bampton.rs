@@ -111,7 +111,7 @@ impl CraigBampton {
     /// fixed, or its stiffness is not positive definite.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.dofs();
-        let needed = "must be linear: add springs to the reduced model";
+        let needed = "must be linear: add springs to the reduced model, and do not reduce elements with internal variables";
         check_nonlinear_force(&mut structure)?;
         require_part("structure to be reduced", structure.nonlinear().is_none(), needed)?;
         let mut triplets = Triplets::new(n);

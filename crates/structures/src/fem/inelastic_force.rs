@@ -1,0 +1,126 @@
+//! Forces of elements with internal variables.
+
+use super::internal_energy::InternalEnergy;
+use super::solid::SolidState;
+use crate::error::Result;
+
+/// Force of an element with internal variables, such as plastic strains.
+///
+/// An [`Element`](super::Element) returns it by [`Element::inelastic`](super::Element::inelastic), and a
+/// [`FemModel`](crate::structure::FemModel) with such an element has a
+/// [`NonlinearForce`](crate::structure::NonlinearForce). The model stores the internal variables of all elements, and
+/// passes each element its own. `coordinates` holds [x, y, z] (m) of the element's nodes, and `displacement` its degrees
+/// of freedom (m, rad) in the order of its matrices.
+///
+/// `variables` are those **committed** at the end of the last step. Force, tangent and energy belong to the straight
+/// path from the committed displacement to `displacement`; only [`commit`](InelasticForce::commit) changes variables.
+pub trait InelasticForce: Send + Sync {
+    /// Number of the element's internal variables.
+    fn variable_count(&self) -> usize;
+
+    /// Overwrites `variables` by those of the undeformed element.
+    ///
+    /// # Errors
+    /// Any, for a state at rest that the element cannot have.
+    fn initialize(&self, coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()>;
+
+    /// Adds the nodal forces (N, in the plane per metre) to `force`.
+    ///
+    /// # Errors
+    /// Any: the step ends with it, and nothing of the step is committed.
+    fn force(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        force: &mut [f64],
+    ) -> Result<()>;
+
+    /// Adds the tangent ∂force/∂displacement, row by row, to `matrix`.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn tangent(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        matrix: &mut [f64],
+    ) -> Result<()>;
+
+    /// Whether the tangent is symmetric at every displacement. Default: yes.
+    fn has_symmetric_tangent(&self) -> bool {
+        true
+    }
+
+    /// Stored energy, and energy dissipated since the undeformed state, J (in the plane per metre).
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn energy(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+    ) -> Result<InternalEnergy>;
+
+    /// Work of the force inside a step that is neither stored nor dissipated, J (in the plane per metre).
+    ///
+    /// It is f(`midstep`)·(`end` − `start`) less the changes of [`energy`](InelasticForce::energy) from `start`, the
+    /// committed displacement, to `end`; `displacements` are start, midstep and end. Compute it from a formula of its own where there is one: the energy balance of
+    /// a run then checks force and energies.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn remainder(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacements: [&[f64]; 3],
+        variables: &[f64],
+    ) -> Result<f64>;
+
+    /// Overwrites `variables` by those after a step that ended with `displacement`.
+    fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]);
+
+    /// States of the integration points, for results and pictures. Default: none.
+    ///
+    /// # Errors
+    /// As for [`force`](InelasticForce::force).
+    fn points(
+        &self,
+        _coordinates: &[[f64; 3]],
+        _displacement: &[f64],
+        _variables: &[f64],
+    ) -> Result<Vec<SolidPoint>> {
+        Ok(Vec::new())
+    }
+}
+
+/// State of a solid at an integration point of an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct SolidPoint {
+    /// Position [x, y] in the undeformed mesh, m.
+    pub position: [f64; 2],
+    /// Area of the integration point, m².
+    pub area: f64,
+    /// Strains `[xx, yy, zz, xy]`, with the engineering shear strain.
+    pub strain: [f64; 4],
+    /// Stresses `[xx, yy, zz, xy]`, Pa; tension is positive.
+    pub stress: [f64; 4],
+    /// Plastic strain and mobilised strength.
+    pub state: SolidState,
+}
+
+impl SolidPoint {
+    /// State at a position, m, that stands for an area, m².
+    pub fn new(
+        position: [f64; 2],
+        area: f64,
+        strain: [f64; 4],
+        stress: [f64; 4],
+        state: SolidState,
+    ) -> Self {
+        Self { position, area, strain, stress, state }
+    }
+}

@@ -1,0 +1,282 @@
+//! Solid of a quadrilateral by integration points: force with internal variables, and stiffness of small strains.
+
+use std::ops::Range;
+
+use super::inelastic_force::{InelasticForce, SolidPoint};
+use super::internal_energy::InternalEnergy;
+use super::solid::{SharedMaterial, SolidMaterial, StrainPath};
+use crate::error::{Result, all_finite, same_length};
+
+/// Integration point of a quadrilateral with N degrees of freedom.
+pub(super) struct IntegrationPoint<const N: usize> {
+    /// Index among the points of the element.
+    pub(super) index: usize,
+    /// Natural coordinates (ξ, η).
+    pub(super) natural: [f64; 2],
+    /// Area of the point, m²: the weight of the rule times the Jacobian.
+    pub(super) area: f64,
+    /// Strains `[xx, yy, zz, xy]` by each degree of freedom, 1/m.
+    pub(super) strains: [[f64; 4]; N],
+}
+
+impl<const N: usize> IntegrationPoint<N> {
+    /// Strain at the point by the displacements of the nodes, m.
+    fn strain(&self, displacement: &[f64]) -> [f64; 4] {
+        let mut strain = [0.0; 4];
+        for (column, u) in self.strains.iter().zip(displacement) {
+            for (sum, entry) in strain.iter_mut().zip(column) {
+                *sum += entry * u;
+            }
+        }
+        strain
+    }
+
+    /// Adds the nodal forces of a stress, Pa, to `force`.
+    fn add_force(&self, stress: [f64; 4], force: &mut [f64]) {
+        for (nodal_force, column) in force.iter_mut().zip(&self.strains) {
+            *nodal_force += self.area * inner_product(column, &stress);
+        }
+    }
+
+    /// Adds the stiffness of a tangent ∂stress/∂strain, Pa, to a row-major `matrix`.
+    fn add_stiffness(&self, tangent: &[[f64; 4]; 4], matrix: &mut [f64]) {
+        let stresses = self
+            .strains
+            .map(|column| tangent.map(|row| self.area * inner_product(&row, &column)));
+        for (row, strains) in matrix.chunks_exact_mut(N).zip(&self.strains) {
+            for (entry, stress) in row.iter_mut().zip(&stresses) {
+                *entry += inner_product(strains, stress);
+            }
+        }
+    }
+}
+
+fn inner_product(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+}
+
+/// Integration rule of a quadrilateral with N degrees of freedom.
+pub(super) trait IntegrationRule<const N: usize>: Copy + Send + Sync {
+    /// Number of integration points.
+    fn point_count(self) -> usize;
+
+    /// Calls `visit` at every integration point; ends at its first error.
+    ///
+    /// `coordinates` has the [x, y, z] of the N/2 nodes.
+    fn visit_points(
+        self,
+        coordinates: &[[f64; 3]],
+        visit: impl FnMut(&IntegrationPoint<N>) -> Result<()>,
+    ) -> Result<()>;
+
+    /// Weights of the N/2 nodes in the position of natural coordinates (ξ, η).
+    fn node_weights(self, natural: [f64; 2]) -> impl IntoIterator<Item = f64>;
+}
+
+/// Material of a quadrilateral with N degrees of freedom, its stress at rest, and its integration rule.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct QuadSolid<R, const N: usize> {
+    pub(super) material: SharedMaterial,
+    pub(super) rule: R,
+    /// Stress `[xx, yy, zz, xy]` of the undeformed element, Pa.
+    initial_stress: [f64; 4],
+}
+
+impl<R: IntegrationRule<N>, const N: usize> QuadSolid<R, N> {
+    pub(super) fn new(material: SharedMaterial, rule: R) -> Self {
+        Self { material, rule, initial_stress: [0.0; 4] }
+    }
+
+    /// Replaces the stress of the undeformed element, Pa.
+    pub(super) fn with_initial_stress(self, initial_stress: [f64; 4]) -> Self {
+        Self { initial_stress, ..self }
+    }
+
+    pub(super) fn with_rule(self, rule: R) -> Self {
+        Self { rule, ..self }
+    }
+
+    /// The force with internal variables; `None` for a linear elastic material.
+    pub(super) fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        self.material.inelastic().map(|_| self as &dyn InelasticForce)
+    }
+
+    /// Adds the stiffness of small strains to a row-major `matrix`.
+    pub(super) fn add_small_strain_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        let elasticity = self.law().elasticity();
+        let visit = |point: &IntegrationPoint<N>| {
+            point.add_stiffness(&elasticity, matrix);
+            Ok(())
+        };
+        // The visit returns no error.
+        let _ = self.rule.visit_points(coordinates, visit);
+    }
+
+    /// Returns an error for an initial stress that the material cannot have.
+    pub(super) fn check_initial_stress(&self) -> Result<()> {
+        all_finite("initial stress of a quadrilateral", &self.initial_stress)?;
+        let mut variables = vec![0.0; self.law().variable_count()];
+        self.law().initialize(self.initial_stress, &mut variables)
+    }
+
+    fn law(&self) -> &dyn SolidMaterial {
+        self.material.law()
+    }
+
+    /// Range of a point's internal variables among those of the element.
+    fn variable_range(&self, index: usize) -> Range<usize> {
+        let count = self.law().variable_count();
+        index * count..(index + 1) * count
+    }
+
+    /// Returns an error for lists of other lengths than those of the element.
+    fn check_lengths(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+    ) -> Result<()> {
+        same_length("coordinates of a quadrilateral", coordinates.len(), N / 2)?;
+        same_length("displacement of a quadrilateral", displacement.len(), N)?;
+        let variable_count = self.variable_count();
+        same_length("internal variables of a quadrilateral", variables.len(), variable_count)
+    }
+}
+
+impl<R: IntegrationRule<N>, const N: usize> InelasticForce for QuadSolid<R, N> {
+    fn variable_count(&self) -> usize {
+        self.rule.point_count() * self.law().variable_count()
+    }
+
+    fn initialize(&self, _coordinates: &[[f64; 3]], variables: &mut [f64]) -> Result<()> {
+        let variable_count = self.variable_count();
+        same_length("internal variables of a quadrilateral", variables.len(), variable_count)?;
+        (0..self.rule.point_count()).try_for_each(|index| {
+            let range = self.variable_range(index);
+            self.law().initialize(self.initial_stress, &mut variables[range])
+        })
+    }
+
+    fn force(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        force: &mut [f64],
+    ) -> Result<()> {
+        self.check_lengths(coordinates, displacement, variables)?;
+        self.rule.visit_points(coordinates, |point| {
+            let point_variables = &variables[self.variable_range(point.index)];
+            let stress = self.law().stress(point.strain(displacement), point_variables)?;
+            point.add_force(stress, force);
+            Ok(())
+        })
+    }
+
+    fn tangent(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+        matrix: &mut [f64],
+    ) -> Result<()> {
+        self.check_lengths(coordinates, displacement, variables)?;
+        self.rule.visit_points(coordinates, |point| {
+            let point_variables = &variables[self.variable_range(point.index)];
+            let tangent = self.law().tangent(point.strain(displacement), point_variables)?;
+            point.add_stiffness(&tangent, matrix);
+            Ok(())
+        })
+    }
+
+    fn has_symmetric_tangent(&self) -> bool {
+        self.law().has_symmetric_tangent()
+    }
+
+    fn energy(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+    ) -> Result<InternalEnergy> {
+        self.check_lengths(coordinates, displacement, variables)?;
+        let mut sum = InternalEnergy::default();
+        self.rule.visit_points(coordinates, |point| {
+            let point_variables = &variables[self.variable_range(point.index)];
+            let density = self.law().energy(point.strain(displacement), point_variables)?;
+            sum.stored += point.area * density.stored;
+            sum.dissipated += point.area * density.dissipated;
+            Ok(())
+        })?;
+        Ok(sum)
+    }
+
+    fn remainder(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacements: [&[f64]; 3],
+        variables: &[f64],
+    ) -> Result<f64> {
+        for displacement in displacements {
+            self.check_lengths(coordinates, displacement, variables)?;
+        }
+        let mut sum = 0.0;
+        self.rule.visit_points(coordinates, |point| {
+            let point_variables = &variables[self.variable_range(point.index)];
+            let path = StrainPath {
+                start: point.strain(displacements[0]),
+                midstep: point.strain(displacements[1]),
+                end: point.strain(displacements[2]),
+            };
+            sum += point.area * self.law().remainder(&path, point_variables)?;
+            Ok(())
+        })?;
+        Ok(sum)
+    }
+
+    /// Lists of other lengths than those of the element change nothing.
+    fn commit(&self, coordinates: &[[f64; 3]], displacement: &[f64], variables: &mut [f64]) {
+        if self.check_lengths(coordinates, displacement, variables).is_err() {
+            return;
+        }
+        let visit = |point: &IntegrationPoint<N>| {
+            let range = self.variable_range(point.index);
+            self.law().commit(point.strain(displacement), &mut variables[range]);
+            Ok(())
+        };
+        // The visit returns no error.
+        let _ = self.rule.visit_points(coordinates, visit);
+    }
+
+    fn points(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        variables: &[f64],
+    ) -> Result<Vec<SolidPoint>> {
+        self.check_lengths(coordinates, displacement, variables)?;
+        let mut points = Vec::with_capacity(self.rule.point_count());
+        self.rule.visit_points(coordinates, |point| {
+            let point_variables = &variables[self.variable_range(point.index)];
+            let strain = point.strain(displacement);
+            let mut position = [0.0; 2];
+            for (weight, node) in self.rule.node_weights(point.natural).into_iter().zip(coordinates)
+            {
+                position[0] += weight * node[0];
+                position[1] += weight * node[1];
+            }
+            points.push(SolidPoint {
+                position,
+                area: point.area,
+                strain,
+                stress: self.law().stress(strain, point_variables)?,
+                state: self.law().state(strain, point_variables),
+            });
+            Ok(())
+        })?;
+        Ok(points)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,378 @@
+//! Nonlinear force of a model's elements with internal variables.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::error::{CheckpointError, Result, all_finite, same_length};
+use crate::fem::{Direction, Element, InelasticForce, Mesh, SolidPoint, SolidState};
+use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Triplets};
+
+/// An element with internal variables, and its degrees of freedom in the model.
+#[derive(Clone)]
+struct InelasticElement {
+    /// Index in the mesh.
+    index: usize,
+    element: Arc<dyn Element>,
+    coordinates: Vec<[f64; 3]>,
+    /// Terms (degree of freedom, weight) of the element's degrees of freedom, one after the other.
+    terms: Vec<(usize, f64)>,
+    /// Range of the terms of each of the element's degrees of freedom.
+    rows: Vec<Range<usize>>,
+    /// Range of the element's internal variables.
+    variables: Range<usize>,
+}
+
+impl InelasticElement {
+    /// Overwrites `element_displacement` by the displacements of the element's degrees of freedom.
+    fn gather(&self, displacement: &[f64], element_displacement: &mut [f64]) {
+        for (value, row) in element_displacement.iter_mut().zip(&self.rows) {
+            let terms = self.terms[row.clone()].iter();
+            *value = terms.map(|&(dof, weight)| weight * displacement[dof]).sum();
+        }
+    }
+
+    /// Adds forces on the element's degrees of freedom to those on the model's.
+    fn scatter(&self, element_force: &[f64], force: &mut [f64]) {
+        for (element_value, row) in element_force.iter().zip(&self.rows) {
+            for &(dof, weight) in &self.terms[row.clone()] {
+                force[dof] += weight * element_value;
+            }
+        }
+    }
+
+    /// Adds a matrix of the element, with all its zeros, to that of the model.
+    fn scatter_matrix(&self, element_matrix: &[f64], matrix: &mut Triplets) {
+        for (values, row) in element_matrix.chunks_exact(self.rows.len()).zip(&self.rows) {
+            for (value, column) in values.iter().zip(&self.rows) {
+                for &(i, row_weight) in &self.terms[row.clone()] {
+                    for &(j, column_weight) in &self.terms[column.clone()] {
+                        matrix.add(i, j, row_weight * column_weight * value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Text that names the element in errors.
+    fn name(&self) -> String {
+        format!("element {} on nodes {:?}", self.index, self.element.nodes())
+    }
+}
+
+/// State of the point of an element that is nearest to failure, and the element's name.
+struct NamedState {
+    name: String,
+    state: SolidState,
+}
+
+/// Order of states by mobilised strength, then by plastic strain.
+fn by_strength(a: &SolidState, b: &SolidState) -> Ordering {
+    let strengths = a.mobilised_strength.total_cmp(&b.mobilised_strength);
+    strengths.then(a.plastic_strain.total_cmp(&b.plastic_strain))
+}
+
+/// Displacements, forces and matrix of one element.
+struct Scratch {
+    displacements: [Vec<f64>; 3],
+    force: Vec<f64>,
+    matrix: Vec<f64>,
+}
+
+impl Scratch {
+    /// Scratch for elements with up to this number of degrees of freedom.
+    fn new(max_order: usize) -> Self {
+        let zeros = vec![0.0; max_order];
+        Self {
+            displacements: [zeros.clone(), zeros.clone(), zeros.clone()],
+            force: zeros,
+            matrix: vec![0.0; max_order * max_order],
+        }
+    }
+}
+
+/// Elements of a model that have internal variables, as its nonlinear force.
+pub(super) struct InelasticElements {
+    elements: Vec<InelasticElement>,
+    dof_count: usize,
+    /// Internal variables of all elements at the end of the last step.
+    variables: Vec<f64>,
+    /// Displacement of the model at the end of the last step, m and rad.
+    committed_displacement: Vec<f64>,
+    /// Energies of the undeformed model, from which energies count.
+    energy_at_rest: InternalEnergy,
+    /// Whether forces act at zero displacement.
+    has_initial_stress: bool,
+    /// Buffers of evaluations, which do not allocate.
+    scratch: Mutex<Scratch>,
+}
+
+short_debug! {
+    InelasticElements; self; elements: self.elements.len(), variables: self.variables.len()
+}
+
+impl Clone for InelasticElements {
+    fn clone(&self) -> Self {
+        let orders = self.elements.iter().map(|element| element.rows.len());
+        Self {
+            elements: self.elements.clone(),
+            dof_count: self.dof_count,
+            variables: self.variables.clone(),
+            committed_displacement: self.committed_displacement.clone(),
+            energy_at_rest: self.energy_at_rest,
+            has_initial_stress: self.has_initial_stress,
+            scratch: Mutex::new(Scratch::new(orders.max().unwrap_or(0))),
+        }
+    }
+}
+
+impl InelasticElements {
+    /// Elements of a mesh in their undeformed state; `None` if all are linear.
+    ///
+    /// `row` returns the motion of a node by the model's `dof_count` degrees of freedom.
+    ///
+    /// # Errors
+    /// [`Error::Item`](crate::Error::Item) with the element and its error in the undeformed state.
+    pub(super) fn new(
+        mesh: &Mesh,
+        dof_count: usize,
+        row: impl Fn(usize, Direction) -> Result<DofCombination>,
+    ) -> Result<Option<Self>> {
+        let mut elements = Vec::new();
+        let mut variables = Vec::new();
+        let mut max_order = 0;
+        for (index, element) in mesh.shared_elements().enumerate() {
+            let Some(force) = element.inelastic() else { continue };
+            let first_variable = variables.len();
+            variables.resize(first_variable + force.variable_count(), 0.0);
+            let mut inelastic = InelasticElement {
+                index,
+                element: Arc::clone(element),
+                coordinates: mesh.coordinates(element.nodes()),
+                terms: Vec::new(),
+                rows: Vec::new(),
+                variables: first_variable..variables.len(),
+            };
+            for &node in element.nodes() {
+                for &direction in element.directions() {
+                    let first_term = inelastic.terms.len();
+                    inelastic.terms.extend(row(node, direction)?);
+                    inelastic.rows.push(first_term..inelastic.terms.len());
+                }
+            }
+            let element_variables = &mut variables[first_variable..];
+            force
+                .initialize(&inelastic.coordinates, element_variables)
+                .and_then(|()| all_finite("internal variables", element_variables))
+                .map_err(|fault| fault.within(inelastic.name()))?;
+            max_order = max_order.max(inelastic.rows.len());
+            elements.push(inelastic);
+        }
+        if elements.is_empty() {
+            return Ok(None);
+        }
+        let mut model = Self {
+            elements,
+            dof_count,
+            variables,
+            committed_displacement: vec![0.0; dof_count],
+            energy_at_rest: InternalEnergy::default(),
+            has_initial_stress: false,
+            scratch: Mutex::new(Scratch::new(max_order)),
+        };
+        let mut force = vec![0.0; dof_count];
+        model.force(&model.committed_displacement, &mut force)?;
+        model.has_initial_stress = force.iter().any(|force| *force != 0.0);
+        model.energy_at_rest = model.total_energy(&model.committed_displacement)?;
+        Ok(Some(model))
+    }
+
+    /// Whether forces act at zero displacement.
+    pub(super) fn has_initial_stress(&self) -> bool {
+        self.has_initial_stress
+    }
+
+    /// States of the integration points of an element at the end of the last step; `None` for a linear element.
+    pub(super) fn points(&self, element_index: usize) -> Option<Result<Vec<SolidPoint>>> {
+        let position = self.elements.binary_search_by_key(&element_index, |e| e.index).ok()?;
+        Some(self.points_at(&self.elements[position], &self.committed_displacement))
+    }
+
+    /// States of the integration points of an element at a displacement of the model.
+    fn points_at(
+        &self,
+        element: &InelasticElement,
+        displacement: &[f64],
+    ) -> Result<Vec<SolidPoint>> {
+        let Some(force) = element.element.inelastic() else { return Ok(Vec::new()) };
+        let mut element_displacement = vec![0.0; element.rows.len()];
+        element.gather(displacement, &mut element_displacement);
+        let variables = &self.variables[element.variables.clone()];
+        force.points(&element.coordinates, &element_displacement, variables)
+    }
+
+    fn scratch(&self) -> MutexGuard<'_, Scratch> {
+        self.scratch.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The elements with their forces and internal variables.
+    fn forces(&self) -> impl Iterator<Item = (&InelasticElement, &dyn InelasticForce, &[f64])> {
+        self.elements.iter().filter_map(|element| {
+            Some((
+                element,
+                element.element.inelastic()?,
+                &self.variables[element.variables.clone()],
+            ))
+        })
+    }
+
+    /// Returns an error for a displacement of another length.
+    fn check_length(&self, displacement: &[f64]) -> Result<()> {
+        same_length("displacement of the model", displacement.len(), self.dof_count)
+    }
+
+    /// Energies of all elements.
+    fn total_energy(&self, displacement: &[f64]) -> Result<InternalEnergy> {
+        self.check_length(displacement)?;
+        let mut scratch = self.scratch();
+        let mut sum = InternalEnergy::default();
+        for (element, force, variables) in self.forces() {
+            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
+            element.gather(displacement, element_displacement);
+            let energy = force.energy(&element.coordinates, element_displacement, variables);
+            sum = sum + energy.map_err(|fault| fault.within(element.name()))?;
+        }
+        Ok(sum)
+    }
+
+    /// Work of all elements' forces inside a step that is neither stored nor dissipated.
+    fn total_remainder(&self, midstep: &[f64], end: &[f64]) -> Result<f64> {
+        self.check_length(midstep)?;
+        self.check_length(end)?;
+        let mut scratch = self.scratch();
+        let mut sum = 0.0;
+        for (element, force, variables) in self.forces() {
+            let displacements = [&self.committed_displacement, midstep, end];
+            for (buffer, displacement) in scratch.displacements.iter_mut().zip(displacements) {
+                element.gather(displacement, &mut buffer[..element.rows.len()]);
+            }
+            let path = scratch.displacements.each_ref().map(|u| &u[..element.rows.len()]);
+            let remainder = force.remainder(&element.coordinates, path, variables);
+            sum += remainder.map_err(|fault| fault.within(element.name()))?;
+        }
+        Ok(sum)
+    }
+}
+
+impl NonlinearForce for InelasticElements {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
+        self.check_length(displacement)?;
+        same_length("nonlinear force of the model", force.len(), self.dof_count)?;
+        let scratch = &mut *self.scratch();
+        for (element, inelastic_force, variables) in self.forces() {
+            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
+            let element_force = &mut scratch.force[..element.rows.len()];
+            element.gather(displacement, element_displacement);
+            element_force.fill(0.0);
+            inelastic_force
+                .force(&element.coordinates, element_displacement, variables, element_force)
+                .map_err(|fault| fault.within(element.name()))?;
+            element.scatter(element_force, force);
+        }
+        Ok(())
+    }
+
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
+        self.check_length(displacement)?;
+        let scratch = &mut *self.scratch();
+        for (element, inelastic_force, variables) in self.forces() {
+            let order = element.rows.len();
+            let element_displacement = &mut scratch.displacements[0][..order];
+            let element_matrix = &mut scratch.matrix[..order * order];
+            element.gather(displacement, element_displacement);
+            element_matrix.fill(0.0);
+            inelastic_force
+                .tangent(&element.coordinates, element_displacement, variables, element_matrix)
+                .map_err(|fault| fault.within(element.name()))?;
+            element.scatter_matrix(element_matrix, matrix);
+        }
+        Ok(())
+    }
+
+    fn has_symmetric_tangent(&self) -> bool {
+        self.forces().all(|(_, force, _)| force.has_symmetric_tangent())
+    }
+
+    /// Energies since the undeformed state; NaN for an element that returns an error.
+    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        let unknown = InternalEnergy { stored: f64::NAN, dissipated: f64::NAN };
+        let energy = self.total_energy(displacement).unwrap_or(unknown);
+        Some(InternalEnergy {
+            stored: energy.stored - self.energy_at_rest.stored,
+            dissipated: energy.dissipated - self.energy_at_rest.dissipated,
+        })
+    }
+
+    /// The remainder of all elements; NaN for an element that returns an error.
+    fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
+        Some(self.total_remainder(midstep, end).unwrap_or(f64::NAN))
+    }
+
+    /// The element with the highest mobilised strength at the first of the degrees of freedom that has one.
+    fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
+        self.check_length(displacement).ok()?;
+        dofs.iter().find_map(|dof| {
+            let touching_elements = self
+                .elements
+                .iter()
+                .filter(|element| element.terms.iter().any(|(term_dof, _)| term_dof == dof));
+            let states = touching_elements.filter_map(|element| {
+                let points = self.points_at(element, displacement).ok()?;
+                let states = points.iter().map(|point| point.state);
+                Some(NamedState { name: element.name(), state: states.max_by(by_strength)? })
+            });
+            let weakest = states.max_by(|a, b| by_strength(&a.state, &b.state))?;
+            Some(format!(
+                "{}: plastic strain {:.2e}, {:.0} % of its strength",
+                weakest.name,
+                weakest.state.plastic_strain,
+                100.0 * weakest.state.mobilised_strength
+            ))
+        })
+    }
+
+    /// A displacement of another length changes nothing.
+    fn commit(&mut self, displacement: &[f64]) {
+        if self.check_length(displacement).is_err() {
+            return;
+        }
+        let scratch = self.scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+        for element in &self.elements {
+            let Some(force) = element.element.inelastic() else { continue };
+            let element_displacement = &mut scratch.displacements[0][..element.rows.len()];
+            element.gather(displacement, element_displacement);
+            let variables = &mut self.variables[element.variables.clone()];
+            force.commit(&element.coordinates, element_displacement, variables);
+        }
+        self.committed_displacement.copy_from_slice(displacement);
+    }
+
+    /// Internal variables of all elements, then the displacement at the end of the last step.
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok([self.variables.as_slice(), &self.committed_displacement].concat())
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let value_count = self.variables.len() + self.dof_count;
+        if values.len() != value_count || values.iter().any(|value| !value.is_finite()) {
+            return Err(CheckpointError::Corrupt { quantity: "state of the elements" }.into());
+        }
+        let variable_count = self.variables.len();
+        self.variables.copy_from_slice(&values[..variable_count]);
+        self.committed_displacement.copy_from_slice(&values[variable_count..]);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

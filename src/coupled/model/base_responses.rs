@@ -1,0 +1,68 @@
+//! Responses of a large yielding structure to unit tractions, on the degrees of freedom of its base alone.
+//!
+//! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, it follows from a small dense factor, and
+//! the tractions that the problem returns need one more solution with K_eff.
+
+use crate::coupled::base::PlacedBase;
+use crate::linalg::ChangingFactor;
+
+/// Smallest number of degrees of freedom for which the base is eliminated last.
+///
+/// With fewer, all responses to unit tractions take little time.
+pub(super) const MIN_BASE_LAST_DOFS: usize = 400;
+
+/// Forces and mean displacements of the elements of a base, on its degrees of freedom.
+pub(super) struct BaseResponses {
+    /// The degrees of freedom of the base, ascending.
+    pub(super) dofs: Vec<usize>,
+    /// Forces BᵀA of unit tractions, one column after the other.
+    unit_forces: Vec<f64>,
+    /// Responses K_eff⁻¹ BᵀA on the base, one column after the other.
+    responses: Vec<f64>,
+    /// B, row-major.
+    means: Vec<f64>,
+}
+
+impl BaseResponses {
+    /// Forces and means of a base of a structure with this number of degrees of freedom.
+    pub(super) fn new(base: &PlacedBase, dof_count: usize) -> Self {
+        let dofs = base.dofs();
+        let order = base.layout().len();
+        let mut unit_forces = Vec::with_capacity(order * dofs.len());
+        let mut unit_traction = vec![0.0; order];
+        for i in 0..order {
+            let mut force = vec![0.0; dof_count];
+            unit_traction[i] = 1.0;
+            base.add_forces(1.0, &unit_traction, &mut force);
+            unit_traction[i] = 0.0;
+            unit_forces.extend(dofs.iter().map(|dof| force[*dof]));
+        }
+        let mut means = vec![0.0; order * dofs.len()];
+        let mut displacement = vec![0.0; dof_count];
+        let mut element_means = vec![0.0; order];
+        for (k, dof) in dofs.iter().enumerate() {
+            displacement[*dof] = 1.0;
+            base.means(&displacement, &mut element_means);
+            displacement[*dof] = 0.0;
+            means
+                .chunks_exact_mut(dofs.len())
+                .zip(&element_means)
+                .for_each(|(row, mean)| row[k] = *mean);
+        }
+        Self { dofs, responses: unit_forces.clone(), unit_forces, means }
+    }
+
+    /// Adds B K_eff⁻¹ BᵀA to the row-major `operator`, without allocating.
+    pub(super) fn add_to(&mut self, factor: &mut ChangingFactor, operator: &mut [f64]) {
+        let Self { dofs, unit_forces, responses, means } = self;
+        responses.copy_from_slice(unit_forces);
+        factor.solve_on_last_rows(responses);
+        let count = dofs.len();
+        let order = means.len() / count;
+        for (mean_row, row) in means.chunks_exact(count).zip(operator.chunks_exact_mut(order)) {
+            for (response, entry) in responses.chunks_exact(count).zip(row) {
+                *entry += mean_row.iter().zip(response).map(|(b, u)| b * u).sum::<f64>();
+            }
+        }
+    }
+}

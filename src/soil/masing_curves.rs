@@ -1,0 +1,113 @@
+//! Modulus reduction and damping by the backbone of a soil.
+
+use std::f64::consts::{FRAC_2_PI, LN_10};
+
+use super::strain_curves::StrainCurves;
+use crate::error::{Result, at_least, positive};
+
+/// Rows of the table in a decade of strain: curves between them are straight to 0.2 %.
+const ROWS_PER_DECADE: f64 = 20.0;
+/// Largest strain of the table over the last strain of the backbone.
+const MAX_STRAIN_RATIO: f64 = 10.0;
+
+impl StrainCurves {
+    /// Curves of a soil whose stress–strain loops follow Masing's rules on a backbone.
+    ///
+    /// `points`: shear strain (engineering) and shear stress (Pa) of the backbone, which is straight from the origin to the
+    /// first point and between points, and constant beyond the last one. Such are the
+    /// [points of Iwan's model](crate::fem::Iwan::points): a column of these curves is the equivalent-linear approximation
+    /// of that material. With the area A under the backbone up to the strain γ and its stress τ, the damping ratio is
+    /// (2/π)(2A/(γτ) − 1) (Kramer 1996, Geotechnical Earthquake Engineering, § 6.4.2).
+    ///
+    /// ```
+    /// use basemat::soil::StrainCurves;
+    ///
+    /// // Elastic–perfectly plastic: at twice the yield strain the ratio is (2/π)(2·1.5/2 − 1) = 1/π.
+    /// let curves = StrainCurves::masing(&[[0.001, 20.0e3]])?;
+    /// let [reduction, damping] = curves.at(0.002)?;
+    /// assert!((reduction - 0.5).abs() < 2e-3);
+    /// assert!((damping - std::f64::consts::FRAC_1_PI).abs() < 2e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) without points; [`Error::Item`](crate::Error::Item) with the number of the point
+    /// unless strains ascend from above zero and stresses are positive and finite.
+    pub fn masing(points: &[[f64; 2]]) -> Result<Self> {
+        at_least("points of the backbone", points.len(), 1)?;
+        let mut previous_strain = 0.0;
+        for (index, &[strain, stress]) in points.iter().enumerate() {
+            positive("increase of the shear strain", strain - previous_strain)
+                .and_then(|_| positive("shear stress", stress))
+                .map_err(|error| error.within(format!("point {} of the backbone", index + 1)))?;
+            previous_strain = strain;
+        }
+        let first_strain = points[0][0];
+        let max_strain = MAX_STRAIN_RATIO * previous_strain;
+        positive("range of the curves' strains", max_strain / first_strain)?;
+        let decades = (max_strain / first_strain).ln() / LN_10;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let row_count = (decades * ROWS_PER_DECADE).ceil().max(1.0) as usize;
+        let initial_modulus = points[0][1] / first_strain;
+        let mut rows = vec![[first_strain, 1.0, 0.0]];
+        for row in 1..=row_count {
+            let fraction = row as f64 / row_count as f64;
+            let strain = first_strain * (max_strain / first_strain).powf(fraction);
+            let (stress, area) = stress_and_area(points, strain);
+            let damping = FRAC_2_PI * (2.0 * area / (strain * stress) - 1.0);
+            rows.push([strain, stress / (strain * initial_modulus), damping.max(0.0)]);
+        }
+        Ok(Self::Table(rows))
+    }
+}
+
+/// Stress of a backbone at a strain, Pa, and the area below the backbone up to it, J/m³.
+fn stress_and_area(points: &[[f64; 2]], strain: f64) -> (f64, f64) {
+    let mut area = 0.0;
+    let mut start_strain = 0.0;
+    let mut start_stress = 0.0;
+    for &[end_strain, end_stress] in points {
+        if strain <= end_strain {
+            let slope = (end_stress - start_stress) / (end_strain - start_strain);
+            let stress = start_stress + slope * (strain - start_strain);
+            area += 0.5 * (start_stress + stress) * (strain - start_strain);
+            return (stress, area);
+        }
+        area += 0.5 * (start_stress + end_stress) * (end_strain - start_strain);
+        start_strain = end_strain;
+        start_stress = end_stress;
+    }
+    (start_stress, area + start_stress * (strain - start_strain))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The loop of an elastic–perfectly plastic spring has the area 4 τ (γ − γ_y), the triangle below it ½ τ γ.
+    #[test]
+    fn damping_is_the_area_of_the_loop() {
+        let curves = StrainCurves::masing(&[[0.001, 20.0e3]]).unwrap();
+        for strain in [0.0011_f64, 0.003, 0.009] {
+            let [reduction, damping] = curves.at(strain).unwrap();
+            let exact = 4.0 * (strain - 0.001) / (4.0 * std::f64::consts::PI * 0.5 * strain);
+            assert!((damping - exact).abs() < 3e-3, "{strain}: {damping} {exact}");
+            assert!((reduction - 0.001 / strain).abs() < 3e-3);
+        }
+        assert_eq!(curves.at(0.0005).unwrap(), [1.0, 0.0]);
+    }
+
+    #[test]
+    fn bad_backbones_are_refused() {
+        assert!(StrainCurves::masing(&[]).is_err());
+        for points in [
+            [[0.0, 1.0], [1.0, 2.0]],
+            [[0.1, 1.0], [0.1, 2.0]],
+            [[0.1, f64::NAN], [0.2, 2.0]],
+            [[0.1, 1.0], [f64::INFINITY, 2.0]],
+            [[0.1, 1.0], [f64::MAX, 2.0]],
+        ] {
+            assert!(StrainCurves::masing(&points).is_err(), "{points:?}");
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! GOAL: blocks of soil that yields, shaken on a half-plane: the balance closes with the remainder of the laws.
+//! SCENE: a block of `Quad8` of clay (Iwan) or sand (Drucker–Prager) that slides and uplifts; few and many elements.
+//! REFERENCE: the identity of the energies, in which force, energies and remainder come from formulas of their own.
+
+use basemat::coupled::{EnergyBalance, State};
+use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
+use basemat::results::Run;
+use basemat::structure::FemModel;
+
+use basemat_problems::scenes::{SI_UNITS, friction, scene};
+
+/// Block of `columns` × `rows` elements under two pulses, bonded to nothing, and the balance after each step.
+fn shaken_block(
+    material: impl Into<SharedMaterial>,
+    columns: usize,
+    rows: usize,
+) -> (Run, Vec<EnergyBalance>) {
+    let material = material.into();
+    let lines = |count: usize, start: f64, length: f64| -> Vec<f64> {
+        (0..=count).map(|i| start + length * i as f64 / count as f64).collect()
+    };
+    let [x, y] = [lines(columns, -2.0, 4.0), lines(rows, 0.0, 5.0)];
+    let mesh = Mesh::quad8_block(&x, &y, |_, _| material.clone()).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    let builder = scene(SI_UNITS, 0.6).structure(model).interface(friction(0.7));
+    let mut balances = Vec::new();
+    let mut simulation = builder.build().unwrap();
+    let mut iterations = 0;
+    let observe = |state: &State| {
+        balances.push(state.energy_balance);
+        iterations += state.trials;
+    };
+    let run = simulation.run(320, observe).unwrap();
+    println!(
+        "{columns} × {rows}: {:.2} trials a step, open by {:.1e}",
+        iterations as f64 / 320.0,
+        run.energy_error
+    );
+    println!("{}", run.energy_balance);
+    (run, balances)
+}
+
+/// Checks the balance, and that the heat of the soil grows; with `is_associated` also the remainder.
+fn assert_energies(run: &Run, balances: &[EnergyBalance], is_associated: bool) {
+    let largest = run.energy_balance.largest;
+    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+    assert!(run.energy_balance.algorithmic == 0.0);
+    assert!(
+        run.energy_balance.hysteresis > 0.02 * run.energy_balance.input,
+        "{}",
+        run.energy_balance
+    );
+    assert!(run.energy_balance.midstep_remainder.abs() > 1e-6 * largest);
+    for pair in balances.windows(2) {
+        assert!(pair[1].hysteresis >= pair[0].hysteresis - 1e-13 * largest);
+        let remainder = pair[1].midstep_remainder - pair[0].midstep_remainder;
+        assert!(!is_associated || remainder >= -1e-13 * largest, "{remainder:e}");
+    }
+}
+
+fn clay() -> Iwan {
+    Iwan::hyperbolic(40e6, 90e3, 0.45, 0.45, 1900.0).unwrap()
+}
+
+fn sand(dilation_angle: f64) -> DruckerPrager {
+    let elastic = Material::new(80e6, 0.3, 1900.0).unwrap();
+    DruckerPrager::new(elastic, 20e3, 0.55, dilation_angle).unwrap()
+}
+
+#[test]
+fn clay_closes_the_balance_with_few_and_many_elements() {
+    for (columns, rows) in [(4, 5), (6, 10)] {
+        let (run, balances) = shaken_block(clay(), columns, rows);
+        assert_energies(&run, &balances, true);
+    }
+}
+
+#[test]
+fn sand_closes_the_balance_with_any_dilation() {
+    for (dilation_angle, columns) in [(0.55, 4), (0.1, 4), (0.1, 8)] {
+        let (run, balances) = shaken_block(sand(dilation_angle), columns, 2 * columns);
+        assert_energies(&run, &balances, dilation_angle == 0.55);
+    }
+}

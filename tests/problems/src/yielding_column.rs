@@ -1,0 +1,113 @@
+//! A soil column that yields under vertically propagating shear waves, on a rigid base.
+//!
+//! The reference is a program of two-node cells with lumped mass: `tests/data/yielding/column_iwan.csv`.
+
+use std::f64::consts::{PI, TAU};
+
+use basemat::bem::SpringGround;
+use basemat::fem::{Direction, Iwan, Mesh, SharedMaterial};
+use basemat::interface::Bonded;
+use basemat::motion::Record;
+use basemat::structure::FemModel;
+use basemat::{Result, Simulation};
+
+/// Height and width of the column, m.
+const COLUMN_HEIGHT: f64 = 20.0;
+const COLUMN_WIDTH: f64 = 1.0;
+/// Shear modulus, Pa, and strength, Pa, of the clay, and its strain at the strength over `STRENGTH / SHEAR_MODULUS`.
+const SHEAR_MODULUS: f64 = 45.6e6;
+const STRENGTH: f64 = 40.0e3;
+const LIMIT_STRAIN_RATIO: f64 = 200.0;
+/// kg/m³. Poisson's ratio has no effect on shear waves.
+const DENSITY: f64 = 1900.0;
+const POISSON: f64 = 0.3;
+/// Duration of the motion, s.
+const DURATION: f64 = 8.0;
+
+/// Clay of the column.
+pub fn clay() -> Iwan {
+    let limit_strain = LIMIT_STRAIN_RATIO * STRENGTH / SHEAR_MODULUS;
+    Iwan::hyperbolic(SHEAR_MODULUS, STRENGTH, limit_strain, POISSON, DENSITY).unwrap()
+}
+
+/// Acceleration of the base, m/s².
+pub fn base_acceleration(time: f64) -> f64 {
+    3.0 * (TAU * 1.5 * time).sin() * (PI * (time / 6.0).min(1.0)).sin().powi(2)
+}
+
+/// Column of `row_count` elements with tied sides.
+pub fn tied_column(row_count: usize, material: &SharedMaterial) -> Result<FemModel> {
+    let y_lines: Vec<f64> =
+        (0..=row_count).map(|row| COLUMN_HEIGHT * row as f64 / row_count as f64).collect();
+    let mesh = Mesh::quad8_block(&[0.0, COLUMN_WIDTH], &y_lines, |_, _| material.clone())?;
+    let mut pairs = Vec::new();
+    for level in 0..=2 * row_count {
+        let height = 0.5 * COLUMN_HEIGHT * level as f64 / row_count as f64;
+        pairs.push([mesh.node_at(0.0, height)?, mesh.node_at(COLUMN_WIDTH, height)?]);
+    }
+    let mut column = FemModel::on_base(mesh)?;
+    for [left, right] in pairs {
+        column = column.with_tied_nodes(left, &[right])?;
+    }
+    Ok(column)
+}
+
+/// The column on a rigid base that moves with [`base_acceleration`].
+pub fn scene(row_count: usize, time_step: f64, material: &SharedMaterial) -> Result<Simulation> {
+    let column = tied_column(row_count, material)?;
+    Simulation::builder(time_step)
+        .ground(SpringGround::under(&column, 2, 1.0e12, 1.0e12)?)
+        .structure(column)
+        .interface(Bonded)
+        .gravity(0.0)
+        .motion(Record::from_fn(time_step, DURATION, base_acceleration)?)
+        .on_fixed_base()
+        .build()
+}
+
+/// Displacement of the top relative to the base, and mean shear stress of the lowest element, step by step.
+#[derive(Debug, Clone, Default)]
+pub struct ColumnResponse {
+    /// m.
+    pub top_displacement: Vec<f64>,
+    /// Pa.
+    pub base_stress: Vec<f64>,
+    /// Shear strain and stress of a point of the lowest element.
+    pub stress_path: Vec<[f64; 2]>,
+    /// Largest residual of the energy balance.
+    pub energy_error: f64,
+    /// Dissipation of the soil, and the mid-step remainder, at the end, J/m.
+    pub hysteresis: f64,
+    pub midstep_remainder: f64,
+}
+
+/// Runs the column for the whole motion.
+pub fn response(
+    row_count: usize,
+    time_step: f64,
+    material: &SharedMaterial,
+) -> Result<ColumnResponse> {
+    let mut simulation = scene(row_count, time_step, material)?;
+    let model = tied_column(row_count, material)?;
+    let top = model.row(model.mesh().node_at(0.0, COLUMN_HEIGHT)?, Direction::X)?;
+    let foot = model.row(model.mesh().node_at(0.0, 0.0)?, Direction::X)?;
+    let mut response = ColumnResponse::default();
+    let step_count = simulation.steps_for(DURATION);
+    for _ in 0..step_count {
+        let state = simulation.step()?;
+        let displacement = state.displacement();
+        let top_displacement = top.value(displacement) - foot.value(displacement);
+        response.top_displacement.push(top_displacement);
+        let energy_balance = state.energy_balance;
+        response.energy_error = response.energy_error.max(energy_balance.residual());
+        response.hysteresis = energy_balance.hysteresis;
+        response.midstep_remainder = energy_balance.midstep_remainder;
+        let structure: &dyn std::any::Any = simulation.structure();
+        let points = structure.downcast_ref::<FemModel>().unwrap().solid_points(0)?;
+        let mean_stress =
+            points.iter().map(|point| point.stress[3]).sum::<f64>() / points.len() as f64;
+        response.base_stress.push(mean_stress);
+        response.stress_path.push([points[0].strain[3], points[0].stress[3]]);
+    }
+    Ok(response)
+}
