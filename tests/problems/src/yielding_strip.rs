@@ -19,11 +19,11 @@ pub const FINE_CLAY_PRESSURE: f64 = 5.192;
 /// Pressures of reference on sand with 6 elements, Pa.
 pub const SAND_PRESSURES: [f64; 6] = [88.25, 151.70, 199.36, 221.50, 226.13, 227.35];
 
-/// Weightless clay of the reference: shear modulus 100, strength 1.
+/// Weightless clay of the reference: shear modulus 100, strength 1 at a shear strain of 20 strength/modulus.
 pub fn clay() -> Iwan {
     let shear_modulus = 100.0;
     let strength = 1.0;
-    Iwan::hyperbolic(shear_modulus, strength, 200.0 * strength / shear_modulus, 0.49, 0.0).unwrap()
+    Iwan::hyperbolic(shear_modulus, strength, 20.0 * strength / shear_modulus, 0.49, 0.0).unwrap()
 }
 
 /// Weightless sand of the reference: shear modulus 2000, cohesion 1, friction and dilation angle 30°.

@@ -1,8 +1,8 @@
 use crate::error::Error;
 use crate::fem::hardening::{Hardening, HiddenElastic};
 use crate::fem::{
-    Element, InelasticForce, Material, Mesh, Quad4, Quad8, Quad8Integration, QuadFormulation,
-    SharedMaterial,
+    DruckerPrager, Element, InelasticForce, Material, Mesh, Quad4, Quad8, Quad8Integration,
+    QuadFormulation, SharedMaterial,
 };
 
 const QUAD8_POINTS: [[f64; 3]; 8] = [
@@ -155,6 +155,27 @@ fn rigid_motions_give_no_force() {
     }
 }
 
+/// Central differences of the force.
+fn difference_quotients(
+    law: &dyn InelasticForce,
+    points: &[[f64; 3]],
+    u: &[f64],
+    variables: &[f64],
+) -> Vec<f64> {
+    let order = u.len();
+    let mut quotients = vec![0.0; order * order];
+    for column in 0..order {
+        let mut shifted = [u.to_vec(), u.to_vec()];
+        shifted[0][column] += 1e-8;
+        shifted[1][column] -= 1e-8;
+        let forces = shifted.map(|u| force(law, points, &u, variables));
+        for row in 0..order {
+            quotients[row * order + column] = (forces[0][row] - forces[1][row]) / 2e-8;
+        }
+    }
+    quotients
+}
+
 #[test]
 fn tangent_is_the_derivative_of_the_force() {
     for (element, points) in elements(&Hardening::FIRM_SOIL.into()) {
@@ -166,18 +187,41 @@ fn tangent_is_the_derivative_of_the_force() {
         law.tangent(&points, &u, &variables, &mut tangent).unwrap();
         // Softer than the stiffness of small strains: points yield.
         assert!(tangent[0] < 0.9 * stiffness(&element, &points)[0]);
-        let mut differences = vec![0.0; order * order];
-        for column in 0..order {
-            let mut shifted = [u.clone(), u.clone()];
-            shifted[0][column] += 1e-8;
-            shifted[1][column] -= 1e-8;
-            let forces = shifted.map(|u| force(law, &points, &u, &variables));
-            for row in 0..order {
-                differences[row * order + column] = (forces[0][row] - forces[1][row]) / 2e-8;
-            }
-        }
+        let differences = difference_quotients(law, &points, &u, &variables);
         let error = largest_difference(&tangent, &differences) / largest(&tangent);
         assert!(error < 1e-6, "{error}");
+    }
+}
+
+/// Sand dilates less than its friction angle says: ∂f_i/∂u_j is not ∂f_j/∂u_i.
+#[test]
+fn unsymmetric_tangent_has_its_rows_and_columns() {
+    let elastic = Material::new(40.0e6, 0.3, 1900.0).unwrap();
+    let sand = DruckerPrager::new(elastic, 2.0e3, 0.6, 0.1).unwrap();
+    for (element, points) in elements(&sand.into()) {
+        let law = element.inelastic().unwrap();
+        let mut variables = vec![0.0; law.variable_count()];
+        law.initialize(&points, &mut variables).unwrap();
+        // Compression, so that no point comes to the tip of the cone, and shear.
+        let mut u = RepeatableNumbers(31).list(2 * points.len(), 1e-4);
+        for (k, point) in points.iter().enumerate() {
+            u[2 * k] += 5e-3 * point[1] - 1e-3 * point[0];
+            u[2 * k + 1] -= 2e-3 * point[1];
+        }
+        for point in law.points(&points, &u, &variables).unwrap() {
+            assert!(point.stress[1] < 0.0 && point.state.plastic_strain > 0.0, "{point:?}");
+        }
+        let order = u.len();
+        let mut tangent = vec![0.0; order * order];
+        law.tangent(&points, &u, &variables, &mut tangent).unwrap();
+        let differences = difference_quotients(law, &points, &u, &variables);
+        let error = largest_difference(&tangent, &differences) / largest(&tangent);
+        assert!(error < 1e-6, "{error}");
+        let mirrored: Vec<f64> = (0..order * order)
+            .map(|index| tangent[index % order * order + index / order])
+            .collect();
+        assert!(largest_difference(&tangent, &mirrored) > 0.1 * largest(&tangent));
+        assert!(!law.has_symmetric_tangent());
     }
 }
 
