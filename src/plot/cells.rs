@@ -18,10 +18,12 @@ const ARROW_LENGTH_RATIO: f64 = 0.36;
 const ARROW_HEAD_RATIO: f64 = 0.15;
 /// Cosine of 30 degrees: the head of an arrow is an equilateral triangle.
 const BARB_COSINE: f64 = 0.87;
-/// Smallest side of a cell with a white outline, pixels: white lines would hide the colours of smaller cells.
+/// Smallest side of a cell with a white outline, pixels.
+///
+/// White lines would hide the colours of smaller cells. Outlines of smaller cells without a value are paler.
 const MIN_OUTLINED_SIDE: f64 = 6.0;
 /// Colour of the outlines of cells without a value.
-pub(super) const OUTLINE_COLOR: RGBColor = RGBColor(150, 150, 150);
+pub(super) const OUTLINE_COLOR: RGBColor = RGBColor(185, 185, 185);
 /// Colour of bars.
 const BAR_COLOR: RGBColor = RGBColor(70, 70, 70);
 
@@ -44,12 +46,11 @@ impl PictureCell {
     /// Line around the cell, or along the bar.
     fn outline(&self, metres_per_pixel: f64) -> PathElement<(f64, f64)> {
         let closed_outline = self.corners.iter().chain(self.corners.first()).copied();
+        let relative_side = self.shorter_side() / (MIN_OUTLINED_SIDE * metres_per_pixel);
         let style = match self.color {
             None if self.is_bar() => BAR_COLOR.stroke_width(2),
-            None => OUTLINE_COLOR.stroke_width(1),
-            Some(_) if self.shorter_side() >= MIN_OUTLINED_SIDE * metres_per_pixel => {
-                WHITE.stroke_width(1)
-            }
+            None => OUTLINE_COLOR.mix(relative_side.min(1.0)).stroke_width(1),
+            Some(_) if relative_side >= 1.0 => WHITE.stroke_width(1),
             // An outline in the same colour closes the gaps between small cells.
             Some(color) => color.stroke_width(1),
         };
@@ -119,7 +120,9 @@ pub(super) fn cell_picture(
     })
 }
 
-/// Draws areas, outlines of cells with a value, outlines of the others, bars and arrows, each over those before.
+/// Draws cells, bars and arrows.
+///
+/// Outlines of cells without a value lie over those of cells with a value, bars and arrows over both.
 fn draw_cells(
     chart: &mut Chart<'_, '_>,
     cells: &[PictureCell],

@@ -5,14 +5,18 @@ use super::key::KeySample;
 use super::ticks::{mark_text, rounded_step};
 use plotters::style::RGBColor;
 
-/// Approximate number of classes from zero to the value of largest magnitude.
+/// Approximate number of classes from zero to the value of largest magnitude, if a picture has no other.
 const CLASS_COUNT: f64 = 6.0;
+/// Part of a class by which values exceed its end by rounding only: a strength of 1 + 10⁻¹⁶ needs no class above 1.
+const CLASS_ROUNDING: f64 = 1e-9;
 /// Colour of zero, as red, green and blue.
 const ZERO_COLOR: [f64; 3] = [250.0, 240.0, 222.0];
-/// Colour of the largest value.
-const POSITIVE_COLOR: [f64; 3] = [150.0, 20.0, 30.0];
-/// Colour of the most negative value.
-const NEGATIVE_COLOR: [f64; 3] = [20.0, 60.0, 140.0];
+/// Colours of values above zero: of the middle of the classes, and of the largest value.
+///
+/// Two hues make ten classes distinct.
+const POSITIVE_COLORS: [[f64; 3]; 2] = [[242.0, 150.0, 80.0], [150.0, 20.0, 30.0]];
+/// Colours of values below zero: of the middle of the classes, and of the most negative value.
+const NEGATIVE_COLORS: [[f64; 3]; 2] = [[115.0, 180.0, 215.0], [20.0, 60.0, 140.0]];
 
 /// Classes of equal width on both sides of zero.
 pub(super) struct Classes {
@@ -27,12 +31,16 @@ pub(super) struct Classes {
 impl Classes {
     /// Classes from the lowest value, at most zero, to the highest value, at least zero.
     pub(super) fn between(ends: [f64; 2]) -> Self {
+        Self::with_count(ends, CLASS_COUNT)
+    }
+
+    /// Classes as by [`Classes::between`], with about `count` of them up to the largest magnitude.
+    pub(super) fn with_count(ends: [f64; 2], count: f64) -> Self {
         let ends = ends.map(|end| if is_drawable(end) { end } else { 0.0 });
         let max_magnitude = ends[1].max(-ends[0]);
-        let step =
-            rounded_step(if max_magnitude > 0.0 { max_magnitude } else { 1.0 } / CLASS_COUNT);
-        let negative_count = (-ends[0] / step).ceil().max(0.0);
-        let mut positive_count = (ends[1] / step).ceil().max(0.0);
+        let step = rounded_step(if max_magnitude > 0.0 { max_magnitude } else { 1.0 } / count);
+        let negative_count = (-ends[0] / step - CLASS_ROUNDING).ceil().max(0.0);
+        let mut positive_count = (ends[1] / step - CLASS_ROUNDING).ceil().max(0.0);
         // Values of zero need a class.
         if negative_count <= 0.0 {
             positive_count = positive_count.max(1.0);
@@ -46,17 +54,13 @@ impl Classes {
             .floor()
             .clamp(-self.negative_count, (self.positive_count - 1.0).max(-1.0));
         let max_count = self.positive_count.max(self.negative_count);
-        let (ratio, end_color) = if class < 0.0 {
-            (-class / max_count, NEGATIVE_COLOR)
+        if class < 0.0 {
+            mixed_color(NEGATIVE_COLORS, -class / max_count)
         } else if class.is_nan() {
-            (0.0, POSITIVE_COLOR)
+            mixed_color(POSITIVE_COLORS, 0.0)
         } else {
-            (class / (max_count - 1.0).max(1.0), POSITIVE_COLOR)
-        };
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-        let [red, green, blue] =
-            [0, 1, 2].map(|k| (ZERO_COLOR[k] + ratio * (end_color[k] - ZERO_COLOR[k])) as u8);
-        RGBColor(red, green, blue)
+            mixed_color(POSITIVE_COLORS, class / (max_count - 1.0).max(1.0))
+        }
     }
 
     /// Names of the classes, times `factor` and with a `unit`, with their colours, the largest first.
@@ -73,4 +77,15 @@ impl Classes {
         }
         key
     }
+}
+
+/// Colour between that of zero (at 0) and the last of two colours (at 1), through the first of them.
+fn mixed_color([middle_color, end_color]: [[f64; 3]; 2], ratio: f64) -> RGBColor {
+    let is_pale = ratio < 0.5;
+    let start = if is_pale { ZERO_COLOR } else { middle_color };
+    let end = if is_pale { middle_color } else { end_color };
+    let fraction = if is_pale { 2.0 * ratio } else { 2.0 * ratio - 1.0 };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let [red, green, blue] = [0, 1, 2].map(|k| (start[k] + fraction * (end[k] - start[k])) as u8);
+    RGBColor(red, green, blue)
 }

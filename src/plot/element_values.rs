@@ -9,6 +9,9 @@ use crate::error::{Error, Result, at_least, in_bounds, require, require_part};
 use crate::fem::{Element, Mesh};
 use crate::geometry::span;
 
+/// Approximate number of classes of the values of a section, which has steep gradients.
+const SECTION_CLASSES: f64 = 10.0;
+
 /// Picture of one value for each shell of a mat, seen from above.
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
@@ -45,12 +48,12 @@ pub fn shell_plan(
         mesh.has_depth(),
         "must be in a mesh in space, but this one is in the plane",
     )?;
-    let classes = value_classes(values)?;
+    let classes = Classes::between(value_ends(values)?);
     let cells = value_cells(mesh, values, &classes, "shell")?;
     cell_picture(title, &cells, &value_key(quantity, &classes))
 }
 
-/// Picture of one value for each solid element of a mesh in the plane.
+/// Picture of one value for each solid in the plane.
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as a plastic strain, the mobilised
 /// strength or a stress: the mean over the element or its largest, as the caller chooses. `quantity` is the name and unit
@@ -60,7 +63,7 @@ pub fn shell_plan(
 /// ```
 /// use basemat::fem::{Layer, Material, Mesh};
 ///
-/// let sand = Layer::new(Material::new(60.0e6, 0.3, 1800.0)?, 4.0, 2);
+/// let sand = Layer::new(4.0, 2, Material::new(60.0e6, 0.3, 1800.0)?);
 /// let mesh = Mesh::layered_block(-6.0..6.0, 3, &[sand])?;
 /// // The upper of the two rows of elements, from the left to the right.
 /// let strains = [(3, 0.02), (4, 0.11), (5, 0.04)];
@@ -86,7 +89,7 @@ pub fn solid_section(
         !mesh.has_depth(),
         "must be in a mesh in the plane, but this one is in space",
     )?;
-    let classes = value_classes(values)?;
+    let classes = Classes::with_count(value_ends(values)?, SECTION_CLASSES);
     let mut cells = value_cells(mesh, values, &classes, "solid")?;
     let mut has_value = vec![false; mesh.elements().len()];
     for &(element_index, _) in values {
@@ -108,17 +111,21 @@ pub fn solid_section(
     cell_picture(title, &cells, &key)
 }
 
-/// Classes of the values of elements; errors without values, and for one that is not finite.
-fn value_classes(values: &[(usize, f64)]) -> Result<Classes> {
+/// Smallest and largest of the values of elements and zero.
+///
+/// Errors: no values, or one that is not finite.
+fn value_ends(values: &[(usize, f64)]) -> Result<[f64; 2]> {
     at_least("values of elements", values.len(), 1)?;
     for &(_, value) in values {
         let needed = "finite, and below 1e60 in magnitude";
         require("value of an element", value, is_drawable(value), needed)?;
     }
-    Ok(Classes::between(span(values.iter().map(|pair| pair.1).chain([0.0]))))
+    Ok(span(values.iter().map(|pair| pair.1).chain([0.0])))
 }
 
-/// Elements in the colours of their values; an error for an element that is not of this `kind`.
+/// Elements in the colours of their values.
+///
+/// Errors: an element that does not exist, or is not of this `kind`.
 fn value_cells(
     mesh: &Mesh,
     values: &[(usize, f64)],

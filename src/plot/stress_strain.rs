@@ -12,7 +12,7 @@ const MIN_PERCENT_STRAIN: f64 = 1e-3;
 /// Unit of the shear stress.
 const STRESS_UNIT: PrintedUnit<'static> = PrintedUnit { factor: 1e-3, symbol: "kPa" };
 
-/// Shear stress over shear strain at one or more points of a solid.
+/// Shear stress over shear strain at points of a solid.
 ///
 /// `points` have names and paths of [engineering shear strain, shear stress], in Pa, in the order of time. The axes are in
 /// kPa and per cent; if no strain reaches 0.1 %, the strain is in 10⁻³.
@@ -57,7 +57,9 @@ pub fn stress_strain(title: &str, points: &[(&str, &[[f64; 2]])]) -> Result<Svg>
     chart.picture(title)
 }
 
-/// Largest magnitude of the strains of a path; errors for an empty path, and a value that is not finite.
+/// Largest magnitude of the strains of a path.
+///
+/// Errors: an empty path, or a value that is not finite.
 fn checked_max_strain(path: &[[f64; 2]]) -> Result<f64> {
     at_least("states of a point", path.len(), 1)?;
     let needed = "finite, and below 1e57 in magnitude";

@@ -21,6 +21,7 @@ mod rocking;
 mod rocking_pictures;
 mod safety;
 mod serviceability;
+mod solid_pictures;
 mod spectra;
 mod time_series;
 mod units;

@@ -13,6 +13,7 @@ from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *
 from ._files import load as load, save as _save
+from ._plots import plot_stress_strain as plot_stress_strain
 from ._protocols import *
 from ._sweep import merge as merge, sweep as sweep
 
@@ -41,6 +42,7 @@ for _class, _name, _method in (
     (KinematicMotions, "to_frame", _frames.kinematic_frame),
     (DeformedShape, "plot", _shapes.plot_shape),
     (Mesh, "plot_shells", _shapes.plot_shells),
+    (Mesh, "plot_solids", _shapes.plot_solids),
 ):
     _method.__name__, _method.__qualname__ = _name, f"{_class.__name__}.{_name}"
     setattr(_class, _name, _method)

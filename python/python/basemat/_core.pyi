@@ -3814,6 +3814,26 @@ class Mesh:
             axes: axes of matplotlib to draw into; unless given, axes of a new figure.
             title: text above the picture; none unless given.
         """
+    def plot_solids(
+        self,
+        elements: Sequence[int],
+        values: ArrayLike,
+        *,
+        quantity: str = "",
+        axes: Axes | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws one value for each solid of a mesh in the plane, such as a plastic strain; returns the axes.
+
+        Colours are in classes on both sides of zero. Solids without a value are drawn as their outlines, bars as lines.
+
+        Args:
+            elements: numbers of the quadrilaterals with a value, each once.
+            values: array of shape (elements,), in the unit of the quantity.
+            quantity: name of the values with their unit for the key, such as "plastic shear strain, %"; empty by default.
+            axes: axes of matplotlib to draw into; unless given, axes of a new figure.
+            title: text above the picture; none unless given.
+        """
 
 @final
 class ShellResultants:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 _STYLES = ("-", "--", ":", "-.")
 """Of the energies of several runs in the same axes."""
+_STRAIN_FACTORS: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
+"""Factors on the strains in axes: 100 for %, 1000 for 10⁻³."""
 
 
 def plot_run(
@@ -270,6 +273,39 @@ def _over_rotation(
         dots: dict[str, Any] = {"color": f"C{(before + 1) % 10}", "markersize": 3.0, "label": named(label, "measured")}
         panel.plot(1e3 * points[0], factor * points[1], ".", **dots)
     if label is not None or measured is not None:
+        key(panel)
+    return panel
+
+
+def plot_stress_strain(
+    strain: ArrayLike,
+    stress: ArrayLike,
+    axes: Axes | None = None,
+    *,
+    label: str | None = None,
+    color: str | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draws the shear stress over the shear strain at a point of a solid; returns the axes.
+
+    ``strain`` (engineering shear strain, a number without unit) and ``stress`` (Pa): arrays of shape (n,), in the order of time.
+    The picture has them in % and kPa; the strain is in 10⁻³ if the first path in the axes stays below 0.1 %. ``axes``:
+    those of matplotlib to draw into; unless given, axes of a new figure. For several points in the same axes: ``label``, a
+    name of the path, and its ``color``. ``title`` stands above the picture; None for none.
+    """
+    strains, stresses = np.asarray(strain, dtype=float), np.asarray(stress, dtype=float)
+    if strains.ndim != 1 or strains.shape != stresses.shape:
+        raise InputError(f"strain and stress have the shapes {strains.shape} and {stresses.shape}, but must both have (n,)")
+    if not strains.size:
+        raise InputError("strain and stress are empty, but must have one state at least")
+    if not (np.isfinite(strains).all() and np.isfinite(stresses).all()):
+        raise InputError("strain and stress must be finite")
+    [panel] = axes_for(axes, 1, title, figsize=(6.5, 4.5))
+    factor = _STRAIN_FACTORS.setdefault(panel, 1e2 if np.abs(strains).max() >= 1e-3 else 1e3)
+    shown = color_for(color, results_in(panel))
+    panel.plot(factor * strains, 1e-3 * stresses, color=shown, linewidth=0.8, label=label)
+    label_axes(panel, "shear strain, %" if factor == 1e2 else "shear strain, 10⁻³", "shear stress, kPa")
+    if label is not None:
         key(panel)
     return panel
 

@@ -1,4 +1,4 @@
-"""Pictures of structures: deformed shapes, and values of shells in plan."""
+"""Pictures of structures: deformed shapes, values of shells in plan and of solids in a section."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 _COS, _SIN = np.cos(np.pi / 6.0), np.sin(np.pi / 6.0)
 _SCALES: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
 """Scales of the first state in axes."""
+OUTLINE, BAR = "#969696", "#464646"
+"""Colours of elements without a value."""
 
 
 def seen(places: Any, in_space: bool) -> NDArray[np.float64]:
@@ -151,17 +153,9 @@ def plot_shells(
         axes: axes of matplotlib to draw into; unless given, axes of a new figure.
         title: text above the picture; none unless given.
     """
-    numbers, nodes, connected = np.asarray(values, dtype=float), self.nodes, self.elements
-    if numbers.shape != (len(elements),):
-        raise InputError(f"values have the shape {numbers.shape}, but must have ({len(elements)},): one for each shell")
-    if not numbers.size:
-        raise InputError("elements are none, but must be one at least")
-    if not np.isfinite(numbers).all():
-        raise InputError("values of shells must be finite")
+    numbers, nodes, connected = checked_values(self, elements, values, "shell"), self.nodes, self.elements
     corners = []
     for element in elements:
-        if not 0 <= element < len(connected):
-            raise InputError(f"element is {element}, but must be one of the mesh's {len(connected)}")
         place = nodes[connected[element]]
         if nodes.shape[1] != 3 or len(place) not in (3, 4):
             raise InputError(f"element {element} is no shell of a mesh in space")
@@ -170,22 +164,90 @@ def plot_shells(
             raise InputError(f"element {element} stands upright: it has no area in plan")
         corners.append(place[:, :2])
     [panel] = axes_for(axes, 1, title, figsize=(6.5, 5.0))
+    draw_values(panel, corners, numbers, quantity, 7.0)
+    return panel
+
+
+def plot_solids(
+    self: Mesh,
+    elements: Sequence[int],
+    values: ArrayLike,
+    *,
+    quantity: str = "",
+    axes: Axes | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draws one value for each solid of a mesh in the plane, such as a plastic strain; returns the axes.
+
+    Colours are in classes on both sides of zero. Solids without a value are drawn as their outlines, bars as lines.
+
+    Args:
+        elements: numbers of the quadrilaterals with a value, each once.
+        values: array of shape (elements,), in the unit of the quantity.
+        quantity: name of the values with their unit for the key, such as "plastic shear strain, %"; empty by default.
+        axes: axes of matplotlib to draw into; unless given, axes of a new figure.
+        title: text above the picture; none unless given.
+    """
+    numbers, nodes, connected = checked_values(self, elements, values, "solid"), self.nodes, self.elements
+    with_value = set()
+    for element in elements:
+        if nodes.shape[1] != 2 or len(connected[element]) not in (4, 8):
+            raise InputError(f"element {element} is no solid of a mesh in the plane")
+        if element in with_value:
+            raise InputError(f"element {element} has two values")
+        with_value.add(element)
+    rest = [nodes[connected[element][:4]] for element in range(len(connected)) if element not in with_value]
+    bars = [corners for corners in rest if len(corners) == 2]
+    outlines = [corners for corners in rest if len(corners) > 2]
+    [panel] = axes_for(axes, 1, title, figsize=(8.0, 4.0))
+    # Sections have steep gradients, and need more classes than a mat.
+    draw_values(panel, [nodes[connected[element][:4]] for element in elements], numbers, quantity, 10.0)
+    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.patches import Patch
+
+    if outlines:
+        style: dict[str, Any] = {"facecolors": "none", "edgecolors": OUTLINE, "linewidths": 0.5}
+        panel.add_collection(PolyCollection(outlines, **style))
+        patch = Patch(facecolor="none", edgecolor=OUTLINE, label="without a value")
+        panel.legend(handles=[patch], fontsize="small", loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    if bars:
+        panel.add_collection(LineCollection(bars, colors=BAR, linewidths=1.2))
+    panel.autoscale_view()
+    return panel
+
+
+def checked_values(mesh: Mesh, elements: Sequence[int], values: ArrayLike, kind: str) -> NDArray[np.float64]:
+    """Values of elements of the mesh, one for each."""
+    numbers, count = np.asarray(values, dtype=float), len(mesh.elements)
+    if numbers.shape != (len(elements),):
+        raise InputError(f"values have the shape {numbers.shape}, but must have ({len(elements)},): one for each {kind}")
+    if not numbers.size:
+        raise InputError("elements are none, but must be one at least")
+    if not np.isfinite(numbers).all():
+        raise InputError(f"values of {kind}s must be finite")
+    for element in elements:
+        if not 0 <= element < count:
+            raise InputError(f"element is {element}, but must be one of the mesh's {count}")
+    return numbers
+
+
+def draw_values(axes: Axes, corners: list[Any], numbers: NDArray[np.float64], quantity: str, count: float) -> None:
+    """Cells in the colours of their values, in about ``count`` classes up to the largest, and the key."""
     from matplotlib import colormaps
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import BoundaryNorm
 
     low, high = min(float(numbers.min()), 0.0), max(float(numbers.max()), 0.0)
     largest = max(high, -low) or 1.0
-    step = _nice(largest / 7.0)
+    step = _nice(largest / count)
     classes = max(1, int(np.ceil(largest / step - 1e-9)))
     # One colour scale on both sides of zero; the key has the part that there is.
     bounds = step * np.arange(-classes, classes + 1)
     cells = PolyCollection(corners, edgecolors="white", linewidths=0.3)
     cells.set(cmap=colormaps["RdBu_r"], norm=BoundaryNorm(bounds, 256), array=numbers)
-    panel.add_collection(cells)
+    axes.add_collection(cells)
     shown = bounds[(bounds >= low - step * (1.0 - 1e-9)) & (bounds <= high + step * (1.0 - 1e-9))]
-    bar = panel.figure.colorbar(cells, ax=panel, label=quantity, ticks=shown, spacing="proportional")
+    bar = axes.figure.colorbar(cells, ax=axes, label=quantity, ticks=shown, spacing="proportional")
     bar.ax.set_ylim(shown[0], shown[-1])
-    panel.set(xlabel="x, m", ylabel="y, m", aspect="equal")
-    panel.autoscale_view()
-    return panel
+    axes.set(xlabel="x, m", ylabel="y, m", aspect="equal")
+    axes.autoscale_view()
