@@ -20,7 +20,9 @@ SIMPLE = {
     "bool": "bool",
     "BackfillArguments": "tuple[float, Soil] | tuple[float, Soil, DampingLaw]",
     "BaseLike": "_Base",
+    "BlockMaterials": "_Solid | Sequence[_Solid | Sequence[_Solid]]",
     "Cells": "ArrayLike | Sequence[Sequence[int]]",
+    "Components": "ArrayLike",
     "Contact": "Sequence[int] | Sequence[Sequence[int]]",
     "ContactMesh": "Strip | Sequence[Strip] | Plan",
     "GroupPart": "_GmshPart",
@@ -34,6 +36,8 @@ SIMPLE = {
     "RotaryInertia": "float | Sequence[float]",
     "RowLike": "_RowLike",
     "Rows": ARRAY,
+    "SolidLike": "_Solid",
+    "SolidList": "_Solid | Sequence[_Solid]",
     "SpringList": "Sequence[_Spring]",
 }
 """Python's types of the Rust types other than lists, tuples and classes of the module."""

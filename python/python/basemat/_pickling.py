@@ -93,8 +93,8 @@ def _kept(value: Any) -> Any:
 
 
 def _is_part(value: Any) -> bool:
-    """Whether this is a function, a structure, a ground or a law of the user's, whatever else it may be."""
-    methods = ("base", "conditions", "limits", "step_compliance")
+    """Whether this is a function, a structure, a ground, a law or a material of the user's, whatever else it may be."""
+    methods = ("base", "conditions", "limits", "step_compliance", "stress")
     return callable(value) or any(callable(getattr(value, method, None)) for method in methods)
 
 
