@@ -75,6 +75,8 @@ def _kept(value: Any) -> Any:
         return value
     if kind is tuple or kind is list:
         return kind(map(_kept, value))
+    if isinstance(value, np.ndarray) and value.dtype == object:
+        return _kept(value.tolist())
     if isinstance(value, np.ndarray) or hasattr(value, "tocoo"):
         return value.copy()
     if isinstance(value, _core.Mesh):

@@ -94,25 +94,26 @@ impl PySolidPoints {
         rows(&self.stresses)
     }
 
-    /// Plastic shear strains √(2 e^p : e^p) of the deviator e^p, in simple shear |γ^p|: array of shape (n,).
+    /// Plastic shear strains √(2 e^p : e^p) of the deviator e^p, in simple shear |γ^p|: array of shape (n,), numbers without
+    /// unit.
     #[getter]
     fn plastic_strain(&self) -> Array {
         self.plastic_strains.as_slice().into()
     }
 
-    /// Shear stress over shear strength, from 0 to 1: array of shape (n,).
+    /// Ratios of shear stress to shear strength, from 0 to 1: array of shape (n,).
     #[getter]
     fn mobilised_strength(&self) -> Array {
         self.mobilised_strengths.as_slice().into()
     }
 
-    /// Plastic shear strain, mean over the area of the element.
+    /// Plastic shear strain, mean over the area of the element; a number without unit.
     #[getter]
     fn mean_plastic_strain(&self) -> f64 {
         self.mean_plastic()
     }
 
-    /// Largest mobilised strength of the points.
+    /// Largest ratio of shear stress to shear strength at the points.
     #[getter]
     fn largest_mobilised_strength(&self) -> f64 {
         self.largest_mobilised()
