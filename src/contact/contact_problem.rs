@@ -1,4 +1,4 @@
-//! Contact problem for codes with a time integrator of their own.
+//! Contact problem of successive steps, for codes with another time integrator.
 
 use super::search::ModeSearch;
 use super::{ContactInput, ContactSearch, Delassus, SearchMethod};
@@ -20,7 +20,7 @@ use crate::linalg::largest;
 /// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
 /// ```
 ///
-/// with W the Delassus operator. W is the sum of the ground's step compliance
+/// with W the Delassus operator, the sum of the ground's step compliance
 /// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and the displacement of the structure's
 /// base due to unit tractions, within a step of the host's scheme. `j_free` is the free field, plus the
 /// convolution history of the ground, minus the base displacement without changes of traction.
@@ -31,13 +31,13 @@ use crate::linalg::largest;
 /// use basemat::contact::ContactProblem;
 /// use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
 ///
-/// // One element, pressed by 10 kPa, on a ground that yields by 1 mm per 10 kPa both ways.
+/// // One element under 10 kPa, on a ground that moves by 1 mm per 10 kPa in both directions.
 /// let law = Coulomb::new(0.5)?;
 /// let mut problem = ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)])?
 ///     .with_static_tractions(vec![10.0e3, 0.0])?;
-/// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
-/// let mut start = problem.start(&[PreviousContact::new(pressed, Mode::Stick, 0.01)])?;
-/// // The structure moves to the right by 2 mm: it sticks up to 5 kPa, and slips the rest.
+/// let static_state = ContactState { pressure: 10.0e3, ..ContactState::default() };
+/// let mut start = problem.start(&[PreviousContact::new(static_state, Mode::Stick, 0.01)])?;
+/// // The structure moves to the right by 2 mm: it sticks up to a shear of 5 kPa, then slips by 1.5 mm.
 /// let solution = problem.solve(&[0.0, -2.0e-3], &start)?;
 /// assert_eq!(solution.modes, [Mode::SlipRight]);
 /// assert!((solution.states[0].shear - 5.0e3).abs() < 1e-6);
@@ -52,15 +52,15 @@ pub struct ContactProblem {
     static_traction: Vec<f64>,
     search: ModeSearch,
     modes: Vec<Mode>,
-    /// For each element, the end of its law's state variables in the list; empty if no law has any.
+    /// End of each element's state variables in the list; empty if no law has any.
     state_variable_ends: Vec<usize>,
-    /// State variables at the end of a step, stored until they are committed.
+    /// State variables at the end of a step that has not been committed.
     state_variables: Vec<f64>,
-    steps: usize,
+    step_count: usize,
 }
 
 short_debug! {
-    ContactProblem; self; elements: self.modes.len(), laws: self.laws.len(), steps: self.steps
+    ContactProblem; self; elements: self.modes.len(), laws: self.laws.len(), steps: self.step_count
 }
 
 /// Solution of the contact problem of a step.
@@ -72,7 +72,7 @@ pub struct ContactSolution<'a> {
     pub states: &'a [ContactState],
     /// Mode of each element.
     pub modes: &'a [Mode],
-    /// Linear solves of the mode search.
+    /// Number of linear solves of the mode search.
     pub trials: usize,
     /// Method that found the modes.
     pub method: SearchMethod,
@@ -104,8 +104,9 @@ impl ContactSolution<'_> {
     pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
         check_start(start, self.states.len(), self.state_variable_ends)?;
         let Self { laws, states, modes, state_variables, step, time, .. } = self;
-        let remembered = start.update_state_variables(laws, states, modes, state_variables);
-        remembered.map_err(|error| Error::Step { step, time, source: error.into() })?;
+        start
+            .update_state_variables(laws, states, modes, state_variables)
+            .map_err(|error| Error::Step { step, time, source: error.into() })?;
         start.advance(states, modes, state_variables);
         Ok(())
     }
@@ -114,8 +115,8 @@ impl ContactSolution<'_> {
 impl ContactProblem {
     /// Makes a contact problem from a Delassus operator and laws.
     ///
-    /// The operator is 2Q × 2Q, row-major, m/Pa. There is one law for all elements or one for each. The static
-    /// tractions are zero at first. The method [`check`](InterfaceLaw::check) of the laws is not called.
+    /// The operator is 2Q × 2Q, row-major, m/Pa. There is one law for all elements or one for each. The static tractions
+    /// are zero at first. This function does not call the method [`check`](InterfaceLaw::check) of the laws.
     ///
     /// # Errors
     /// [`Error::Size`] unless the operator belongs to at least one element and the number of laws fits,
@@ -140,7 +141,7 @@ impl ContactProblem {
             static_traction: vec![0.0; layout.len()],
             search: ModeSearch::new(count, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
-            steps: 0,
+            step_count: 0,
         })
     }
 
@@ -222,11 +223,13 @@ impl ContactProblem {
             trial_settlements: &[],
             frictionless: false,
         };
-        let step = self.steps + 1;
+        let step = self.step_count + 1;
         let time = step as f64 * start.time_step();
-        let found = self.search.solve(&input, &mut self.modes);
-        let (trials, method) = found.map_err(|source| Error::Step { step, time, source })?;
-        self.steps = step;
+        let (trials, method) = self
+            .search
+            .solve(&input, &mut self.modes)
+            .map_err(|source| Error::Step { step, time, source })?;
+        self.step_count = step;
         let response = &self.search.solver.response;
         Ok(ContactSolution {
             traction: &response.traction,
@@ -243,26 +246,28 @@ impl ContactProblem {
     }
 }
 
-/// Error unless the start belongs to `count` elements with these state variables.
+/// Error unless the start belongs to this number of elements with these state variables.
 fn check_start(
     start: &PreviousContacts,
-    count: usize,
+    element_count: usize,
     state_variable_ends: &[usize],
 ) -> Result<()> {
-    same_length("starts of the step", start.len(), count)?;
+    same_length("starts of the step", start.len(), element_count)?;
     if start.state_variable_ends() == state_variable_ends {
         return Ok(());
     }
-    let needed = "one of a problem with the same laws: theirs remember other numbers";
+    let needed = "that of a problem with the same laws: these laws have other state variables";
     Err(Error::Scene { quantity: "start of the step", needed })
 }
 
+/// Error unless the numbers of an element's start are finite.
 fn check_element(start: &PreviousContact<'_>) -> Result<()> {
     check_finite("state of an element", &start.state.jump())?;
     check_finite("state of an element", &start.state.traction())?;
     check_finite("state of an element", &[start.slip_rate])
 }
 
+/// Error unless all values of this quantity are finite.
 fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
     values.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))
 }

@@ -1,4 +1,4 @@
-//! The Delassus operator, with its product computed in the quickest way.
+//! The Delassus operator W, in the form whose product takes the least time.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -8,32 +8,35 @@ use crate::linalg::{
     CompressedMatrix, dense_condition, dense_multiply_add, transposed_multiply_add,
 };
 
-/// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
+/// Largest rank of the structure's part for separate products: the amplitudes have this fixed size.
 pub(crate) const MAX_STRUCTURE_RANK: usize = 64;
+/// Factor by which separate products must reduce the entries that are read.
+const MIN_ENTRY_REDUCTION: usize = 4;
 
 /// W: the sum of the soil's step compliance G¹ and the compliance of the structure's base.
 ///
-/// As a slice it is all entries, row by row; it is empty on a bed of many springs, whose entries are not stored.
+/// As a slice it has all entries, row by row. It is empty on a bed of many springs, where no entries are stored.
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     values: Vec<f64>,
-    /// G¹, if the values are its sum with another part.
+    /// G¹, if it is available apart from the structure's part.
     soil: Option<Arc<CompressedMatrix>>,
-    split: Option<Split>,
+    structure: Option<StructureFactors>,
     on_bed: Option<OnBed>,
 }
 
-/// W = G¹ + B C for a mostly zero G¹ and a structure with few degrees of freedom.
+/// Factors of the structure's part in W = G¹ + B C, for a sparse G¹ and few degrees of freedom.
 #[derive(Debug, Clone)]
-struct Split {
-    /// B, row-major with one row per contact component; C, column by column.
+struct StructureFactors {
+    /// B, row by row: displacements of the contact components.
     means: Vec<f64>,
+    /// C, column by column.
     columns: Vec<f64>,
 }
 
 impl From<Vec<f64>> for Delassus {
     fn from(values: Vec<f64>) -> Self {
-        Self { values, soil: None, split: None, on_bed: None }
+        Self { values, soil: None, structure: None, on_bed: None }
     }
 }
 
@@ -52,9 +55,9 @@ impl Deref for Delassus {
 }
 
 impl Delassus {
-    /// This operator, whose values are `soil` + B C, for quick products.
+    /// This operator with its parts `soil` and B C, for products in less time.
     ///
-    /// `columns` holds C column by column; `means` multiplies a vector by B.
+    /// `columns`: C, column by column. `means`: overwrites its second argument with the product of B and its first.
     pub(crate) fn with_parts(
         self,
         soil: &Arc<CompressedMatrix>,
@@ -67,11 +70,11 @@ impl Delassus {
         let values = self.values;
         let size = values.len().isqrt();
         let rank = columns.len() / size.max(1);
-        let whole = Self { soil: Some(Arc::clone(soil)), ..Self::from(values) };
-        // The split needs two thin products and the soil's; it is used only if it reads far fewer values than
-        // W has.
-        if rank > MAX_STRUCTURE_RANK || soil.entry_count() + 2 * columns.len() > whole.len() / 4 {
-            return whole;
+        let operator = Self { soil: Some(Arc::clone(soil)), ..Self::from(values) };
+        // Separate products read the soil's entries and both factors. They must save most of the entries of W.
+        let separate_count = soil.entry_count() + 2 * columns.len();
+        if rank > MAX_STRUCTURE_RANK || separate_count > operator.len() / MIN_ENTRY_REDUCTION {
+            return operator;
         }
         let mut rows = vec![0.0; columns.len()];
         let mut unit = vec![0.0; rank];
@@ -82,8 +85,8 @@ impl Delassus {
             unit[j] = 0.0;
             rows.chunks_exact_mut(rank).zip(&column).for_each(|(row, mean)| row[j] = *mean);
         }
-        let split = Split { means: rows, columns: columns.to_vec() };
-        Self { split: Some(split), ..whole }
+        let structure = StructureFactors { means: rows, columns: columns.to_vec() };
+        Self { structure: Some(structure), ..operator }
     }
 
     /// Computes the operator again for other columns C, without allocating.
@@ -98,39 +101,39 @@ impl Delassus {
         let order = self.values.len().isqrt();
         soil.fill(order, &mut self.values);
         add_structure(&mut self.values);
-        match &mut self.split {
-            Some(split) if split.columns.len() == columns.len() => {
-                split.columns.copy_from_slice(columns);
+        match &mut self.structure {
+            Some(structure) if structure.columns.len() == columns.len() => {
+                structure.columns.copy_from_slice(columns);
             }
-            split => *split = None,
+            structure => *structure = None,
         }
     }
 
-    /// Replaces the values by as many others, without allocating.
+    /// Replaces all entries, without allocating.
     pub(crate) fn set(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
-        self.split = None;
+        self.structure = None;
     }
 
-    /// The soil's step compliance G¹; `None` if it is not known.
+    /// The soil's step compliance G¹, if it is available apart from the structure's part.
     pub(crate) fn soil(&self) -> Option<&CompressedMatrix> {
         self.soil.as_deref()
     }
 
-    /// W on a bed of many springs, whose entries are not stored.
+    /// W on a bed of many springs, where no entries are stored.
     pub(crate) fn on_bed(&self) -> Option<&OnBed> {
         self.on_bed.as_ref()
     }
 
-    /// Entry on the diagonal of W of this order.
-    pub(crate) fn diagonal(&self, order: usize, place: usize) -> f64 {
+    /// Entry `i` on the diagonal of W, a matrix of this order.
+    pub(crate) fn diagonal(&self, order: usize, i: usize) -> f64 {
         match &self.on_bed {
-            Some(on_bed) => on_bed.diagonal(place),
-            None => self.values[place * (order + 1)],
+            Some(on_bed) => on_bed.diagonal(i),
+            None => self.values[i * (order + 1)],
         }
     }
 
-    /// Condition of W of this order, scaled by its diagonal.
+    /// Condition number of W, a matrix of this order, scaled by its diagonal.
     pub(crate) fn condition(&self, order: usize) -> f64 {
         match &self.on_bed {
             Some(on_bed) => on_bed.condition(),
@@ -143,7 +146,8 @@ impl Delassus {
         if let Some(on_bed) = &self.on_bed {
             return on_bed.multiply_add(traction, jump);
         }
-        let (Some(soil), Some(Split { means, columns })) = (&self.soil, &self.split) else {
+        let (Some(soil), Some(StructureFactors { means, columns })) = (&self.soil, &self.structure)
+        else {
             return dense_multiply_add(&self.values, 1.0, traction, jump);
         };
         let mut amplitudes = [0.0; MAX_STRUCTURE_RANK];
@@ -159,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ways_are_one_product() {
+    fn separate_products_agree_with_all_entries() {
         let size = 40;
         let rank = 3;
         let mut soil = vec![0.0; size * size];
@@ -177,20 +181,21 @@ mod tests {
                     (0..rank).map(|k| means[i * rank + k] * columns[j * rank + k]).sum::<f64>();
             }
         }
-        let whole = Delassus::from(values.clone());
+        let entries = Delassus::from(values.clone());
         let soil = Arc::new(CompressedMatrix::new(soil, size));
-        let split = Delassus::from(values).with_parts(&soil, &columns, |x, out| {
-            out.fill(0.0);
-            dense_multiply_add(&means, 1.0, x, out);
+        let parts = Delassus::from(values).with_parts(&soil, &columns, |x, product| {
+            product.fill(0.0);
+            dense_multiply_add(&means, 1.0, x, product);
         });
-        assert!(split.split.is_some());
+        assert!(parts.structure.is_some());
         let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
-        let mut a = vec![1.0; size];
-        let mut b = a.clone();
-        whole.multiply_add(&traction, &mut a);
-        split.multiply_add(&traction, &mut b);
-        for (a, b) in a.iter().zip(&b) {
-            assert!((a - b).abs() < 1e-12 * a.abs().max(1.0), "{a} {b}");
+        let mut expected = vec![1.0; size];
+        let mut computed = expected.clone();
+        entries.multiply_add(&traction, &mut expected);
+        parts.multiply_add(&traction, &mut computed);
+        for (expected, computed) in expected.iter().zip(&computed) {
+            let tolerance = 1e-12 * expected.abs().max(1.0);
+            assert!((expected - computed).abs() < tolerance, "{expected} {computed}");
         }
     }
 }

@@ -1,17 +1,16 @@
 //! The contact problem of one element, with the tractions of the others fixed.
 
-use super::problem::ContactInput;
-use super::response::ContactResponse;
-use crate::error::LawError;
+use super::fixed_modes::{JUMP_ROUNDING_FACTOR, TRACTION_ROUNDING_FACTOR};
+use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
-/// Solves element `e` with all other tractions fixed, and returns its mode.
+/// Solves element `e` with all other tractions fixed, and returns its mode; the present mode is tried first.
 pub(super) fn local_mode(
     response: &mut ContactResponse,
     input: &ContactInput<'_>,
     e: usize,
-    current: Mode,
-) -> Result<Mode, LawError> {
+    present_mode: Mode,
+) -> LawResult<Mode> {
     let layout = response.layout;
     let size = layout.len();
     let [n, t] = layout.places(e);
@@ -19,28 +18,33 @@ pub(super) fn local_mode(
     // Jump without the change of traction of this element.
     let mut jump = [0.0; 2];
     for ((jump, row), i) in jump.iter_mut().zip(rows).zip([n, t]) {
-        let all = crate::linalg::dot(row, &response.traction);
-        *jump = input.free_jump[i] + all
+        let jump_change = crate::linalg::dot(row, &response.traction);
+        *jump = input.free_jump[i] + jump_change
             - row[n] * response.traction[n]
             - row[t] * response.traction[t];
     }
     let block = rows.map(|row| [row[n], row[t]]);
-    let fixed = [input.static_traction[n], input.static_traction[t]];
-    let scale = fixed[0].abs().max(jump[0].abs() / block[0][0].abs()).max(fixed[1].abs());
-    let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };
-    let candidates = std::iter::once(current).chain(input.modes(e).iter().copied());
+    let static_traction = [input.static_traction[n], input.static_traction[t]];
+    let closing_pressure = jump[0].abs() / block[0][0].abs();
+    let traction_scale =
+        static_traction[0].abs().max(closing_pressure).max(static_traction[1].abs());
+    let tolerance = Tolerance {
+        length: JUMP_ROUNDING_FACTOR * input.length_scale,
+        traction: TRACTION_ROUNDING_FACTOR * traction_scale,
+    };
+    let candidates = std::iter::once(present_mode).chain(input.modes(e).iter().copied());
     for mode in candidates {
         let conditions = input.conditions(e, mode)?;
-        let Some(change) = solve_element(conditions, jump, block, fixed) else {
+        let Some(change) = solve_element(conditions, jump, block, static_traction) else {
             continue;
         };
         let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
-        let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
+        let tangential_jump = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
         let state = ContactState {
             gap,
-            slip: -tangential,
-            pressure: fixed[0] + change[0],
-            shear: fixed[1] + change[1],
+            slip: -tangential_jump,
+            pressure: static_traction[0] + change[0],
+            shear: static_traction[1] + change[1],
             ..ContactState::default()
         };
         if input.next_mode(e, mode, &state, tolerance)? == mode {
@@ -50,23 +54,23 @@ pub(super) fn local_mode(
             return Ok(mode);
         }
     }
-    Ok(current)
+    Ok(present_mode)
 }
 
-/// The change of traction of one element from its two conditions; `None` if they are dependent.
+/// Change of traction of one element that satisfies its two conditions; `None` if they are dependent.
 fn solve_element(
     conditions: [Condition; 2],
     jump: [f64; 2],
     block: [[f64; 2]; 2],
-    fixed: [f64; 2],
+    static_traction: [f64; 2],
 ) -> Option<[f64; 2]> {
-    let [[a, b, r], [c, d, s]] = conditions.map(|k| {
+    let [[a, b, r], [c, d, s]] = conditions.map(|condition| {
         [
-            k.gap * block[0][0] - k.slip * block[1][0] + k.pressure,
-            k.gap * block[0][1] - k.slip * block[1][1] + k.shear,
-            k.value - k.gap * jump[0] + k.slip * jump[1]
-                - k.pressure * fixed[0]
-                - k.shear * fixed[1],
+            condition.gap * block[0][0] - condition.slip * block[1][0] + condition.pressure,
+            condition.gap * block[0][1] - condition.slip * block[1][1] + condition.shear,
+            condition.value - condition.gap * jump[0] + condition.slip * jump[1]
+                - condition.pressure * static_traction[0]
+                - condition.shear * static_traction[1],
         ]
     });
     let determinant = a * d - b * c;

@@ -1,19 +1,17 @@
-//! Linear system of plane contact for prescribed contact modes (stick, slip, open).
+//! Linear system of contact in the plane, for prescribed contact modes (stick, slip, open).
 
 use super::delassus::Delassus;
-use super::problem::ContactInput;
-use super::response::ContactResponse;
-use crate::error::LawError;
+use super::problem::{ContactInput, ContactResponse, LawResult};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, InterfaceLaw, Mode, PreviousContacts, Tolerance};
 use crate::linalg::{DenseFactor, dense_condition, largest};
 
 /// Rounding error of a jump relative to the largest jump.
-const JUMP_ROUNDING_FACTOR: f64 = 1e-13;
+pub(super) const JUMP_ROUNDING_FACTOR: f64 = 1e-13;
 /// Rounding error of a traction relative to the largest traction.
-const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
+pub(super) const TRACTION_ROUNDING_FACTOR: f64 = 1e-12;
 
-/// Solver for prescribed modes in the plane; stores the factors while the modes stay the same.
+/// Solver for prescribed modes in the plane; reuses factors while the conditions stay the same.
 pub(super) struct ContactModeSolver {
     /// Tractions, jumps and states of the last solution.
     pub(super) response: ContactResponse,
@@ -26,7 +24,7 @@ pub(super) struct ContactModeSolver {
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     rows: Vec<ReducedRow>,
-    /// Contact components of the reduced system; every other component is fixed by one condition alone.
+    /// Unknown contact components of the reduced system; one condition alone fixes each other component.
     dofs: Vec<usize>,
 }
 
@@ -62,14 +60,14 @@ impl ContactModeSolver {
         self.has_valid_factor = false;
     }
 
-    /// Condition number of the system with every element in its law's mode of rest; infinite if singular.
+    /// Condition number of the system with all elements in their modes of rest; infinite if it is singular.
     pub(super) fn condition_number_at_rest(
         &mut self,
         delassus: &Delassus,
         static_traction: &[f64],
         start: &PreviousContacts,
         laws: &[Box<dyn InterfaceLaw>],
-    ) -> Result<f64, LawError> {
+    ) -> LawResult<f64> {
         let input = ContactInput {
             delassus,
             free_jump: static_traction,
@@ -82,15 +80,15 @@ impl ContactModeSolver {
             frictionless: false,
         };
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
-            let at_rest = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
-            *conditions = input.conditions(e, at_rest)?;
+            let rest_mode = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
+            *conditions = input.conditions(e, rest_mode)?;
         }
         let is_regular = self.assemble(&input);
         self.has_valid_factor = false;
         if !is_regular {
             return Ok(f64::INFINITY);
         }
-        // The condition estimate scales by the diagonal. Undo the row scaling.
+        // The condition estimate scales by the diagonal itself, so the row scaling is undone.
         let order = self.dofs.len();
         for (values, row) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
             for value in values {
@@ -108,7 +106,7 @@ impl ContactModeSolver {
         &mut self,
         input: &ContactInput<'_>,
         modes: &[Mode],
-    ) -> Result<bool, LawError> {
+    ) -> LawResult<bool> {
         for (e, &mode) in modes.iter().enumerate() {
             self.conditions[e] = input.conditions(e, mode)?;
         }
@@ -125,7 +123,7 @@ impl ContactModeSolver {
         Ok(self.response.traction.iter().all(|t| t.is_finite()))
     }
 
-    /// Separates conditions that fix one component from the others, and factors the system of the others.
+    /// Factors the reduced system: of the conditions that do not fix a component alone.
     ///
     /// Returns `false` if the system is singular.
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
@@ -223,9 +221,7 @@ impl ContactModeSolver {
         }
     }
 
-    /// Whether an element yields in `mode`, and its pressure grows with the settlement.
-    ///
-    /// `mode`: of the last solution.
+    /// Whether an element yields in `mode`, that of the last solution, and its pressure grows with the settlement.
     pub(super) fn yields_with_hardening(&self, element: usize, mode: Mode) -> bool {
         mode.is_yield() && self.conditions[element][0].gap != 0.0
     }

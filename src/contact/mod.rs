@@ -12,7 +12,6 @@ mod linearisation;
 mod on_bed;
 mod path;
 mod problem;
-mod response;
 mod search;
 mod solver;
 

@@ -1,53 +1,55 @@
-//! W of a structure that moves many independent elements in few ways.
+//! W of many independent elements under a structure with few modes.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | D | step compliance of the soil, a diagonal |
-//! | L | factors of the structure's part per force: B K⁻¹ Bᵀ = L Lᵀ |
+//! | L | modes: factors of the structure's compliance, B K⁻¹ Bᵀ = L Lᵀ, m/N |
 //! | A | areas of the elements |
 //!
-//! W = D + L Lᵀ A, with as many numbers as there are elements.
+//! W = D + L Lᵀ A. Its storage grows in proportion to the number of elements.
 
 use crate::linalg::{
-    DenseFactor, condition_by_products, dense_multiply_add, dot, pivoted_cholesky, scale_by,
-    transposed_multiply_add,
+    DenseFactor, condition_by_products, dense_multiply_add, dot, largest, pivoted_cholesky,
+    scale_by, transposed_multiply_add,
 };
 
-/// Diagonal that the modes leave out, relative to the largest of W: rounding.
+/// Largest diagonal entry without modes, relative to the largest of W: rounding.
 pub(super) const MODE_TOLERANCE: f64 = 1e-14;
-/// Largest difference of a product with L Lᵀ from the structure's, relative to the largest number: asymmetry.
+/// Largest difference between products with L Lᵀ and with the structure's compliance, relative to the largest number: a
+/// larger one shows an asymmetry.
 const PRODUCT_TOLERANCE: f64 = 1e-8;
 
-/// W by its diagonal and its modes.
+/// W in terms of its diagonal D and its modes L.
 #[derive(Debug, Clone)]
 pub(crate) struct OnBed {
-    /// D, m/Pa, and A, for each contact component.
+    /// D, m/Pa, for each contact component.
     soil: Vec<f64>,
+    /// A, m², for each contact component.
     areas: Vec<f64>,
     /// L, row by row.
     modes: Vec<f64>,
-    rank: usize,
+    mode_count: usize,
 }
 
 /// The structure's part B K⁻¹ Bᵀ A of W.
 pub(crate) struct StructurePart<C, P> {
-    /// Its diagonal, m/Pa.
+    /// Diagonal, m/Pa.
     pub(crate) diagonal: Vec<f64>,
-    /// Overwrites a vector with the column at a place.
+    /// Overwrites a vector with the column of this index.
     pub(crate) column: C,
-    /// Overwrites a vector with the product with another.
+    /// Overwrites the second vector with the product with the first.
     pub(crate) product: P,
 }
 
 impl OnBed {
-    /// W of a soil and a structure on elements with these areas; all lists have a number for each contact component.
+    /// W of a soil and a structure on elements with these areas.
     ///
-    /// `None` if the structure's part has more than `max_rank` modes, or is not symmetric or not positive semi-definite per
-    /// force.
+    /// All lists have a number for each contact component. `None` if the structure has more than `max_mode_count` modes, or
+    /// its compliance per force is not symmetric or not positive semi-definite.
     pub(crate) fn new(
         soil: &[f64],
         areas: Vec<f64>,
-        max_rank: usize,
+        max_mode_count: usize,
         mut structure: StructurePart<
             impl FnMut(usize, &mut [f64]),
             impl FnOnce(&[f64], &mut [f64]),
@@ -58,52 +60,47 @@ impl OnBed {
             structure.diagonal.iter().zip(&areas).map(|(entry, area)| entry / area).collect();
         let max_diagonal = (0..size).map(|i| soil[i] / areas[i] + diagonal[i]).fold(0.0, f64::max);
         let tolerance = MODE_TOLERANCE * max_diagonal;
-        let factors = pivoted_cholesky(diagonal, tolerance, max_rank, |pivot, column| {
+        let factors = pivoted_cholesky(diagonal, tolerance, max_mode_count, |pivot, column| {
             (structure.column)(pivot, column);
             for value in column {
                 *value /= areas[pivot];
             }
         })?;
-        let rank = factors.len();
+        let mode_count = factors.len();
         let modes = (0..size).flat_map(|i| factors.iter().map(move |factor| factor[i])).collect();
-        let found = Self { soil: soil.to_vec(), areas, modes, rank };
+        let operator = Self { soil: soil.to_vec(), areas, modes, mode_count };
         let mut expected = vec![0.0; size];
         let mut product = vec![0.0; size];
-        let traction: Vec<f64> = found
-            .areas
-            .iter()
-            .enumerate()
-            .map(|(i, area)| (1.0 + i as f64).sin() / area)
-            .collect();
+        // Any traction in which all components differ.
+        let areas = operator.areas.iter().enumerate();
+        let traction: Vec<f64> = areas.map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
         (structure.product)(&traction, &mut expected);
-        found.add_modes(&traction, &mut product);
-        let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        let is_symmetric = expected
-            .iter()
-            .zip(&product)
-            .all(|(expected, found)| (expected - found).abs() <= PRODUCT_TOLERANCE * largest);
-        is_symmetric.then_some(found)
+        operator.add_modes(&traction, &mut product);
+        let tolerance = PRODUCT_TOLERANCE * largest(&expected);
+        let mut pairs = expected.iter().zip(&product);
+        let is_symmetric = pairs.all(|(expected, value)| (expected - value).abs() <= tolerance);
+        is_symmetric.then_some(operator)
     }
 
     /// Soil's step compliance of a contact component, m/Pa.
-    pub(super) fn soil(&self, place: usize) -> f64 {
-        self.soil[place]
+    pub(super) fn soil(&self, i: usize) -> f64 {
+        self.soil[i]
     }
 
-    /// Numbers of L of a contact component.
-    pub(super) fn modes(&self, place: usize) -> &[f64] {
-        &self.modes[place * self.rank..][..self.rank]
+    /// Row of L of a contact component.
+    pub(super) fn modes(&self, i: usize) -> &[f64] {
+        &self.modes[i * self.mode_count..][..self.mode_count]
     }
 
     /// Number of modes.
-    pub(super) fn rank(&self) -> usize {
-        self.rank
+    pub(super) fn mode_count(&self) -> usize {
+        self.mode_count
     }
 
     /// Entry on the diagonal of W.
-    pub(super) fn diagonal(&self, place: usize) -> f64 {
-        let modes = self.modes(place);
-        self.soil[place] + dot(modes, modes) * self.areas[place]
+    pub(super) fn diagonal(&self, i: usize) -> f64 {
+        let modes = self.modes(i);
+        self.soil[i] + dot(modes, modes) * self.areas[i]
     }
 
     /// jump ← jump + W τ.
@@ -117,65 +114,65 @@ impl OnBed {
 
     /// jump ← jump + L Lᵀ A τ.
     fn add_modes(&self, traction: &[f64], jump: &mut [f64]) {
-        if self.rank == 0 {
+        if self.mode_count == 0 {
             return;
         }
         let forces: Vec<f64> = self.areas.iter().zip(traction).map(|(a, t)| a * t).collect();
-        let mut amplitudes = vec![0.0; self.rank];
+        let mut amplitudes = vec![0.0; self.mode_count];
         transposed_multiply_add(&self.modes, 1.0, &forces, &mut amplitudes);
         dense_multiply_add(&self.modes, 1.0, &amplitudes, jump);
     }
 
-    /// Condition of W, scaled by its diagonal; infinite if it is singular.
+    /// Condition number of W, scaled by its diagonal; infinite if W is singular.
     ///
     /// (D A⁻¹ + L Lᵀ)⁻¹ = S − S L (1 + Lᵀ S L)⁻¹ Lᵀ S with S = A D⁻¹ (Woodbury 1950).
     pub(super) fn condition(&self) -> f64 {
         let size = self.soil.len();
-        let rank = self.rank;
+        let mode_count = self.mode_count;
         let stiffness: Vec<f64> = self.areas.iter().zip(&self.soil).map(|(a, d)| a / d).collect();
-        let mut matrix = vec![0.0; rank * rank];
+        let mut matrix = vec![0.0; mode_count * mode_count];
         for (i, stiffness) in stiffness.iter().enumerate() {
             let modes = self.modes(i);
-            for (row, entry) in matrix.chunks_exact_mut(rank.max(1)).zip(modes) {
+            for (row, entry) in matrix.chunks_exact_mut(mode_count.max(1)).zip(modes) {
                 row.iter_mut()
                     .zip(modes)
                     .for_each(|(sum, other)| *sum += stiffness * entry * other);
             }
         }
-        matrix.iter_mut().step_by(rank + 1).for_each(|entry| *entry += 1.0);
-        let mut factor = DenseFactor::with_capacity(rank);
-        if !factor.factor(&matrix, rank) {
+        matrix.iter_mut().step_by(mode_count + 1).for_each(|entry| *entry += 1.0);
+        let mut factor = DenseFactor::with_capacity(mode_count);
+        if !factor.factor(&matrix, mode_count) {
             return f64::INFINITY;
         }
         let reciprocals: Vec<f64> = self.areas.iter().map(|area| area.recip()).collect();
         let diagonal: Vec<f64> = (0..size).map(|i| self.diagonal(i)).collect();
         // Wᵀ is A W A⁻¹.
-        let multiply = |x: &mut [f64], transposed: bool| {
-            if transposed {
+        let multiply = |x: &mut [f64], is_transposed: bool| {
+            if is_transposed {
                 scale_by(x, &reciprocals);
             }
             let mut product = vec![0.0; size];
             self.multiply_add(x, &mut product);
             x.copy_from_slice(&product);
-            if transposed {
+            if is_transposed {
                 scale_by(x, &self.areas);
             }
         };
-        let solve = |x: &mut [f64], transposed: bool| {
-            if transposed {
+        let solve = |x: &mut [f64], is_transposed: bool| {
+            if is_transposed {
                 scale_by(x, &reciprocals);
             }
             scale_by(x, &stiffness);
-            if rank > 0 {
-                let mut amplitudes = vec![0.0; rank];
+            if mode_count > 0 {
+                let mut amplitudes = vec![0.0; mode_count];
                 transposed_multiply_add(&self.modes, 1.0, x, &mut amplitudes);
                 factor.solve(&mut amplitudes);
-                let mut moved = vec![0.0; size];
-                dense_multiply_add(&self.modes, 1.0, &amplitudes, &mut moved);
-                scale_by(&mut moved, &stiffness);
-                x.iter_mut().zip(&moved).for_each(|(x, moved)| *x -= moved);
+                let mut modal_part = vec![0.0; size];
+                dense_multiply_add(&self.modes, 1.0, &amplitudes, &mut modal_part);
+                scale_by(&mut modal_part, &stiffness);
+                x.iter_mut().zip(&modal_part).for_each(|(x, modal_part)| *x -= modal_part);
             }
-            if !transposed {
+            if !is_transposed {
                 scale_by(x, &reciprocals);
             }
         };
@@ -189,27 +186,33 @@ mod tests {
     use crate::linalg::dense_condition;
     use basemat_testkit::random::Random;
 
-    /// A random soil, areas, and a structure B M Bᵀ A of this rank; W of it, entry by entry.
+    /// A random soil with the areas of its elements, and the entries of a structure's compliance of this rank.
     fn random_parts(random: &mut Random, size: usize, rank: usize) -> ([Vec<f64>; 2], Vec<f64>) {
         let soil: Vec<f64> = (0..size).map(|_| random.log_within(1e-2, 1.0)).collect();
         let areas: Vec<f64> = (0..size).map(|_| random.within(0.5, 2.0)).collect();
         let root: Vec<f64> = (0..size * rank).map(|_| random.within(-1.0, 1.0)).collect();
-        let part = (0..size * size).map(|k| {
-            let rows = [k / size, k % size].map(|i| &root[i * rank..][..rank]);
-            areas[k % size] * dot(rows[0], rows[1])
-        });
-        let part = part.collect();
-        ([soil, areas], part)
+        let row = |i: usize| &root[i * rank..][..rank];
+        let structure = (0..size * size)
+            .map(|k| areas[k % size] * dot(row(k / size), row(k % size)))
+            .collect();
+        ([soil, areas], structure)
     }
 
-    fn on_bed([soil, areas]: &[Vec<f64>; 2], part: &[f64], max_rank: usize) -> Option<OnBed> {
+    /// W of this soil and of the structure with these entries.
+    fn on_bed(
+        [soil, areas]: &[Vec<f64>; 2],
+        entries: &[f64],
+        max_mode_count: usize,
+    ) -> Option<OnBed> {
         let size = soil.len();
         let structure = StructurePart {
-            diagonal: (0..size).map(|i| part[i * (size + 1)]).collect(),
-            column: |j, out: &mut [f64]| (0..size).for_each(|i| out[i] = part[i * size + j]),
-            product: |x: &[f64], out: &mut [f64]| dense_multiply_add(part, 1.0, x, out),
+            diagonal: (0..size).map(|i| entries[i * (size + 1)]).collect(),
+            column: |j, column: &mut [f64]| {
+                (0..size).for_each(|i| column[i] = entries[i * size + j]);
+            },
+            product: |x: &[f64], product: &mut [f64]| dense_multiply_add(entries, 1.0, x, product),
         };
-        OnBed::new(soil, areas.clone(), max_rank, structure)
+        OnBed::new(soil, areas.clone(), max_mode_count, structure)
     }
 
     /// REFERENCE: all entries of W.
@@ -219,38 +222,38 @@ mod tests {
         for case in 0..200 {
             let size = 12 + case % 9;
             let rank = case % 5;
-            let (lists, part) = random_parts(&mut random, size, rank);
-            let found = on_bed(&lists, &part, 5).unwrap();
-            assert_eq!(found.rank(), rank);
-            let mut whole = part.clone();
-            (0..size).for_each(|i| whole[i * (size + 1)] += lists[0][i]);
+            let (soil_and_areas, structure) = random_parts(&mut random, size, rank);
+            let operator = on_bed(&soil_and_areas, &structure, 5).unwrap();
+            assert_eq!(operator.mode_count(), rank);
+            let mut entries = structure.clone();
+            (0..size).for_each(|i| entries[i * (size + 1)] += soil_and_areas[0][i]);
             let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
             let mut product = vec![1.0; size];
             let mut expected = vec![1.0; size];
-            found.multiply_add(&traction, &mut product);
-            dense_multiply_add(&whole, 1.0, &traction, &mut expected);
+            operator.multiply_add(&traction, &mut product);
+            dense_multiply_add(&entries, 1.0, &traction, &mut expected);
             for i in 0..size {
                 assert!(
                     (product[i] - expected[i]).abs() < 1e-12,
                     "{case}: {product:?} {expected:?}"
                 );
-                assert!((found.diagonal(i) - whole[i * (size + 1)]).abs() < 1e-12, "{case}");
+                assert!((operator.diagonal(i) - entries[i * (size + 1)]).abs() < 1e-12, "{case}");
             }
-            let ratio = found.condition() / dense_condition(&whole, size);
-            assert!((0.3..1.0001).contains(&ratio), "{case}: {ratio}");
+            let condition_ratio = operator.condition() / dense_condition(&entries, size);
+            assert!((0.3..1.0001).contains(&condition_ratio), "{case}: {condition_ratio}");
         }
     }
 
     #[test]
-    fn other_structures_have_no_modes() {
+    fn structures_with_too_many_modes_or_without_symmetry_are_rejected() {
         let mut random = Random(6);
-        let (lists, part) = random_parts(&mut random, 15, 4);
-        assert!(on_bed(&lists, &part, 3).is_none());
-        let negative: Vec<f64> = part.iter().map(|entry| -entry).collect();
-        assert!(on_bed(&lists, &negative, 15).is_none());
-        // A part that is not symmetric per force.
-        let mut skew = part;
-        skew[1] += 1e-3;
-        assert!(on_bed(&lists, &skew, 15).is_none());
+        let (soil_and_areas, structure) = random_parts(&mut random, 15, 4);
+        assert!(on_bed(&soil_and_areas, &structure, 3).is_none());
+        let negative: Vec<f64> = structure.iter().map(|entry| -entry).collect();
+        assert!(on_bed(&soil_and_areas, &negative, 15).is_none());
+        // A compliance that is not symmetric per force.
+        let mut asymmetric = structure;
+        asymmetric[1] += 1e-3;
+        assert!(on_bed(&soil_and_areas, &asymmetric, 15).is_none());
     }
 }

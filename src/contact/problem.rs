@@ -1,9 +1,9 @@
-//! The contact problem of a step, condensed to the tractions of the elements.
+//! The contact problem of a step, condensed to the tractions of the elements, and its response to tractions.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | W | Delassus operator: jump (soil − structure, normal components down) per unit traction |
-//! | j₀ | jump at the end of the step if tractions stayed at their static values |
+//! | j₀ | jump at the end of the step without changes of traction |
 //! | τ | change of traction from the static state |
 //!
 //! jump = j₀ + W τ. Its normal components are gaps. The slip of the structure is minus its tangential
@@ -13,17 +13,21 @@ use std::cell::Cell;
 
 use super::delassus::Delassus;
 use crate::error::{Error, LawError};
+use crate::geometry::ContactLayout;
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, PreviousContacts,
     Tolerance, law_of,
 };
 
-/// State of an element's bond in the search for the modes of a step.
+/// Result of a function that calls interface laws.
+pub(super) type LawResult<T> = Result<T, LawError>;
+
+/// State of an element's bond in a search for modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// No bond, or the search does not distinguish bonds: the law decides.
+    /// No bond, or the search treats the bond as part of the law.
     Free,
-    /// The bond holds the element in its mode of rest at any traction.
+    /// The element stays in its mode of rest at any traction.
     Intact,
     /// The bond has broken in this step.
     Broken,
@@ -42,13 +46,13 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
-    /// Largest displacement in j₀, m; its rounding limits the gaps that can be distinguished.
+    /// Largest displacement in j₀, m; gaps below its rounding error are zero.
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
     /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
     pub(crate) trial_settlements: &'a [Cell<f64>],
-    /// In plan, whether friction and cohesion are left out, as while the weight comes on.
+    /// In space, whether laws act without friction and cohesion, as while the weight is applied.
     pub(crate) frictionless: bool,
 }
 
@@ -63,7 +67,7 @@ impl ContactInput<'_> {
         self.bonds.get(element).copied().unwrap_or(Bond::Free)
     }
 
-    /// Start of the step as an element's law receives it: without a bond that breaks in the step.
+    /// Start of the step for an element's law; a bond that breaks in the step is already broken.
     #[inline]
     pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.element(element);
@@ -75,7 +79,7 @@ impl ContactInput<'_> {
     }
 
     /// Limits of an element's law, linearised at a settlement in the step (m), and checked.
-    pub(super) fn limits(&self, element: usize, settlement: f64) -> Result<Limits, LawError> {
+    pub(super) fn limits(&self, element: usize, settlement: f64) -> LawResult<Limits> {
         let mut start = self.start.element(element);
         start.trial_settlement = settlement;
         let mode = start.mode.word();
@@ -95,24 +99,20 @@ impl ContactInput<'_> {
 
     /// Conditions of the element's law in `mode`, all finite.
     #[inline]
-    pub(super) fn conditions(
-        &self,
-        element: usize,
-        mode: Mode,
-    ) -> Result<[Condition; 2], LawError> {
+    pub(super) fn conditions(&self, element: usize, mode: Mode) -> LawResult<[Condition; 2]> {
         let law = self.law(element);
         let start = self.start_of(element);
-        let pair = law.conditions(mode, &start);
-        // A value is not finite, or the sum overflows.
-        if !(pair[0].sum() + pair[1].sum()).is_finite()
-            && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
+        let conditions = law.conditions(mode, &start);
+        // The sum also overflows for some finite values.
+        if !(conditions[0].sum() + conditions[1].sum()).is_finite()
+            && let Some((quantity, value)) = conditions.iter().find_map(Condition::not_finite)
         {
             return Err(match law.check_start(&start) {
                 Ok(()) => LawError::not_finite(element, mode.word(), quantity, value),
                 Err(reason) => LawError { element, mode: mode.word(), reason: Box::new(reason) },
             });
         }
-        Ok(pair)
+        Ok(conditions)
     }
 
     /// Next mode from the element's law, which must be a mode of this law.
@@ -122,7 +122,7 @@ impl ContactInput<'_> {
         mode: Mode,
         trial: &ContactState,
         tolerance: Tolerance,
-    ) -> Result<Mode, LawError> {
+    ) -> LawResult<Mode> {
         if self.bond(element) == Bond::Intact {
             return Ok(mode);
         }
@@ -131,17 +131,13 @@ impl ContactInput<'_> {
         if next == mode || law.modes().contains(&next) {
             return Ok(next);
         }
-        let known = law.modes().iter().map(|mode| mode.word());
-        let reason = Box::new(Error::no_name("next mode in the law's `modes`", next.word(), known));
+        let modes = law.modes().iter().map(|mode| mode.word());
+        let reason = Box::new(Error::no_name("next mode in the law's `modes`", next.word(), modes));
         Err(LawError { element, mode: mode.word(), reason })
     }
 
     /// Traction by which a trial exceeds the strength of an element's bond; `None` without a bond.
-    pub(super) fn overload(
-        &self,
-        element: usize,
-        trial: &ContactState,
-    ) -> Result<Option<f64>, LawError> {
+    pub(super) fn overload(&self, element: usize, trial: &ContactState) -> LawResult<Option<f64>> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
                 let mode = self.law(element).modes()[0];
@@ -149,6 +145,50 @@ impl ContactInput<'_> {
                 Err(LawError::not_finite(element, mode.word(), quantity, value))
             }
             overload => Ok(overload),
+        }
+    }
+}
+
+/// Tractions of the elements in a trial or solution, and the jumps and states due to them.
+pub(crate) struct ContactResponse {
+    pub(super) layout: ContactLayout,
+    /// Change of traction from the static state, Pa, for each contact component.
+    pub(crate) traction: Vec<f64>,
+    /// Jump, m, for each contact component.
+    pub(super) jump: Vec<f64>,
+    /// Opening and total traction of each element.
+    pub(crate) states: Vec<ContactState>,
+}
+
+impl ContactResponse {
+    /// Response without tractions.
+    pub(super) fn new(layout: ContactLayout) -> Self {
+        Self {
+            layout,
+            traction: vec![0.0; layout.len()],
+            jump: vec![0.0; layout.len()],
+            states: vec![ContactState::default(); layout.elements()],
+        }
+    }
+
+    /// Computes the jump and the states for the present tractions.
+    pub(super) fn evaluate(&mut self, input: &ContactInput<'_>) {
+        self.jump.copy_from_slice(input.free_jump);
+        input.delassus.multiply_add(&self.traction, &mut self.jump);
+        self.update_states(input);
+    }
+
+    /// Computes the states for the present tractions and jump.
+    pub(super) fn update_states(&mut self, input: &ContactInput<'_>) {
+        let Self { layout, traction, jump, states } = self;
+        let is_plan = layout.is_plan();
+        for (e, state) in states.iter_mut().enumerate() {
+            let total_traction = |component| {
+                let i = layout.place(component, e);
+                input.static_traction[i] + traction[i]
+            };
+            let jump = |component| jump[layout.place(component, e)];
+            *state = ContactState::from_components(jump, total_traction, is_plan);
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use super::cone::ForceSearch;
 use super::delassus::Delassus;
-use super::problem::ContactInput;
-use super::response::ContactResponse;
+use super::problem::{ContactInput, ContactResponse};
 use super::search::ModeSearch;
 use super::{ContactSearch, SearchMethod};
 use crate::error::{LawError, StepError};
@@ -12,9 +11,9 @@ use crate::interface::{InterfaceLaw, Mode, PreviousContacts};
 
 /// Solver of the contact problem of a step, with the solution of the last one.
 pub(crate) enum ContactSolver {
-    /// Elements with one direction along the surface.
+    /// Search for modes in the plane.
     Plane(Box<ModeSearch>),
-    /// Elements with two directions along the surface.
+    /// Search for forces in space.
     Space(Box<ForceSearch>),
 }
 
@@ -35,7 +34,7 @@ impl ContactSolver {
         }
     }
 
-    /// Finds admissible `modes`, starting from their present values; the solution is then in the response.
+    /// Finds admissible `modes` from their present values; the response then stores the solution.
     ///
     /// Returns the number of trials and the method.
     pub(crate) fn solve(
@@ -67,7 +66,7 @@ impl ContactSolver {
         }
     }
 
-    /// Discards what follows from W; call this when W has changed.
+    /// Discards the factors of W; call this when W has changed.
     pub(crate) fn invalidate(&mut self) {
         match self {
             Self::Plane(search) => search.solver.invalidate(),
@@ -75,7 +74,7 @@ impl ContactSolver {
         }
     }
 
-    /// Condition number of the system with every element in its law's mode of rest; infinite if singular.
+    /// Condition number of the system with all elements in their modes of rest; infinite if it is singular.
     ///
     /// In space it is the condition number of W.
     pub(crate) fn condition_number_at_rest(

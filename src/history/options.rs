@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use super::chosen::ChosenHistory;
+use super::chosen::{ChosenHistory, HistoryMethod};
 use super::convolution_weights::ConvolutionWeights;
 use super::direct::DirectHistory;
 use super::exponentials::{DEFAULT_MEMORY, ExponentialHistory};
-use super::method::HistoryMethod;
 use super::relaxed_fft::{LEAF_STEPS, RelaxedFftHistory, bytes_of_blocks};
 use crate::error::{Result, memory};
 

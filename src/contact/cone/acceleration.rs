@@ -1,52 +1,54 @@
-//! Anderson acceleration of sweeps: the next one begins with a combination of the results of the last ones.
+//! Anderson acceleration: each sweep begins with a combination of the results of earlier sweeps.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | x, g | forces before and after a sweep |
 //! | f = g − x | change by the sweep |
 //! | d = f_j − f | difference between the change by an earlier sweep j and the present one |
-//! | γ | weights that minimise \|f + Σ γ_j d_j\| |
+//! | γ | weights of the combination, which minimise \|f + Σ γ_j d_j\| |
 //!
 //! The next x is g + Σ γ_j (g_j − g) (Walker & Ni 2011, SIAM J. Numer. Anal. 49, 1715, eq. 2.1). While no element
-//! changes its mode, that is GMRES with the sweep as its preconditioner.
+//! changes its mode, the iteration is GMRES with the sweep as its preconditioner.
 
 use crate::linalg::dot;
 
-/// Number of earlier sweeps that are combined: their inner products take less time than a sweep.
+/// Largest number of earlier sweeps in a combination: their inner products take less time than a sweep.
 const MAX_STORED_SWEEPS: usize = 8;
-/// Smallest pivot of the normal equations, relative to their diagonal; below it an earlier sweep adds nothing.
+/// Smallest pivot of the normal equations, relative to their diagonal; an earlier sweep below it has no weight.
 const MIN_RELATIVE_PIVOT: f64 = 1e-13;
 
-/// The last sweeps, and scratch of their combination.
+/// Results of earlier sweeps, and scratch of their combination.
 pub(super) struct Acceleration {
-    /// Change f by each stored sweep, and its results: forces g and the motions by them.
+    /// Change f of each stored sweep.
     changes: [Vec<f64>; MAX_STORED_SWEEPS],
+    /// Results of each stored sweep: forces g and the displacements due to them.
     results: [Vec<f64>; MAX_STORED_SWEEPS],
     /// Number of sweeps since the restart.
     sweep_count: usize,
-    /// f and the results of the present sweep.
+    /// f of the present sweep.
     change: Vec<f64>,
+    /// Results of the present sweep.
     result: Vec<f64>,
     /// Differences d, newest sweep first.
     differences: [Vec<f64>; MAX_STORED_SWEEPS],
 }
 
 impl Acceleration {
-    /// Allocates for `force_count` forces and `motion_count` motions.
-    pub(super) fn new(force_count: usize, motion_count: usize) -> Self {
+    /// Allocates for `force_count` forces and `displacement_count` displacements.
+    pub(super) fn new(force_count: usize, displacement_count: usize) -> Self {
         let forces = [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count]);
         Self {
             changes: forces.clone(),
-            results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count + motion_count]),
+            results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count + displacement_count]),
             sweep_count: 0,
             change: vec![0.0; force_count],
-            result: vec![0.0; force_count + motion_count],
+            result: vec![0.0; force_count + displacement_count],
             differences: forces,
         }
     }
 
-    /// Number of motions among the results of a sweep.
-    pub(super) fn motion_count(&self) -> usize {
+    /// Number of displacements among the results of a sweep.
+    pub(super) fn displacement_count(&self) -> usize {
         self.result.len() - self.change.len()
     }
 
@@ -62,7 +64,7 @@ impl Acceleration {
 
     /// Overwrites the results of a sweep with their combination with the results of earlier sweeps.
     ///
-    /// The first slice of `results` are the forces; the others are motions, linear in the forces.
+    /// The first slice of `results` is the forces; the others are displacements, linear in the forces.
     pub(super) fn end_sweep(&mut self, results: &mut [&mut [f64]]) {
         let mut begin = 0;
         for part in &*results {
@@ -90,7 +92,7 @@ impl Acceleration {
         self.sweep_count += 1;
     }
 
-    /// Position of the sweep that is `age` older than the last stored one.
+    /// Index of the stored sweep that is `age` sweeps older than the newest.
     fn slot(&self, age: usize) -> usize {
         (self.sweep_count - 1 - age) % MAX_STORED_SWEEPS
     }
@@ -107,7 +109,7 @@ impl Acceleration {
                 *difference = earlier - present;
             }
         }
-        // Cholesky factors of the normal equations, row by row; a zero pivot leaves its sweep out.
+        // Cholesky factors of the normal equations, row by row; a sweep with a zero pivot has no weight.
         let mut factor = [[0.0; MAX_STORED_SWEEPS]; MAX_STORED_SWEEPS];
         let mut weights = [0.0; MAX_STORED_SWEEPS];
         for row in 0..count {
@@ -145,11 +147,12 @@ impl Acceleration {
 mod tests {
     use super::*;
 
-    /// Number of forces, and the matrix M of sweeps x ← M x + b; its largest eigenvalue is 1.3.
+    /// Number of forces.
     const FORCE_COUNT: usize = 6;
+    /// Eigenvalues of the matrix M of sweeps x ← M x + b; plain sweeps diverge because of the largest.
     const SWEEP_EIGENVALUES: [f64; FORCE_COUNT] = [1.3, 0.95, 0.8, 0.5, -0.4, 0.1];
 
-    /// Result of a sweep: forces, then a motion that is their sum and 2.
+    /// Result of a sweep: forces, then a displacement that is their sum plus 2.
     fn sweep(forces: &[f64], vectors: &[[f64; FORCE_COUNT]; FORCE_COUNT]) -> Vec<f64> {
         let mut result = vec![1.0; FORCE_COUNT];
         for (vector, eigenvalue) in vectors.iter().zip(SWEEP_EIGENVALUES) {
@@ -177,14 +180,14 @@ mod tests {
         for _ in 0..=FORCE_COUNT {
             acceleration.begin_sweep(&forces);
             let mut result = sweep(&forces, &vectors);
-            let (after, motion) = result.split_at_mut(FORCE_COUNT);
-            acceleration.end_sweep(&mut [after, motion]);
-            // A combination whose weights sum to one keeps what is linear.
-            assert!((motion[0] - 2.0 - after.iter().sum::<f64>()).abs() < 1e-8);
-            forces.copy_from_slice(after);
+            let (next_forces, displacement) = result.split_at_mut(FORCE_COUNT);
+            acceleration.end_sweep(&mut [next_forces, displacement]);
+            // Weights whose sum is one preserve linear relations.
+            assert!((displacement[0] - 2.0 - next_forces.iter().sum::<f64>()).abs() < 1e-8);
+            forces.copy_from_slice(next_forces);
         }
-        for (before, after) in forces.iter().zip(sweep(&forces, &vectors)) {
-            assert!((before - after).abs() < 1e-9, "{before} {after}");
+        for (force, swept_force) in forces.iter().zip(sweep(&forces, &vectors)) {
+            assert!((force - swept_force).abs() < 1e-9, "{force} {swept_force}");
         }
     }
 }

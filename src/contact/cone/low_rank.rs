@@ -1,36 +1,49 @@
-//! W of independent elements that the structure moves in few ways: W = D + L Lᵀ, element by element.
+//! W by the few modes in which the structure moves the elements.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | W = D + L Lᵀ | elements on independent springs, under a structure with few modes |
+//! | D | compliance of the soil and of the element's layer, a diagonal, m/N |
+//! | L | displacements of the elements in the modes of the structure |
+//! | r | forces on the elements, N |
 
 use crate::contact::OnBed;
+use crate::contact::on_bed::MODE_TOLERANCE;
+use crate::linalg::pivoted_cholesky;
 
-/// D, L and the amplitudes of the present forces.
-pub(super) struct LowRank {
-    /// D of each element: soil and layer of its components, m/N.
+/// Largest number of modes of a structure on a lattice.
+pub(super) const MAX_MODE_COUNT: usize = 24;
+
+/// W = D + L Lᵀ, and the modal amplitudes of the present forces.
+#[derive(Default)]
+pub(super) struct LowRankCompliance {
+    /// D of each element.
     diagonal: Vec<[f64; 3]>,
     /// L of each element, mode by mode.
     modes: Vec<[f64; 3]>,
-    rank: usize,
+    mode_count: usize,
     /// Lᵀ r.
     amplitudes: Vec<f64>,
 }
 
-impl LowRank {
-    /// Room for W of `count` elements.
-    pub(super) fn new(count: usize) -> Self {
-        Self { diagonal: vec![[0.0; 3]; count], modes: vec![], rank: 0, amplitudes: vec![] }
+impl LowRankCompliance {
+    /// Allocates D of `element_count` elements.
+    pub(super) fn new(element_count: usize) -> Self {
+        Self { diagonal: vec![[0.0; 3]; element_count], ..Self::default() }
     }
 
-    /// Takes D and L on elements with these areas; `layer(row)`: part of the diagonal that is neither soil nor structure.
+    /// Reads D and L of elements with these areas; `layer(row)`: part of the diagonal that is neither soil nor structure.
     pub(super) fn set(&mut self, on_bed: &OnBed, areas: &[f64], layer: impl Fn(usize) -> f64) {
         let count = areas.len();
-        self.rank = on_bed.rank();
+        self.mode_count = on_bed.mode_count();
         self.amplitudes.clear();
-        self.amplitudes.resize(self.rank, 0.0);
+        self.amplitudes.resize(self.mode_count, 0.0);
         self.modes.clear();
         for (e, diagonal) in self.diagonal.iter_mut().enumerate() {
-            let places = [e, count + e, 2 * count + e];
-            *diagonal = places.map(|i| on_bed.soil(i) / areas[e] + layer(i));
-            let modes = places.map(|i| on_bed.modes(i));
-            self.modes.extend((0..self.rank).map(|k| modes.map(|mode| mode[k])));
+            let indices = [e, count + e, 2 * count + e];
+            *diagonal = indices.map(|i| on_bed.soil(i) / areas[e] + layer(i));
+            let modes = indices.map(|i| on_bed.modes(i));
+            self.modes.extend((0..self.mode_count).map(|k| modes.map(|mode| mode[k])));
         }
     }
 
@@ -43,12 +56,12 @@ impl LowRank {
     /// L of an element, mode by mode.
     #[inline]
     pub(super) fn modes(&self, e: usize) -> &[[f64; 3]] {
-        &self.modes[e * self.rank..][..self.rank]
+        &self.modes[e * self.mode_count..][..self.mode_count]
     }
 
     /// Number of modes.
-    pub(super) fn rank(&self) -> usize {
-        self.rank
+    pub(super) fn mode_count(&self) -> usize {
+        self.mode_count
     }
 
     /// Block of W between the components of an element.
@@ -63,46 +76,75 @@ impl LowRank {
         block
     }
 
-    /// Sets the amplitudes to Lᵀ r, and `y` to q + (W + `added`) r.
-    pub(super) fn update_motions(&mut self, forces: &[f64], q: &[f64], added: f64, y: &mut [f64]) {
+    /// Sets the amplitudes to Lᵀ r, and `y` to q + (W + `added_diagonal`) r.
+    pub(super) fn update_displacements(
+        &mut self,
+        forces: &[f64],
+        q: &[f64],
+        added_diagonal: f64,
+        y: &mut [f64],
+    ) {
         let count = self.diagonal.len();
         self.amplitudes.fill(0.0);
         for e in 0..count {
-            self.push(e, [forces[e], forces[count + e], forces[2 * count + e]]);
+            self.add_force(e, [forces[e], forces[count + e], forces[2 * count + e]]);
         }
         for e in 0..count {
-            let places = [e, count + e, 2 * count + e];
-            let motion = self.motion(e, places.map(|i| forces[i]));
-            for (i, motion) in places.into_iter().zip(motion) {
-                y[i] = q[i] + added * forces[i] + motion;
+            let indices = [e, count + e, 2 * count + e];
+            let displacement = self.displacement(e, indices.map(|i| forces[i]));
+            for (i, displacement) in indices.into_iter().zip(displacement) {
+                y[i] = q[i] + added_diagonal * forces[i] + displacement;
             }
         }
     }
 
-    /// Motion of an element with this force.
+    /// Displacement of an element under the present forces; `force` is its part of them.
     #[inline]
-    pub(super) fn motion(&self, e: usize, force: [f64; 3]) -> [f64; 3] {
-        let mut motion = self.motion_by_modes(e, &self.amplitudes);
-        (0..3).for_each(|k| motion[k] += self.diagonal[e][k] * force[k]);
-        motion
+    pub(super) fn displacement(&self, e: usize, force: [f64; 3]) -> [f64; 3] {
+        let mut displacement = self.modal_displacement(e, &self.amplitudes);
+        (0..3).for_each(|k| displacement[k] += self.diagonal[e][k] * force[k]);
+        displacement
     }
 
-    /// Motion L a of an element by amplitudes a of the modes.
+    /// Displacement L a of an element due to modal amplitudes a.
     #[inline]
-    pub(super) fn motion_by_modes(&self, e: usize, amplitudes: &[f64]) -> [f64; 3] {
-        let mut motion = [0.0; 3];
+    pub(super) fn modal_displacement(&self, e: usize, amplitudes: &[f64]) -> [f64; 3] {
+        let mut displacement = [0.0; 3];
         for (amplitude, mode) in amplitudes.iter().zip(self.modes(e)) {
-            (0..3).for_each(|k| motion[k] += amplitude * mode[k]);
+            (0..3).for_each(|k| displacement[k] += amplitude * mode[k]);
         }
-        motion
+        displacement
     }
 
-    /// Adds the motion of all elements by a force on one.
+    /// Adds the modal amplitudes due to a force on one element.
     #[inline]
-    pub(super) fn push(&mut self, e: usize, force: [f64; 3]) {
-        let modes = &self.modes[e * self.rank..][..self.rank];
+    pub(super) fn add_force(&mut self, e: usize, force: [f64; 3]) {
+        let modes = &self.modes[e * self.mode_count..][..self.mode_count];
         for (amplitude, mode) in self.amplitudes.iter_mut().zip(modes) {
             *amplitude += mode[0] * force[0] + mode[1] * force[1] + mode[2] * force[2];
         }
     }
+}
+
+/// Modes of the structure: pivoted Cholesky factors L of W − G, mode by mode.
+///
+/// G is `soil(row, column)`, with `layer(row)` on its diagonal. `None` if W − G has too many modes or is not positive.
+pub(super) fn find_modes(
+    w: &[f64],
+    size: usize,
+    soil: impl Fn(usize, usize) -> f64,
+    layer: impl Fn(usize) -> f64,
+) -> Option<Vec<Vec<f64>>> {
+    let soil_entry = |row: usize, column: usize| {
+        soil(row, column) + if row == column { layer(row) } else { 0.0 }
+    };
+    let diagonal: Vec<f64> = (0..size).map(|i| w[i * (size + 1)]).collect();
+    let structure_diagonal =
+        diagonal.iter().enumerate().map(|(i, entry)| entry - soil_entry(i, i)).collect();
+    let tolerance = diagonal.iter().map(|entry| MODE_TOLERANCE * entry).fold(0.0, f64::max);
+    pivoted_cholesky(structure_diagonal, tolerance, MAX_MODE_COUNT, |pivot, column| {
+        for (i, value) in column.iter_mut().enumerate() {
+            *value = w[i * size + pivot] - soil_entry(i, pivot);
+        }
+    })
 }

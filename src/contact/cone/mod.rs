@@ -1,30 +1,35 @@
-//! Contact with uplift and friction in plan: Signorini's law, and Coulomb's law with shear on a disc.
+//! Contact with uplift and friction in space: Signorini's law, and Coulomb's law with shear on a disc.
 //!
-//! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
-//!    change. Many elements on a lattice begin with sweeps, unless all stick and each moves many others.
-//! 2. Sweeps over the elements, from the forces of the previous step; accelerated if many elements move most others.
+//! A step tries these methods one after the other:
+//!
+//! 1. The statuses of the previous step, if no element slid in it. Their factors are reused as long as the statuses stay
+//!    the same. Many elements on a lattice skip this method, unless all stick and each moves many others.
+//! 2. Sweeps over the elements, from the forces of the previous step. Many elements use accelerated sweeps if each moves
+//!    most others.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
-//! 5. The proximal point method around all of them.
+//! 5. The proximal point method, which solves a sequence of better conditioned problems by methods 2 to 4.
 //!
-//! Friction above 100, or infinite, is first tried by Newton's method alone, then by all methods with a lower
-//! friction, which is raised from that solution. If it cannot be raised, the step keeps the lower friction, and
-//! the run warns of it.
+//! For friction above 100, or infinite, the step first tries Newton's method alone. Then it uses all methods with a lower
+//! friction, and raises the friction from that solution. If the friction cannot be raised, the step uses the lower
+//! friction, and the run warns of it.
 //!
 //! W is symmetric and positive definite, so a solution exists (Acary, Cadoux, Lemaréchal & Malick 2011); with
-//! small friction it is unique. The shear of a sliding element lies on its disc against the slip of the same
-//! solution: its friction work is never negative.
+//! small friction it is unique. The shear of a sliding element lies on the boundary of its disc and opposes the slip of
+//! the same solution: its friction work is never negative.
 //!
-//! A bond bears tension, and shear without pressure, up to its strength. The bond of an element that has opened
-//! beyond it breaks in the step, which is then solved again: at most once for each element.
+//! A bond bears tension, and shear without pressure, up to its strength. The bond breaks in the step in which the element
+//! opens at that strength. The step is then solved again: at most once for each element.
 
 mod acceleration;
-mod blocks;
 mod bounds;
+mod compliance;
+mod dense_lattice;
 mod group;
 mod low_rank;
 mod low_rank_system;
-mod modes;
+mod near_field;
+mod near_field_sweeps;
 mod newton;
 mod problem;
 mod proximal;
@@ -35,27 +40,26 @@ mod sweeps;
 mod system;
 #[cfg(test)]
 mod tests;
-mod unknown;
-mod wide;
+mod unknowns;
 
 use super::SearchMethod;
 use super::linearisation::Linearisation;
-use super::problem::ContactInput;
-use super::response::ContactResponse;
+use super::problem::{ContactInput, ContactResponse};
 use crate::error::{LawError, StepError};
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::Mode;
+use compliance::ComplianceForm;
 use newton::Newton;
 use problem::{ConeProblem, RELATIVE_RESIDUAL_TOLERANCE};
 use proximal::Proximal;
-use search::search;
+use search::find_forces;
 use status::{Normal, Status, Tangential};
 
 /// Residual at which the tangents of curves first move, relative to the largest force.
 const TANGENT_TOLERANCE: f64 = 1e-4;
-/// Error of a solution in units of the residual at which it is accepted.
+/// Error of a solution relative to the residual at which it is accepted.
 const ROUNDING_FACTOR: f64 = 10.0;
-/// Gap at which a bond breaks, relative to the largest displacement.
+/// Gap at which a bond breaks, relative to the largest displacement: above its rounding.
 const BOND_BREAKING_GAP: f64 = 1e-12;
 
 /// Search for the contact forces of a step in space.
@@ -68,17 +72,17 @@ pub(crate) struct ForceSearch {
     areas: Vec<f64>,
     /// Compliance of each element's layer, included in W.
     layers: Vec<[f64; 2]>,
-    /// Whether W is the one of the last step, with the same layers.
+    /// Whether the problem's W is that of the step, with the same layers.
     has_valid_operator: bool,
-    /// Elements whose bonds have broken in this step.
-    broken: Vec<bool>,
+    /// Whether the bond of each element has broken in this step.
+    has_broken_bond: Vec<bool>,
     /// Whether an element's largest pressure grows with its settlement in this step.
     hardens: bool,
     /// Settlements at which the laws are linearised, m; without meaning if nothing hardens.
     trial_settlements: Vec<f64>,
-    /// Initial forces of a search, and forces that solve with less friction.
-    start: Vec<f64>,
-    limited: Vec<f64>,
+    /// Scratch of searches: initial changes of force, and changes that solve with less friction, N.
+    initial_change: Vec<f64>,
+    limited_change: Vec<f64>,
     /// Whether the structure is linear: all steps then have the same W, unless layers change.
     is_linear: bool,
 }
@@ -95,11 +99,11 @@ impl ForceSearch {
             areas: areas.to_vec(),
             layers: vec![[0.0; 2]; count],
             has_valid_operator: false,
-            broken: vec![false; count],
+            has_broken_bond: vec![false; count],
             hardens: false,
             trial_settlements: vec![0.0; count],
-            start: vec![0.0; 3 * count],
-            limited: vec![0.0; 3 * count],
+            initial_change: vec![0.0; 3 * count],
+            limited_change: vec![0.0; 3 * count],
             is_linear,
         }
     }
@@ -123,12 +127,12 @@ impl ForceSearch {
         for mode in modes.iter_mut() {
             *mode = mode.in_any_direction();
         }
-        // The tangents of curves move before the solution is exact.
+        // The tangents of curves change before the solution is exact.
         self.problem.relative_tolerance =
             if self.hardens { TANGENT_TOLERANCE } else { RELATIVE_RESIDUAL_TOLERANCE };
-        let tried = self.try_previous_statuses(modes);
-        let mut trials = usize::from(tried);
-        if !(tried && self.problem.is_solved()) {
+        let has_tried = self.try_previous_statuses(modes);
+        let mut trials = usize::from(has_tried);
+        if !(has_tried && self.problem.is_solved()) {
             self.set_initial_forces(input);
             method = self.search_forces(input, &mut trials)?;
             self.write_modes(modes);
@@ -151,11 +155,14 @@ impl ForceSearch {
         let mut method = SearchMethod::ActiveSet;
         loop {
             let is_constant = self.has_constant_operator(input);
-            let Self { problem, newton, proximal, start, limited, .. } = self;
-            let outcome = search(problem, newton, proximal, start, limited, is_constant);
+            let Self { problem, newton, proximal, initial_change, limited_change, .. } = self;
+            let outcome =
+                find_forces(problem, newton, proximal, initial_change, limited_change, is_constant);
             *trials += outcome.iterations;
-            let Some(found) = outcome.method else { return Err(self.failure(*trials)) };
-            method = method.max(found);
+            let Some(last_method) = outcome.method else {
+                return Err(self.failure(*trials));
+            };
+            method = method.max(last_method);
             self.newton.classify(&self.problem, false);
             if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
                 return Ok(method);
@@ -228,7 +235,7 @@ impl ForceSearch {
     ) -> Result<SearchMethod, StepError> {
         let Self { problem, newton, .. } = self;
         // Sweeps of many elements take less time than a factorization.
-        if problem.near_field.is_none() && problem.acceleration.is_none() {
+        if problem.form.near_field().is_none() && problem.acceleration.is_none() {
             let outcome = newton.solve_again(problem);
             *trials += outcome.iterations;
             if outcome.is_solved {
@@ -248,106 +255,109 @@ impl ForceSearch {
         let Self { response, problem, areas, .. } = self;
         let layout = response.layout;
         for (i, traction) in response.traction.iter_mut().enumerate() {
-            // Exactly zero in total if there is no force.
+            // The total traction of an element without force is exactly zero.
             *traction = match problem.force(i) {
                 0.0 => -input.static_traction[i],
-                _ => problem.change[i] / areas[layout.origin(i)[1]],
+                _ => problem.force_change[i] / areas[layout.origin(i)[1]],
             };
         }
         StepError::check_finite("contact traction", &response.traction)
     }
 
-    /// Computes the jump for the present tractions, by blocks or transforms where they exist.
+    /// Computes the jump for the present tractions, by the form of W where it is faster than all entries.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn update_jump(&mut self, input: &ContactInput<'_>) {
         let Self { response, problem, areas, layers, .. } = self;
         let ContactResponse { traction, jump, .. } = response;
         jump.copy_from_slice(input.free_jump);
-        let ConeProblem { near_field, dense_lattice, low_rank, .. } = problem;
-        if near_field.is_none() && dense_lattice.is_none() && low_rank.is_none() {
+        if matches!(problem.form, ComplianceForm::Entries) {
             return input.delassus.multiply_add(traction, jump);
         }
         for (e, area) in areas.iter().enumerate() {
-            for i in problem.places(e) {
+            for i in problem.component_indices(e) {
                 problem.set_force(i, area * (input.static_traction[i] + traction[i]));
             }
         }
-        problem.update_motions();
+        problem.update_displacements();
         for (e, layer) in layers.iter().enumerate() {
-            for (component, i) in problem.places(e).into_iter().enumerate() {
+            for (component, i) in problem.component_indices(e).into_iter().enumerate() {
                 // The jump does not contain the layer.
-                let by_layer = layer[component.min(1)] / areas[e] * problem.change[i];
-                jump[i] += problem.y[i] - problem.q[i] - by_layer;
+                let layer_change = layer[component.min(1)] / areas[e] * problem.force_change[i];
+                jump[i] += problem.y[i] - problem.q[i] - layer_change;
             }
         }
     }
 
-    /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
+    /// Solves for the statuses of the previous step.
+    ///
+    /// `false` if an element slid, the system is singular, or sweeps take less time.
     fn try_previous_statuses(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
-        if problem.near_field.as_ref().is_some_and(|near_field| !near_field.is_factored()) {
+        let near_field = problem.form.near_field();
+        let has_near_field = near_field.is_some();
+        if near_field.is_some_and(|near_field| !near_field.prefers_factors()) {
             return false;
         }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
             let is_frictionless = bounds.friction == 0.0 && !bounds.has_bond();
             *status = match mode {
-                Mode::Open if !bounds.bonded => Status::OPEN_FREE,
-                _ if mode.is_slip() && !is_frictionless && !bounds.bonded => return false,
+                Mode::Open if !bounds.is_bonded => Status::OPEN_FREE,
+                _ if mode.is_slip() && !is_frictionless && !bounds.is_bonded => return false,
                 _ => Status {
                     normal: if mode.is_yield() { bounds.status_at_cap() } else { Normal::Closed },
-                    tangential: if is_frictionless && !bounds.bonded {
+                    tangential: if is_frictionless && !bounds.is_bonded {
                         Tangential::Free
                     } else {
                         Tangential::Stick
                     },
                 },
             };
-            let capped = status.is_yield();
-            let is_swept = problem.near_field.is_some() && *status != Status::CLOSED_STICKING;
-            if is_swept || capped && bounds.interval[1] == f64::INFINITY {
+            let is_swept = has_near_field && *status != Status::CLOSED_STICKING;
+            if is_swept || status.is_yield() && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
         }
         problem.reset_forces();
-        newton.step(problem)
+        newton.solve_for_statuses(problem)
     }
 
-    /// Sets the initial forces of the step.
+    /// Sets the forces to those at the start of the step.
     fn set_initial_forces(&mut self, input: &ContactInput<'_>) {
         for (e, area) in self.areas.iter().enumerate() {
             let traction = input.start.state(e).traction();
-            for (i, traction) in self.problem.places(e).into_iter().zip(traction) {
+            for (i, traction) in self.problem.component_indices(e).into_iter().zip(traction) {
                 self.problem.set_force(i, area * traction);
             }
         }
     }
 
-    /// Breaks the bonds of elements that have opened; returns whether any broke.
-    fn break_bonds(&mut self, gone: f64) -> bool {
-        let mut any = false;
+    /// Breaks the bonds of elements that have opened by more than a gap; returns whether any broke.
+    fn break_bonds(&mut self, breaking_gap: f64) -> bool {
+        let mut has_broken = false;
         for (e, status) in self.newton.statuses.iter().enumerate() {
             let bounds = &mut self.problem.bounds[e];
-            let gap = self.problem.y[e] - bounds.offset;
-            if status.normal == Normal::Open && bounds.has_bond() && gap > gone {
-                *bounds = bounds.broken();
-                (self.broken[e], any) = (true, true);
+            let gap = self.problem.y[e] - bounds.closed_gap;
+            if status.normal == Normal::Open && bounds.has_bond() && gap > breaking_gap {
+                *bounds = bounds.with_broken_bond();
+                self.has_broken_bond[e] = true;
+                has_broken = true;
             }
         }
-        any
+        has_broken
     }
 
-    /// Modes of the statuses.
+    /// Writes the modes of the present statuses.
     fn write_modes(&self, modes: &mut [Mode]) {
         for (e, (mode, status)) in modes.iter_mut().zip(&self.newton.statuses).enumerate() {
-            // A bond at its strength still holds; a broken one stays broken.
+            // A bond at its strength is intact; an element whose bond broke in this step slips.
             let has_bond = self.problem.bounds[e].has_bond();
-            let slides = status.tangential != Tangential::Stick || self.broken[e];
-            let closed = if slides { Mode::Slip } else { Mode::Stick };
+            let slides = status.tangential != Tangential::Stick || self.has_broken_bond[e];
+            let closed_mode = if slides { Mode::Slip } else { Mode::Stick };
             *mode = match status.normal {
                 Normal::Open if !has_bond => Mode::Open,
-                Normal::Capped | Normal::Hardening(_) => closed.yielding(),
-                _ => closed,
+                Normal::Capped | Normal::Hardening(_) => closed_mode.yielding(),
+                _ => closed_mode,
             };
         }
     }
@@ -359,13 +369,13 @@ impl ForceSearch {
         substituted.map(|(_, bounds)| bounds.effective_friction()).reduce(f64::min)
     }
 
+    /// Error of a search without a solution: the residual with the friction of the laws, and its elements.
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
-        // With the friction of the laws.
         problem.limit_friction(f64::INFINITY);
         let residual = problem.residual();
         let tolerance = problem.tolerance();
-        let elements = (0..problem.count)
+        let elements = (0..problem.element_count)
             .filter(|e| {
                 let residual = problem.element_residual(*e);
                 residual > tolerance || residual.is_nan()

@@ -1,25 +1,29 @@
 //! The proximal point method: a sequence of problems with W + α D and q − α D r, with r the last iterate.
 //!
-//! Each problem is better conditioned than the original one, and the added terms vanish as the iterates converge.
+//! Each problem is better conditioned than the original one. The added terms vanish as the iterates converge.
 
 use super::problem::ConeProblem;
 
-/// Initial fraction of the mean diagonal D that is added.
+/// Initial fraction α of the mean diagonal D that is added.
 const INITIAL_DIAGONAL_FRACTION: f64 = 0.3;
-/// Largest number of iterations.
+/// Factors of α after a problem that was solved, and after one that was not.
+const FRACTION_REDUCTION: f64 = 0.5;
+const FRACTION_GROWTH: f64 = 3.0;
+/// Largest number of problems: α may fall below 1e-16.
 const MAX_PROXIMAL_ITERATIONS: usize = 60;
 
 /// Original q and diagonal of W, and the last iterate.
 pub(super) struct Proximal {
     q: Vec<f64>,
     diagonal: Vec<f64>,
-    center: Vec<f64>,
+    last_change: Vec<f64>,
 }
 
 impl Proximal {
-    pub(super) fn new(count: usize) -> Self {
-        let zero = vec![0.0; 3 * count];
-        Self { q: zero.clone(), diagonal: zero.clone(), center: zero }
+    /// Allocates for the components of `element_count` elements.
+    pub(super) fn new(element_count: usize) -> Self {
+        let zero = vec![0.0; 3 * element_count];
+        Self { q: zero.clone(), diagonal: zero.clone(), last_change: zero }
     }
 
     /// Solves `problem` by `solve`, a solver for modified problems; returns whether it succeeded.
@@ -28,60 +32,52 @@ impl Proximal {
         problem: &mut ConeProblem,
         mut solve: impl FnMut(&mut ConeProblem) -> bool,
     ) -> bool {
-        let size = problem.size();
+        let size = problem.component_count();
         self.q.copy_from_slice(&problem.q);
-        self.center.copy_from_slice(&problem.change);
+        self.last_change.copy_from_slice(&problem.force_change);
         for i in 0..size {
             self.diagonal[i] = problem.diagonal(i);
         }
-        let mean = self.diagonal.iter().sum::<f64>() / size as f64;
+        let mean_diagonal = self.diagonal.iter().sum::<f64>() / size as f64;
         let mut fraction = INITIAL_DIAGONAL_FRACTION;
-        let mut found = false;
         for _ in 0..MAX_PROXIMAL_ITERATIONS {
-            let added = fraction * mean;
+            let added_diagonal = fraction * mean_diagonal;
             for i in 0..size {
-                problem.set_diagonal(i, self.diagonal[i] + added);
-                problem.q[i] = self.q[i] - added * self.center[i];
+                problem.q[i] = self.q[i] - added_diagonal * self.last_change[i];
             }
-            problem.added = added;
-            problem.update_scales();
-            let solved = solve(problem);
-            problem.added = 0.0;
-            for i in 0..size {
-                problem.set_diagonal(i, self.diagonal[i]);
-            }
+            problem.set_added_diagonal(&self.diagonal, added_diagonal);
+            let is_solved = solve(problem);
             problem.q.copy_from_slice(&self.q);
-            problem.update_scales();
-            if !solved {
-                problem.change.copy_from_slice(&self.center);
-                fraction *= 3.0;
+            problem.set_added_diagonal(&self.diagonal, 0.0);
+            if !is_solved {
+                problem.force_change.copy_from_slice(&self.last_change);
+                fraction *= FRACTION_GROWTH;
                 continue;
             }
-            self.center.copy_from_slice(&problem.change);
-            fraction *= 0.5;
-            found = problem.is_solved();
-            if found {
-                break;
+            self.last_change.copy_from_slice(&problem.force_change);
+            fraction *= FRACTION_REDUCTION;
+            if problem.is_solved() {
+                return true;
             }
         }
-        found
+        false
     }
 }
 
 impl ConeProblem {
-    /// Entry on the diagonal of W; `added` is not part of it if W is of low rank.
+    /// Entry on the diagonal of W.
     fn diagonal(&self, i: usize) -> f64 {
-        match &self.low_rank {
-            Some(_) => self.element_blocks[i % self.count][i / self.count][i / self.count],
-            None => self.w[i * (self.size() + 1)],
-        }
+        let component = i / self.element_count;
+        self.element_blocks[i % self.element_count][component][component]
     }
 
-    /// Sets an entry on the diagonal of W, unless it is of low rank: then `added` changes it.
-    fn set_diagonal(&mut self, i: usize, value: f64) {
-        let place = i * (self.size() + 1);
-        if self.low_rank.is_none() {
-            self.w[place] = value;
+    /// Adds a number to the diagonal of W, whose original entries are `diagonal`.
+    fn set_added_diagonal(&mut self, diagonal: &[f64], added_diagonal: f64) {
+        self.added_diagonal = added_diagonal;
+        let size = self.component_count();
+        for (entry, original) in self.w.iter_mut().step_by(size + 1).zip(diagonal) {
+            *entry = original + added_diagonal;
         }
+        self.update_scales();
     }
 }

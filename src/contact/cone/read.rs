@@ -1,16 +1,20 @@
-//! The data of a step: W with the layers of the laws, q, and the bounds of the forces.
+//! Reads the data of a step: W with the layers of the laws, q, and the bounds of the forces.
 
 use super::ForceSearch;
-use super::blocks::NearFieldBlocks;
+use super::compliance::ComplianceForm;
+use super::dense_lattice::DenseLattice;
+use super::near_field::NearFieldBlocks;
 use super::newton::Newton;
 use super::problem::{Bounds, ConeProblem};
-use super::wide::DenseLattice;
 use crate::contact::OnBed;
 use crate::contact::linearisation::{TangentSolution, settlement_on_curve};
 use crate::contact::problem::ContactInput;
 use crate::error::LawError;
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
+
+/// Rounding error of a length, relative to the largest: a few units in the last place.
+const ROUNDING_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl ForceSearch {
     /// Reads W, q and the limits of the laws.
@@ -21,29 +25,30 @@ impl ForceSearch {
             self.update_operator(input);
         }
         let Self { problem, areas, layers, .. } = self;
-        self.broken.fill(false);
+        self.has_broken_bond.fill(false);
         self.hardens = false;
         for (e, &area) in areas.iter().enumerate() {
             let start = input.start.element(e);
             problem.bounds[e] = bounds(&input.limits(e, 0.0)?, area);
             self.hardens |= problem.bounds[e].hardening > 0.0;
-            for (component, i) in problem.places(e).into_iter().enumerate() {
-                problem.anchor[i] = area * input.static_traction[i];
+            for (component, i) in problem.component_indices(e).into_iter().enumerate() {
+                problem.static_force[i] = area * input.static_traction[i];
                 problem.q[i] = input.free_jump[i];
-                // A layer starts from its deformation, a slip from its last value.
+                // A layer deforms in shear from its last shear, and the slip of the step begins at the last slip.
                 let layer = layers[e][component.min(1)];
-                let begin = if component == 0 { 0.0 } else { start.state.traction()[component] };
-                problem.q[i] += layer * (input.static_traction[i] - begin);
+                let last_shear =
+                    if component == 0 { 0.0 } else { start.state.traction()[component] };
+                problem.q[i] += layer * (input.static_traction[i] - last_shear);
                 if component > 0 {
                     problem.q[i] -= start.state.jump()[component];
                 }
             }
         }
-        problem.min_force_scale = largest(&problem.anchor);
-        let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |max, rho| max.max(*rho));
-        // Rounding of lengths that are not normal numbers is larger.
+        problem.min_force_scale = largest(&problem.static_force);
+        let max_rho = problem.rho.iter().flatten().fold(0.0_f64, |max, rho| max.max(*rho));
+        // The relative rounding error of subnormal lengths is larger.
         let length = input.length_scale.max(f64::MIN_POSITIVE / f64::EPSILON);
-        problem.rounding_residual = 4.0 * f64::EPSILON * length * stiffest;
+        problem.rounding_residual = ROUNDING_ERROR * length * max_rho;
         if self.hardens {
             self.predict_settlements(input)?;
         }
@@ -54,7 +59,7 @@ impl ForceSearch {
     fn predict_settlements(&mut self, input: &ContactInput<'_>) -> Result<(), LawError> {
         self.trial_settlements.fill(0.0);
         self.set_initial_forces(input);
-        self.problem.update_motions();
+        self.problem.update_displacements();
         for e in 0..self.areas.len() {
             if self.problem.bounds[e].hardening > 0.0 {
                 let solution =
@@ -78,11 +83,11 @@ impl ForceSearch {
         let Self { problem, newton, areas, .. } = self;
         let area = areas[e];
         let [stiffness, _] = problem.rho[e];
-        let rounding_of_length = 4.0 * f64::EPSILON * input.length_scale;
+        let rounding_of_length = ROUNDING_ERROR * input.length_scale;
         TangentSolution {
             element: e,
             pressure: problem.force(e) / area,
-            settlement: problem.bounds[e].offset - problem.y[e],
+            settlement: problem.bounds[e].closed_gap - problem.y[e],
             yields: newton.statuses[e].is_yield(),
             stiffness: stiffness / area,
             pressure_rounding: residual / area,
@@ -122,15 +127,16 @@ impl ForceSearch {
     /// Copies W and adds the layers of the laws.
     fn update_operator(&mut self, input: &ContactInput<'_>) {
         if let Some(on_bed) = input.delassus.on_bed() {
-            return self.read_modes(on_bed);
+            return self.read_low_rank(on_bed);
         }
-        if self.problem.low_rank.is_some() {
+        if self.problem.form.low_rank().is_some() {
             let count = self.areas.len();
-            (self.problem, self.newton) = (ConeProblem::new(count), Newton::new(count));
+            self.problem = ConeProblem::new(count);
+            self.newton = Newton::new(count);
         }
         let is_constant = self.has_constant_operator(input);
         let Self { problem, areas, layers, .. } = self;
-        let size = problem.size();
+        let size = problem.component_count();
         let count = areas.len();
         let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
         for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
@@ -140,42 +146,42 @@ impl ForceSearch {
             values[row] += layer(row);
         }
         problem.update_scales();
-        problem.near_field = None;
-        problem.dense_lattice = None;
-        // Blocks take longer to compute than they save if W changes.
+        problem.form = ComplianceForm::Entries;
+        // The other forms take longer to compute than they save if W changes.
         if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
             && let Some(cells) = soil.cells()
         {
             let compliance =
                 |row: usize, column: usize| soil[row * size + column] / areas[column % count];
-            let near_field =
-                NearFieldBlocks::new(&problem.w, &problem.rho, cells, compliance, layer);
-            if near_field.is_none() {
-                problem.dense_lattice = DenseLattice::new(&problem.w, cells, compliance, layer);
+            let ConeProblem { w, rho, form, .. } = problem;
+            if let Some(blocks) = NearFieldBlocks::new(w, rho, cells, compliance, layer) {
+                *form = ComplianceForm::NearField(Box::new(blocks));
+            } else if let Some(lattice) = DenseLattice::new(w, cells, compliance, layer) {
+                *form = ComplianceForm::DenseLattice(Box::new(lattice));
             }
-            problem.set_near_field(near_field);
         }
         problem.prepare_acceleration();
-        self.newton.forget(is_constant);
+        self.newton.invalidate(is_constant);
     }
 
     /// Reads W of low rank, and adds the layers of the laws.
-    fn read_modes(&mut self, on_bed: &OnBed) {
+    fn read_low_rank(&mut self, on_bed: &OnBed) {
         let Self { problem, newton, areas, layers, .. } = self;
         let count = areas.len();
         let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
-        let Some(low_rank) = &mut problem.low_rank else {
-            (*problem, *newton) = (ConeProblem::on_bed(count), Newton::on_bed(count));
-            return self.read_modes(on_bed);
+        let ComplianceForm::LowRank(low_rank) = &mut problem.form else {
+            *problem = ConeProblem::on_bed(count);
+            *newton = Newton::on_bed(count);
+            return self.read_low_rank(on_bed);
         };
         low_rank.set(on_bed, areas, layer);
-        newton.reserve(on_bed.rank());
+        newton.reserve(on_bed.mode_count());
         problem.update_scales();
     }
 
     /// Whether W is constant for the whole run.
     ///
-    /// True if the structure is linear, and laws with layers have no state variables.
+    /// It is constant if the structure is linear, and laws with layers have no state variables.
     pub(super) fn has_constant_operator(&self, input: &ContactInput<'_>) -> bool {
         self.is_linear
             && self
@@ -192,10 +198,10 @@ fn bounds(limits: &Limits, area: f64) -> Bounds {
         friction: limits.friction,
         friction_limit: f64::INFINITY,
         attraction: limits.attraction * area,
-        strength: limits.shear_strength * area,
+        shear_strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],
         hardening: limits.hardening * area,
-        offset: limits.gap_offset,
-        bonded: limits.bonded,
+        closed_gap: limits.gap_offset,
+        is_bonded: limits.bonded,
     }
 }

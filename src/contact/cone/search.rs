@@ -1,26 +1,29 @@
-//! Search for the forces of a contact problem in plan, by one method after the other.
+//! Search for the forces of a contact problem in space, by one method after the other.
 
 use super::newton::Newton;
 use super::problem::{ConeProblem, SUBSTITUTED_FRICTION, SolveOutcome};
 use super::proximal::Proximal;
 use crate::contact::SearchMethod;
 
-/// Largest number of sweeps of a round.
+/// Largest number of sweeps before Newton's method takes over.
 const MAX_SWEEPS_PER_ROUND: usize = 60;
-/// Rounds of sweeps and Newton's method, alone or within the proximal method.
+/// Largest number of rounds of sweeps and Newton's method.
 const MAX_ROUNDS: usize = 12;
-/// Accelerated sweeps of a round end at this change, relative to the largest force, for Newton's method to begin.
+/// Change at which Newton's method replaces the accelerated sweeps of each round, relative to the largest force.
 const CHANGES_BEFORE_NEWTON: [f64; 4] = [3e-3, 1e-5, 1e-8, 0.0];
-/// Largest friction that all methods are tried with; a higher one is approached from below.
+/// Largest friction for which all methods are tried; a search for higher friction begins with lower friction.
 const MAX_DIRECT_FRICTION: f64 = 100.0;
-/// Smallest friction from which a higher one is approached.
+/// Smallest friction with which such a search begins.
 const MIN_FRICTION_LIMIT: f64 = 3.0;
-/// Randomised restarts of Newton's method: alone, while friction is raised, and within the proximal method.
+/// Largest number of randomised restarts of Newton's method: alone, while friction is raised, and within the proximal
+/// method.
 const MAX_RESTARTS: u64 = 60;
 const MAX_RESTARTS_WHILE_RAISING: u64 = 12;
 const MAX_RESTARTS_WITHIN_PROXIMAL: u64 = 4;
 /// Smallest factor by which friction is raised.
 const MIN_FRICTION_FACTOR: f64 = 1.2;
+/// Upper bound of a factor that failed, before its square root replaces it: the first factor is infinite.
+const MAX_FAILED_FACTOR: f64 = 100.0;
 
 /// Number of iterations of a search, and the last method used; no method if no solution was found.
 pub(super) struct SearchOutcome {
@@ -29,200 +32,204 @@ pub(super) struct SearchOutcome {
 }
 
 impl SearchOutcome {
-    /// Outcome of a search that ended with `outcome` after `iterations` in all, by `method`.
-    fn by(method: SearchMethod, outcome: SolveOutcome, iterations: usize) -> Self {
+    /// Outcome of a search whose last method ended with `outcome`, after `iterations` in all.
+    fn with_method(method: SearchMethod, outcome: SolveOutcome, iterations: usize) -> Self {
         Self { iterations, method: outcome.is_solved.then_some(method) }
     }
 }
 
-/// Tries one method after the other, with `start` and `limited` as scratch.
+/// Finds forces by one method after the other, with `initial_change` and `limited_change` as scratch.
 ///
-/// A friction above [`MAX_DIRECT_FRICTION`] that is not solved at once is limited, and raised from that solution as far
-/// as possible. `is_constant`: whether W is constant for the whole run.
-pub(super) fn search(
+/// If Newton's method alone finds no forces for a friction above [`MAX_DIRECT_FRICTION`], the search limits the friction,
+/// and raises it from that solution as far as possible. `is_constant`: whether W is constant for the whole run.
+pub(super) fn find_forces(
     problem: &mut ConeProblem,
     newton: &mut Newton,
     proximal: &mut Proximal,
-    start: &mut [f64],
-    limited: &mut [f64],
+    initial_change: &mut [f64],
+    limited_change: &mut [f64],
     is_constant: bool,
 ) -> SearchOutcome {
-    start.copy_from_slice(&problem.change);
+    initial_change.copy_from_slice(&problem.force_change);
     problem.limit_friction(f64::INFINITY);
     let max_friction = problem.bounds.iter().fold(0.0_f64, |max, bounds| max.max(bounds.friction));
     if max_friction <= MAX_DIRECT_FRICTION {
-        return search_with_limited_friction(problem, newton, proximal, start, is_constant);
+        return search_by_all_methods(problem, newton, proximal, initial_change, is_constant);
     }
     let outcome = newton.solve(problem, false);
     let mut iterations = outcome.iterations;
     if outcome.is_solved {
-        return SearchOutcome::by(SearchMethod::Newton, outcome, iterations);
+        return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
     }
-    // The largest friction with a solution, and its method.
+    // The largest friction with a solution, and the method that found it.
     let mut best: Option<(f64, SearchMethod)> = None;
     for friction_limit in
         [SUBSTITUTED_FRICTION, MAX_DIRECT_FRICTION, 0.1 * MAX_DIRECT_FRICTION, MIN_FRICTION_LIMIT]
     {
         problem.limit_friction(friction_limit);
-        problem.change.copy_from_slice(start);
+        problem.force_change.copy_from_slice(initial_change);
         let is_last = friction_limit == MIN_FRICTION_LIMIT && best.is_none();
         let outcome = if friction_limit == MAX_DIRECT_FRICTION || is_last {
-            search_with_limited_friction(problem, newton, proximal, start, is_constant)
+            search_by_all_methods(problem, newton, proximal, initial_change, is_constant)
         } else {
-            rounds(problem, newton)
+            alternate_sweeps_and_newton(problem, newton)
         };
         iterations += outcome.iterations;
         let Some(method) = outcome.method else { continue };
         let method = method.max(SearchMethod::Newton);
-        iterations += raise_friction_limit(problem, newton, start, max_friction);
-        let reached = problem.bounds[0].friction_limit;
-        if reached >= MAX_DIRECT_FRICTION {
+        iterations += raise_friction_limit(problem, newton, initial_change, max_friction);
+        let raised_limit = problem.bounds[0].friction_limit;
+        if raised_limit >= MAX_DIRECT_FRICTION {
             return SearchOutcome { iterations, method: Some(method) };
         }
-        if best.is_none_or(|(friction_limit, _)| reached > friction_limit) {
-            best = Some((reached, method));
-            limited.copy_from_slice(&problem.change);
+        if best.is_none_or(|(best_limit, _)| raised_limit > best_limit) {
+            best = Some((raised_limit, method));
+            limited_change.copy_from_slice(&problem.force_change);
         }
     }
     let Some((friction_limit, method)) = best else {
         return SearchOutcome { iterations, method: None };
     };
     problem.limit_friction(friction_limit);
-    problem.change.copy_from_slice(limited);
-    problem.update_motions();
+    problem.force_change.copy_from_slice(limited_change);
+    problem.update_displacements();
     SearchOutcome { iterations, method: Some(method) }
 }
 
 /// Raises the friction limit from a solution towards `max_friction`; returns the number of iterations.
 ///
-/// Where that fails it uses smaller factors.
+/// Where a factor fails, it tries smaller ones.
 fn raise_friction_limit(
     problem: &mut ConeProblem,
     newton: &mut Newton,
-    start: &mut [f64],
+    solved_change: &mut [f64],
     max_friction: f64,
 ) -> usize {
     let mut friction_limit = problem.bounds[0].friction_limit;
     let mut factor = f64::INFINITY;
     let mut iterations = 0;
-    start.copy_from_slice(&problem.change);
+    solved_change.copy_from_slice(&problem.force_change);
     while friction_limit < max_friction && factor > MIN_FRICTION_FACTOR {
         problem.limit_friction(friction_limit * factor);
         let mut outcome = newton.solve(problem, false);
         iterations += outcome.iterations;
         if !outcome.is_solved {
-            outcome = newton.restart_randomly(problem, start, MAX_RESTARTS_WHILE_RAISING);
+            outcome = newton.restart_randomly(problem, solved_change, MAX_RESTARTS_WHILE_RAISING);
             iterations += outcome.iterations;
         }
         if outcome.is_solved {
             friction_limit *= factor;
             factor = f64::INFINITY;
-            start.copy_from_slice(&problem.change);
+            solved_change.copy_from_slice(&problem.force_change);
         } else {
-            problem.change.copy_from_slice(start);
-            factor = factor.min(100.0).sqrt();
+            problem.force_change.copy_from_slice(solved_change);
+            factor = factor.min(MAX_FAILED_FACTOR).sqrt();
         }
     }
     problem.limit_friction(friction_limit);
-    problem.update_motions();
+    problem.update_displacements();
     iterations
 }
 
-/// Tries one method after the other, with the friction limit as it is.
-fn search_with_limited_friction(
+/// Finds forces by one method after the other, with the present friction limit.
+fn search_by_all_methods(
     problem: &mut ConeProblem,
     newton: &mut Newton,
     proximal: &mut Proximal,
-    start: &mut [f64],
+    initial_change: &mut [f64],
     is_constant: bool,
 ) -> SearchOutcome {
     let mut iterations = 0;
-    if problem.low_rank.is_some() {
-        // Newton's iterations take no more time than sweeps here, and need no soft structure.
+    if problem.form.low_rank().is_some() {
+        // Newton's iterations take no more time than sweeps here, and converge for stiff structures, too.
         let outcome = newton.solve(problem, false);
         iterations += outcome.iterations;
         if outcome.is_solved {
-            return SearchOutcome::by(SearchMethod::Newton, outcome, iterations);
+            return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
         }
-        problem.change.copy_from_slice(start);
+        problem.force_change.copy_from_slice(initial_change);
     }
-    let outcome = rounds(problem, newton);
+    let outcome = alternate_sweeps_and_newton(problem, newton);
     iterations += outcome.iterations;
     if outcome.method.is_some() {
         return SearchOutcome { iterations, ..outcome };
     }
-    let outcome = newton.restart_randomly(problem, start, MAX_RESTARTS);
+    let outcome = newton.restart_randomly(problem, initial_change, MAX_RESTARTS);
     iterations += outcome.iterations;
     if outcome.is_solved {
-        return SearchOutcome::by(SearchMethod::Newton, outcome, iterations);
+        return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
     }
-    problem.change.copy_from_slice(start);
+    problem.force_change.copy_from_slice(initial_change);
     let is_solved = proximal.solve(problem, |problem| {
-        newton.forget(false);
-        start.copy_from_slice(&problem.change);
-        let outcome = rounds(problem, newton);
+        newton.invalidate(false);
+        initial_change.copy_from_slice(&problem.force_change);
+        let outcome = alternate_sweeps_and_newton(problem, newton);
         iterations += outcome.iterations;
         if outcome.method.is_some() {
             return true;
         }
-        let outcome = newton.restart_randomly(problem, start, MAX_RESTARTS_WITHIN_PROXIMAL);
+        let outcome =
+            newton.restart_randomly(problem, initial_change, MAX_RESTARTS_WITHIN_PROXIMAL);
         iterations += outcome.iterations;
         outcome.is_solved
     });
-    newton.forget(is_constant);
+    newton.invalidate(is_constant);
     SearchOutcome { iterations, method: is_solved.then_some(SearchMethod::Proximal) }
 }
 
-/// Sweeps and Newton's method in turn.
-fn rounds(problem: &mut ConeProblem, newton: &mut Newton) -> SearchOutcome {
+/// Alternates between sweeps and Newton's method.
+fn alternate_sweeps_and_newton(problem: &mut ConeProblem, newton: &mut Newton) -> SearchOutcome {
     if problem.acceleration.is_some() {
-        return accelerated_rounds(problem, newton);
+        return alternate_accelerated_sweeps_and_newton(problem, newton);
     }
     let mut iterations = 0;
     for round in 0..MAX_ROUNDS {
         let outcome = problem.sweep(MAX_SWEEPS_PER_ROUND);
         iterations += outcome.iterations;
         if outcome.is_solved {
-            return SearchOutcome::by(method_of_sweeps(round), outcome, iterations);
+            return SearchOutcome::with_method(sweep_method(round), outcome, iterations);
         }
         let outcome = newton.solve(problem, round % 2 == 1);
         iterations += outcome.iterations;
         if outcome.is_solved {
-            return SearchOutcome::by(SearchMethod::Newton, outcome, iterations);
+            return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
         }
         reset_if_not_finite(problem);
     }
     SearchOutcome { iterations, method: None }
 }
 
-/// Accelerated sweeps, ever closer to the solution, and Newton's method in turn, for many elements.
-fn accelerated_rounds(problem: &mut ConeProblem, newton: &mut Newton) -> SearchOutcome {
+/// Alternates between accelerated sweeps, ever closer to the solution, and Newton's method, for many elements.
+fn alternate_accelerated_sweeps_and_newton(
+    problem: &mut ConeProblem,
+    newton: &mut Newton,
+) -> SearchOutcome {
     let mut iterations = 0;
     for (round, relative_change) in CHANGES_BEFORE_NEWTON.into_iter().enumerate() {
         let outcome = problem.sweep_accelerated(relative_change);
         iterations += outcome.iterations;
         if outcome.is_solved {
-            return SearchOutcome::by(method_of_sweeps(round), outcome, iterations);
+            return SearchOutcome::with_method(sweep_method(round), outcome, iterations);
         }
         reset_if_not_finite(problem);
         let outcome = newton.solve_briefly(problem, round % 2 == 1);
         iterations += outcome.iterations;
         if outcome.is_solved {
-            return SearchOutcome::by(SearchMethod::Newton, outcome, iterations);
+            return SearchOutcome::with_method(SearchMethod::Newton, outcome, iterations);
         }
     }
     SearchOutcome { iterations, method: None }
 }
 
-/// Method of a solution by sweeps: after the first round they started from Newton's forces.
-fn method_of_sweeps(round: usize) -> SearchMethod {
+/// Method of a solution by sweeps; after the first round they start from the forces of Newton's method.
+fn sweep_method(round: usize) -> SearchMethod {
     if round == 0 { SearchMethod::GaussSeidel } else { SearchMethod::Newton }
 }
 
 /// Sets all changes of force to zero if one is not finite: such forces cannot start an iteration.
 fn reset_if_not_finite(problem: &mut ConeProblem) {
-    if problem.change.iter().any(|change| !change.is_finite()) {
-        problem.change.fill(0.0);
+    if problem.force_change.iter().any(|change| !change.is_finite()) {
+        problem.force_change.fill(0.0);
     }
 }
 

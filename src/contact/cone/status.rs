@@ -1,4 +1,4 @@
-//! Contact status of an element: along the normal, and along the base.
+//! Contact status of an element: normal and tangential.
 
 use std::mem::{Discriminant, discriminant};
 
@@ -9,11 +9,12 @@ pub(super) struct Status {
     pub(super) tangential: Tangential,
 }
 
-/// Status along the normal.
+/// Status of the gap and the pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Normal {
     /// No pressure, or a bond at its strength.
     Open,
+    /// Closed gap, with a pressure below its cap.
     Closed,
     /// The pressure is at its cap.
     Capped,
@@ -21,17 +22,20 @@ pub(super) enum Normal {
     Hardening(f64),
 }
 
-/// Status along the base.
+/// Status of the shear and the slip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tangential {
-    /// No friction.
+    /// No shear.
     Free,
+    /// No slip.
     Stick,
-    /// Slip in this direction, with κ and the growth of the radius with p.
     Slip {
+        /// Direction of the shear on the soil.
         direction: [f64; 2],
-        turn: f64,
-        slope: f64,
+        /// κ: radius of the disc, relative to the trial shear.
+        radius_ratio: f64,
+        /// Growth of the radius with p.
+        radius_slope: f64,
     },
 }
 
@@ -46,12 +50,12 @@ impl Status {
         matches!(self.normal, Normal::Capped | Normal::Hardening(_))
     }
 
-    /// Whether the element slips and its friction is below `friction`.
+    /// Whether the element slips with friction below `friction`.
     pub(super) fn slips_below(&self, friction: f64) -> bool {
-        matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
+        matches!(self.tangential, Tangential::Slip { radius_slope, .. } if radius_slope > 0.0 && radius_slope < friction)
     }
 
-    /// Closed without slip.
+    /// Closed gap without slip.
     pub(super) const CLOSED_STICKING: Self =
         Self { normal: Normal::Closed, tangential: Tangential::Stick };
     /// Open, without any force.
@@ -66,18 +70,19 @@ impl Status {
         }
     }
 
-    /// Numbers of unknown forces and of unknown motions.
-    pub(super) fn unknown_counts(&self) -> [usize; 2] {
-        let tangential = match self.tangential {
-            Tangential::Free => [0, 2],
-            Tangential::Stick => [2, 0],
-            Tangential::Slip { .. } => [1, 2],
+    /// Number of unknown forces.
+    pub(super) fn unknown_force_count(&self) -> usize {
+        let tangential_count = match self.tangential {
+            Tangential::Free => 0,
+            Tangential::Slip { .. } => 1,
+            Tangential::Stick => 2,
         };
-        let normal = match self.normal {
-            Normal::Closed => [1, 0],
-            Normal::Open | Normal::Capped => [0, 1],
-            Normal::Hardening(_) => [1, 1],
-        };
-        [tangential[0] + normal[0], tangential[1] + normal[1]]
+        tangential_count + usize::from(!matches!(self.normal, Normal::Open | Normal::Capped))
+    }
+
+    /// Number of unknown displacements.
+    pub(super) fn unknown_displacement_count(&self) -> usize {
+        let tangential_count = if self.tangential == Tangential::Stick { 0 } else { 2 };
+        tangential_count + usize::from(self.normal != Normal::Closed)
     }
 }

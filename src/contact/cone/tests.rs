@@ -1,14 +1,14 @@
-//! Small problems against all their solutions, found by other means.
+//! Small problems against all their solutions, which an independent code finds.
 
 mod systems;
 
 use super::newton::Newton;
 use super::problem::{Bounds, ConeProblem};
-use super::{proximal::Proximal, search::search};
+use super::{proximal::Proximal, search::find_forces};
 use basemat_testkit::random::Random;
 
-/// A random positive definite W for `count` elements, and q.
-fn problem(random: &mut Random, count: usize, friction: f64) -> ConeProblem {
+/// A random problem of `count` elements with a positive definite W.
+fn random_problem(random: &mut Random, count: usize, friction: f64) -> ConeProblem {
     let size = 3 * count;
     let mut problem = ConeProblem::new(count);
     let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
@@ -21,16 +21,16 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> ConeProblem {
     }
     for bounds in &mut problem.bounds {
         *bounds = Bounds { friction, ..Bounds::WITHOUT_FRICTION };
-        // Beside a bond, a lower friction replaces an infinite one.
+        // Infinite friction with a bond would be replaced by a lower one.
         if random.chance(0.3) && friction < f64::INFINITY {
-            bounds.strength = random.within(0.0, 0.3);
+            bounds.shear_strength = random.within(0.0, 0.3);
         }
         if random.chance(0.3) {
             bounds.interval[1] = random.within(0.1, 0.6);
             bounds.hardening = if bounds.interval[1] < 0.35 { 2.0 } else { 0.0 };
         }
         if random.chance(0.3) {
-            bounds.offset = random.within(-0.2, 0.2);
+            bounds.closed_gap = random.within(-0.2, 0.2);
         }
     }
     problem.min_force_scale = 1e-3;
@@ -38,10 +38,10 @@ fn problem(random: &mut Random, count: usize, friction: f64) -> ConeProblem {
     problem
 }
 
-/// Number of angles at which a search for a direction starts.
+/// Number of initial angles of a slip direction.
 const ANGLE_COUNT: usize = 24;
 
-/// Possible state of an element: open, closed or at its cap; sticking or sliding in a direction.
+/// Normal state of an element in a trial: open, closed or at its cap.
 #[derive(Clone, Copy, PartialEq)]
 enum NormalState {
     Open,
@@ -49,12 +49,12 @@ enum NormalState {
     Capped,
 }
 
-/// Solves rows · x = right by elimination; `None` if singular.
+/// Solves a linear system by elimination; `None` if singular. Each row ends with its right-hand side.
 fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let n = rows.len();
     for k in 0..n {
-        let pivot = (k..n).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
-        rows.swap(k, pivot);
+        let pivot_index = (k..n).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
+        rows.swap(k, pivot_index);
         if rows[k][k].abs() < 1e-12 {
             return None;
         }
@@ -71,32 +71,33 @@ fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     Some(rows.iter().map(|row| row[n]).collect())
 }
 
-fn row_of(problem: &ConeProblem, i: usize) -> &[f64] {
-    &problem.w[i * problem.size()..][..problem.size()]
+/// Row of W of a component.
+fn w_row(problem: &ConeProblem, i: usize) -> &[f64] {
+    &problem.w[i * problem.component_count()..][..problem.component_count()]
 }
 
-/// Forces for given kinds: a sliding element has its shear at an angle, other elements do not slip.
+/// Forces for these states: normal state and whether the element slides, with its shear at an angle.
 fn forces(
     problem: &ConeProblem,
-    kinds: &[(NormalState, bool)],
+    states: &[(NormalState, bool)],
     angles: &[f64],
 ) -> Option<Vec<f64>> {
-    let size = problem.size();
+    let size = problem.component_count();
     let mut rows = Vec::new();
     for i in 0..size {
-        let component = i / problem.count;
-        let e = i % problem.count;
+        let component = i / problem.element_count;
+        let e = i % problem.element_count;
         let bounds = &problem.bounds[e];
         let mut row = vec![0.0; size + 1];
-        let mut moves = |target: f64| {
-            row[..size].copy_from_slice(row_of(problem, i));
-            row[size] = target - problem.q[i];
+        let mut set_displacement = |displacement: f64| {
+            row[..size].copy_from_slice(w_row(problem, i));
+            row[size] = displacement - problem.q[i];
         };
-        match (component, kinds[e]) {
-            (0, (NormalState::Closed, _)) => moves(bounds.offset),
+        match (component, states[e]) {
+            (0, (NormalState::Closed, _)) => set_displacement(bounds.closed_gap),
             (0, (NormalState::Capped, _)) => {
-                // p = cap + hardening (offset − y).
-                moves(bounds.offset);
+                // p = cap + hardening (closed gap − y).
+                set_displacement(bounds.closed_gap);
                 for entry in &mut row {
                     *entry *= bounds.hardening;
                 }
@@ -104,20 +105,20 @@ fn forces(
                 row[size] += bounds.interval[1];
             }
             (0, _) => row[i] = 1.0,
-            (_, (_, false)) => moves(0.0),
+            (_, (_, false)) => set_displacement(0.0),
             // The limit of infinite friction: shear along the slip without pressure, in a closed gap.
             (1, (NormalState::Closed, true)) if bounds.has_infinite_friction() => row[e] = 1.0,
             (2, (NormalState::Closed, true)) if bounds.has_infinite_friction() => {
-                (row[i - problem.count], row[i]) = (-angles[e].sin(), angles[e].cos());
+                (row[i - problem.element_count], row[i]) = (-angles[e].sin(), angles[e].cos());
             }
-            (_, (kind, true)) => {
+            (_, (normal_state, true)) => {
                 let d = if component == 1 { angles[e].cos() } else { angles[e].sin() };
-                // An open element keeps the strength until its bond breaks.
-                let friction =
-                    if kind == NormalState::Open { 0.0 } else { bounds.effective_friction() };
+                // An open element has its shear strength until its bond breaks.
+                let is_open = normal_state == NormalState::Open;
+                let friction = if is_open { 0.0 } else { bounds.effective_friction() };
                 row[i] = 1.0;
                 row[e] -= friction * d;
-                row[size] = bounds.strength * d;
+                row[size] = bounds.shear_strength * d;
             }
         }
         rows.push(row);
@@ -125,16 +126,16 @@ fn forces(
     eliminate(rows)
 }
 
-/// Motions of all components by the forces r.
-fn motions_of(problem: &ConeProblem, r: &[f64]) -> Vec<f64> {
+/// Displacements of all components due to the forces r.
+fn displacements(problem: &ConeProblem, r: &[f64]) -> Vec<f64> {
     let products =
-        (0..r.len()).map(|i| row_of(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>());
+        (0..r.len()).map(|i| w_row(problem, i).iter().zip(r).map(|(w, r)| w * r).sum::<f64>());
     problem.q.iter().zip(products).map(|(q, product)| q + product).collect()
 }
 
-/// Whether an element with these bounds cannot have this state, or has it only as a limit of another one.
-fn is_impossible(bounds: &Bounds, kind: (NormalState, bool)) -> bool {
-    match kind {
+/// Whether an element with these bounds cannot have this state, or has it only as a limit of another state.
+fn is_impossible(bounds: &Bounds, state: (NormalState, bool)) -> bool {
+    match state {
         (NormalState::Capped, slides) => {
             bounds.interval[1] == f64::INFINITY || slides && bounds.has_infinite_friction()
         }
@@ -143,223 +144,233 @@ fn is_impossible(bounds: &Bounds, kind: (NormalState, bool)) -> bool {
     }
 }
 
-/// All solutions, up to directions that a scan of angles does not distinguish.
+/// All solutions that Newton's method finds from a grid of slip directions, for all sets of states.
 fn all_solutions(problem: &ConeProblem) -> Vec<Vec<f64>> {
-    let count = problem.count;
-    let mut found: Vec<Vec<f64>> = Vec::new();
+    let count = problem.element_count;
+    let mut solutions: Vec<Vec<f64>> = Vec::new();
     let choices = [NormalState::Open, NormalState::Closed, NormalState::Capped]
-        .map(|kind| [(kind, false), (kind, true)]);
-    let choices = choices.concat();
-    for set in 0..(0..count).fold(1, |all, _| all * choices.len()) {
-        let mut rest = set;
-        let mut kinds = Vec::with_capacity(count);
+        .map(|normal_state| [(normal_state, false), (normal_state, true)])
+        .concat();
+    for set in 0..(0..count).fold(1, |product, _| product * choices.len()) {
+        let mut quotient = set;
+        let mut states = Vec::with_capacity(count);
         for _ in 0..count {
-            kinds.push(choices[rest % choices.len()]);
-            rest /= choices.len();
+            states.push(choices[quotient % choices.len()]);
+            quotient /= choices.len();
         }
-        let sliding: Vec<_> = (0..count).filter(|e| kinds[*e].1).collect();
-        if (0..count).any(|e| is_impossible(&problem.bounds[e], kinds[e])) {
+        let sliding: Vec<_> = (0..count).filter(|e| states[*e].1).collect();
+        if (0..count).any(|e| is_impossible(&problem.bounds[e], states[e])) {
             continue;
         }
-        // Slip across the direction of the shear; zero at a solution.
-        let across = |angles: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
-            let r = forces(problem, &kinds, angles)?;
-            let y = motions_of(problem, &r);
+        // Slip across the direction of the shear, which is zero at a solution; and the forces.
+        let cross_slip = |angles: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
+            let r = forces(problem, &states, angles)?;
+            let y = displacements(problem, &r);
             let residuals = sliding
                 .iter()
                 .map(|&e| angles[e].cos() * y[2 * count + e] - angles[e].sin() * y[count + e]);
             Some((residuals.collect(), r))
         };
         // Newton's method with finite differences, from a grid of angles.
-        for start in 0..sliding.iter().fold(1, |all, _| all * ANGLE_COUNT) {
+        for start in 0..sliding.iter().fold(1, |product, _| product * ANGLE_COUNT) {
             let mut angles = vec![0.0; count];
-            let mut rest = start;
+            let mut quotient = start;
             for &e in &sliding {
-                angles[e] =
-                    (rest % ANGLE_COUNT) as f64 * std::f64::consts::TAU / ANGLE_COUNT as f64;
-                rest /= ANGLE_COUNT;
+                let angle_index = quotient % ANGLE_COUNT;
+                angles[e] = angle_index as f64 * std::f64::consts::TAU / ANGLE_COUNT as f64;
+                quotient /= ANGLE_COUNT;
             }
             let mut solution = None;
             for _ in 0..30 {
-                let Some((residuals, r)) = across(&angles) else { break };
-                if residuals.iter().all(|m| m.abs() < 1e-12) {
+                let Some((residuals, r)) = cross_slip(&angles) else { break };
+                if residuals.iter().all(|residual| residual.abs() < 1e-12) {
                     solution = Some(r);
                     break;
                 }
-                let mut rows: Vec<Vec<f64>> = residuals.iter().map(|m| vec![-m]).collect();
+                let mut rows: Vec<Vec<f64>> =
+                    residuals.iter().map(|residual| vec![-residual]).collect();
                 for (k, &e) in sliding.iter().enumerate() {
-                    let mut turned = angles.clone();
-                    turned[e] += 1e-7;
-                    let Some((other, _)) = across(&turned) else { break };
-                    for (row, (a, b)) in rows.iter_mut().zip(other.iter().zip(&residuals)) {
-                        row.insert(k, (a - b) / 1e-7);
+                    let mut turned_angles = angles.clone();
+                    turned_angles[e] += 1e-7;
+                    let Some((turned_residuals, _)) = cross_slip(&turned_angles) else { break };
+                    let pairs = turned_residuals.iter().zip(&residuals);
+                    for (row, (turned_residual, residual)) in rows.iter_mut().zip(pairs) {
+                        row.insert(k, (turned_residual - residual) / 1e-7);
                     }
                 }
                 if rows.iter().any(|row| row.len() != sliding.len() + 1) {
                     break;
                 }
                 let Some(turns) = eliminate(rows) else { break };
-                for (&e, turn) in sliding.iter().zip(turns) {
-                    angles[e] += turn.clamp(-0.3, 0.3);
+                for (&e, radius_ratio) in sliding.iter().zip(turns) {
+                    angles[e] += radius_ratio.clamp(-0.3, 0.3);
                 }
             }
             let Some(r) = solution else { continue };
-            let y = motions_of(problem, &r);
-            let admissible = (0..count).all(|e| {
+            let y = displacements(problem, &r);
+            let is_admissible = (0..count).all(|e| {
                 let bounds = &problem.bounds[e];
-                let force = problem.places(e).map(|place| r[place]);
-                let motion = problem.places(e).map(|place| y[place]);
+                let force = problem.component_indices(e).map(|i| r[i]);
+                let displacement = problem.component_indices(e).map(|i| y[i]);
                 let shear = force[1].hypot(force[2]);
-                let radius = match kinds[e] {
+                let radius = match states[e] {
                     (NormalState::Closed, true) if bounds.has_infinite_friction() => shear,
                     (NormalState::Open, _) if bounds.has_infinite_friction() => 0.0,
                     _ => bounds.radius(force[0]),
                 };
-                let gap = motion[0] - bounds.offset;
-                let normal = match kinds[e].0 {
+                let gap = displacement[0] - bounds.closed_gap;
+                let is_normal_admissible = match states[e].0 {
                     NormalState::Open => gap >= -1e-9,
                     NormalState::Closed => {
                         force[0] >= -1e-9 && force[0] <= bounds.interval[1] + 1e-9
                     }
                     NormalState::Capped => gap <= 1e-9,
                 };
-                let along = force[1] * motion[1] + force[2] * motion[2];
-                let slides = (shear - radius).abs() < 1e-9 && along <= 1e-9;
-                normal && if kinds[e].1 { slides } else { shear <= radius + 1e-9 }
+                let slip_work = force[1] * displacement[1] + force[2] * displacement[2];
+                let slides = (shear - radius).abs() < 1e-9 && slip_work <= 1e-9;
+                is_normal_admissible && if states[e].1 { slides } else { shear <= radius + 1e-9 }
             });
-            let is_known = found
+            let is_new = solutions
                 .iter()
-                .any(|known| known.iter().zip(&r).all(|(known, r)| (known - r).abs() < 1e-7));
-            if admissible && !is_known {
-                found.push(r);
+                .all(|solution| solution.iter().zip(&r).any(|(a, b)| (a - b).abs() >= 1e-7));
+            if is_admissible && is_new {
+                solutions.push(r);
             }
         }
     }
-    found
+    solutions
 }
 
-/// Solves the problem by all methods.
+/// Solves the problem by all methods; returns whether they succeed.
 fn solve(problem: &mut ConeProblem) -> bool {
-    let count = problem.count;
+    let count = problem.element_count;
     let mut newton = Newton::new(count);
     let mut proximal = Proximal::new(count);
-    let mut start = vec![0.0; 3 * count];
-    let mut limited = start.clone();
-    search(problem, &mut newton, &mut proximal, &mut start, &mut limited, true)
+    let mut scratch = [(); 2].map(|()| vec![0.0; 3 * count]);
+    let [initial, limited] = &mut scratch;
+    find_forces(problem, &mut newton, &mut proximal, initial, limited, true)
         .method
         .is_some()
 }
 
+/// Whether the present forces are one of the solutions.
 fn is_among(problem: &ConeProblem, solutions: &[Vec<f64>]) -> bool {
     solutions.iter().any(|solution| {
         solution.iter().enumerate().all(|(i, force)| (force - problem.force(i)).abs() < 1e-7)
     })
 }
 
-/// Fraction of this many random problems: a fifth, or all of them if `HEAVY_TESTS` is set.
-fn cases(all: usize) -> usize {
+/// Number of random problems of a run: a fifth of all, or all of them if `HEAVY_TESTS` is set.
+fn case_count(all: usize) -> usize {
     if basemat_testkit::heavy() { all } else { all / 5 }
 }
 
 #[test]
 fn each_method_finds_one_of_all_solutions() {
     let mut random = Random(11);
-    let mut sliding = 0;
-    let mut swept = 0;
-    let mut nearing = 0;
-    let mut endless = 0;
-    for case in 0..cases(300) {
+    let mut sliding_count = 0;
+    let mut sweep_count = 0;
+    let mut proximal_count = 0;
+    let mut infinite_friction_count = 0;
+    for case in 0..case_count(300) {
         let count = if case % 8 == 0 { 2 } else { 1 };
         let friction = [0.2, 0.6, 1.5, 5.0, f64::INFINITY][case % 5];
-        let mut problem = problem(&mut random, count, friction);
+        let mut problem = random_problem(&mut random, count, friction);
         let solutions = all_solutions(&problem);
-        let found = solve(&mut problem);
+        let is_solved = solve(&mut problem);
         let friction_limit = problem.bounds[0].friction_limit;
         // Infinite friction without a solution is limited.
-        let limited = found && friction == f64::INFINITY && friction_limit < friction;
-        assert!(found != solutions.is_empty() || limited, "case {case}: {}", solutions.len());
-        if limited || solutions.is_empty() {
+        let is_limited = is_solved && friction == f64::INFINITY && friction_limit < friction;
+        let has_solution = !solutions.is_empty();
+        assert!(is_solved == has_solution || is_limited, "case {case}: {}", solutions.len());
+        if is_limited || !has_solution {
             assert!(
-                !limited || friction_limit >= 3.0 && problem.is_solved(),
+                !is_limited || friction_limit >= 3.0 && problem.is_solved(),
                 "case {case}: {friction_limit}"
             );
             continue;
         }
         assert!(is_among(&problem, &solutions), "case {case}: {} solutions", solutions.len());
-        let slip = |e: usize| problem.y[count + e].hypot(problem.y[2 * count + e]) > 1e-6;
-        sliding += usize::from((0..count).any(|e| slip(e) && problem.force(e) > 1e-6));
-        // Each method alone, from zero forces; discs are not empty.
-        problem.change.fill(0.0);
+        let has_sliding_element = (0..count).any(|e| {
+            let slip = problem.y[count + e].hypot(problem.y[2 * count + e]);
+            slip > 1e-6 && problem.force(e) > 1e-6
+        });
+        sliding_count += usize::from(has_sliding_element);
+        // Each method alone, from zero forces.
+        problem.force_change.fill(0.0);
         if Newton::new(count).solve(&mut problem, case % 2 == 0).is_solved {
             assert!(is_among(&problem, &solutions), "case {case}, Newton");
         }
         if friction == f64::INFINITY {
-            endless += 1;
+            infinite_friction_count += 1;
             continue;
         }
-        problem.change.fill(0.0);
+        problem.force_change.fill(0.0);
         if problem.sweep(2000).is_solved {
-            swept += 1;
+            sweep_count += 1;
             assert!(is_among(&problem, &solutions), "case {case}, sweeps");
         }
-        problem.change.fill(0.0);
+        problem.force_change.fill(0.0);
         let sweep = |problem: &mut ConeProblem| problem.sweep(200).is_solved;
         if Proximal::new(count).solve(&mut problem, sweep) {
-            nearing += 1;
+            proximal_count += 1;
             assert!(is_among(&problem, &solutions), "case {case}, proximal");
         }
     }
     assert!(
-        endless > cases(40) && sliding > cases(40) && swept > cases(150) && nearing > cases(150),
-        "{sliding} {swept} {nearing}"
+        infinite_friction_count > case_count(40)
+            && sliding_count > case_count(40)
+            && sweep_count > case_count(150)
+            && proximal_count > case_count(150),
+        "{infinite_friction_count} {sliding_count} {sweep_count} {proximal_count}"
     );
 }
 
-/// Infinite friction without a solution, or without one found, is limited as little as possible.
+/// Infinite friction is limited, as little as possible, where the search finds no solution.
 #[test]
-fn endless_friction_is_limited_where_it_must_be() {
+fn infinite_friction_is_limited_where_the_search_finds_no_solution() {
     let mut random = Random(17);
-    let mut limited = 0;
-    let mut failed = 0;
-    for case in 0..cases(300) {
+    let mut limited_count = 0;
+    let mut failure_count = 0;
+    for case in 0..case_count(300) {
         let size = 3 * [1, 2, 3, 4, 20, 40][case % 6];
-        let mut problem = problem(&mut random, size / 3, f64::INFINITY);
+        let mut problem = random_problem(&mut random, size / 3, f64::INFINITY);
         problem.w.iter_mut().step_by(size + 1).for_each(|entry| *entry -= 0.29);
         problem.update_scales();
-        failed += usize::from(!solve(&mut problem));
-        limited += usize::from(problem.bounds[0].friction_limit < f64::INFINITY);
+        failure_count += usize::from(!solve(&mut problem));
+        limited_count += usize::from(problem.bounds[0].friction_limit < f64::INFINITY);
         assert!(problem.bounds[0].friction_limit >= 3.0, "case {case}");
     }
     assert!(
-        limited > 0 && 50 * failed < cases(300),
-        "{limited} limited, {failed} without a solution"
+        limited_count > 0 && 50 * failure_count < case_count(300),
+        "{limited_count} limited, {failure_count} without a solution"
     );
 }
 
 /// Friction work is computed from the shear and the slip of one solution, and is never negative.
 #[test]
-fn friction_takes_energy_only() {
+fn friction_only_dissipates_energy() {
     let mut random = Random(5);
-    let mut failed = 0;
+    let mut failure_count = 0;
     for case in 0..300 {
         let count = 1 + case % 9;
         let friction = random.log_within(0.05, 20.0);
-        let mut problem = problem(&mut random, count, friction);
+        let mut problem = random_problem(&mut random, count, friction);
         if !solve(&mut problem) {
-            failed += 1;
+            failure_count += 1;
             continue;
         }
-        problem.update_motions();
+        problem.update_displacements();
         for e in 0..count {
-            let places = problem.places(e);
-            let force = places.map(|place| problem.force(place));
-            let slip = places.map(|place| problem.y[place]);
-            let work = -(force[1] * slip[1] + force[2] * slip[2]);
+            let indices = problem.component_indices(e);
+            let force = indices.map(|i| problem.force(i));
+            let y = indices.map(|i| problem.y[i]);
+            let work = -(force[1] * y[1] + force[2] * y[2]);
             assert!(work > -1e-9, "case {case}: {work:e}");
             let bounds = &problem.bounds[e];
             let shear = force[1].hypot(force[2]);
             assert!(shear <= bounds.radius(force[0]) * (1.0 + 1e-9) + 1e-9, "case {case}");
         }
     }
-    assert!(failed < 12, "{failed} without a solution");
+    assert!(failure_count < 12, "{failure_count} without a solution");
 }

@@ -3,8 +3,7 @@
 use super::ModeSearch;
 use crate::contact::SearchMethod;
 use crate::contact::linearisation::{Linearisation, TangentSolution, settlement_on_curve};
-use crate::contact::problem::ContactInput;
-use crate::contact::response::ContactResponse;
+use crate::contact::problem::{ContactInput, ContactResponse};
 use crate::error::{LawError, StepError};
 use crate::interface::{Mode, Tolerance};
 use crate::linalg::dot;

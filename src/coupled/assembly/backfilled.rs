@@ -60,20 +60,7 @@ pub(super) fn state(
     for (index, value) in floor_indices.iter().zip(&floor_state.traction) {
         traction[*index] = *value;
     }
-    let mut state = StaticState::weightless(layout, weight.len());
-    state.traction = traction;
-    let mut contact: Vec<ContactState> = (0..layout.elements())
-        .map(|e| ContactState { pressure: state.traction[e], ..ContactState::default() })
-        .collect();
-    for (e, mode) in state.modes.iter_mut().enumerate() {
-        *mode = law_of(laws, e).modes()[0];
-    }
-    let mut previous_contacts = Vec::with_capacity(contact.len());
-    for (element_contact, mode) in contact.iter().zip(&state.modes) {
-        let previous = PreviousContact::new(*element_contact, *mode, GRAVITY_STAGE_TIME_STEP);
-        previous_contacts.push(previous);
-    }
-    state.set_gaps(laws, &PreviousContacts::new(laws, &previous_contacts)?, &contact)?;
+    let (mut state, mut contact) = closed_state(laws, layout, traction, weight.len())?;
     state.gap[floor.clone()].copy_from_slice(&floor_state.gap);
     state.modes[floor.clone()].copy_from_slice(&floor_state.modes);
     state.state_variables = vec![Vec::new(); layout.elements()];
@@ -93,6 +80,26 @@ pub(super) fn state(
     jump_offset.iter_mut().zip(&state.gap).for_each(|(offset, gap)| *offset += gap);
     let problem = StaticProblem { jump_offset: &jump_offset, ..*problem };
     state_under_load(&problem, laws, (state, contact), [weight, load])
+}
+
+/// State of `dofs` degrees of freedom at rest and closed contact under these tractions.
+fn closed_state(
+    laws: &[Box<dyn InterfaceLaw>],
+    layout: ContactLayout,
+    traction: Vec<f64>,
+    dofs: usize,
+) -> Result<(StaticState, Vec<ContactState>)> {
+    let mut state = StaticState::weightless(layout, dofs);
+    state.traction = traction;
+    let mut contact = Vec::with_capacity(layout.elements());
+    let mut previous_contacts = Vec::with_capacity(layout.elements());
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        *mode = law_of(laws, e).modes()[0];
+        contact.push(ContactState { pressure: state.traction[e], ..ContactState::default() });
+        previous_contacts.push(PreviousContact::new(contact[e], *mode, GRAVITY_STAGE_TIME_STEP));
+    }
+    state.set_gaps(laws, &PreviousContacts::new(laws, &previous_contacts)?, &contact)?;
+    Ok((state, contact))
 }
 
 /// Tractions of the soil at rest on the walls, and on the floor if `includes_floor`, Pa.

@@ -15,7 +15,8 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
-use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
+use crate::coupled::assembly::response_rows::ResponseRows;
+use crate::coupled::assembly::step_response::{ResponseChanges, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, RitzModes, Subspace};
 use crate::coupled::assembly::vibration_modes::ASYMMETRY_TOLERANCE;
 use crate::coupled::base::transformation::ModalBasis;
@@ -24,7 +25,6 @@ use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::{Error, Result, finite, require, require_part};
-use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::proportional_factors;
 
@@ -38,8 +38,6 @@ pub(super) const MIN_NEW_FRACTION: f64 = 1e-2;
 const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
 /// Smallest fraction of a direction outside the space in the last rounds.
 pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
-/// Smallest predicted ratio of the changes of two successive rounds.
-pub(super) const MIN_CHANGE_RATIO: f64 = 0.1;
 /// Largest number of rounds; the reduction ends after half of them if it will not reach the tolerance.
 const MAX_KRYLOV_ROUNDS: usize = 16;
 /// Smallest ratio of the lowest shift to the scheme's shift.
@@ -48,8 +46,6 @@ const MIN_SHIFT_RATIO: f64 = 1e-6;
 const MAX_COMPARED_STEPS: usize = 10_000;
 /// Name of K + σ²M in errors.
 const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
-/// Number of intervals between the samples of the structure's load.
-const LOAD_INTERVAL_COUNT: u32 = 16;
 
 /// Factors an effective stiffness.
 pub(crate) type FactorEffective<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
@@ -86,12 +82,10 @@ impl<'a> Reduction<'a> {
         ),
         step_count: usize,
     ) -> Result<Self> {
-        let mut rows = ResponseRows::default();
-        collect_loads(&mut rows, parts, assembled.dofs(), step_count)?;
-        collect_tractions(&mut rows, assembled);
-        let initial_motions = collect_initial_motions(&mut rows, parts, assembled);
-        collect_probes(&mut rows, parts, assembled.dofs());
-        let shifted_stiffness = Cell::new(shifted_stiffness);
+        let rows = ResponseRows::new(parts, assembled, step_count)?;
+        let builder = &parts.builder;
+        let initial_motions =
+            [&builder.initial_displacement[..], &builder.initial_velocity[..]].concat();
         let damping = &assembled.damping;
         let is_proportional = damping.is_empty()
             || proportional_factors(damping, [&assembled.stiffness, &assembled.mass]).is_some();
@@ -105,7 +99,7 @@ impl<'a> Reduction<'a> {
             coefficients: &parts.coefficients,
             factor_effective,
             fixed_base,
-            shifted_stiffness,
+            shifted_stiffness: Cell::new(shifted_stiffness),
             damping_without_p_delta,
             step_count,
             rows,
@@ -159,20 +153,19 @@ impl<'a> Reduction<'a> {
         let mut space = self.rigid_motion_space(matrices, 0.0);
         space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
         let rows = &self.rows.all;
-        let row_count = (rows.len() / self.assembled.dofs()).max(1);
         self.shifted_stiffness.take();
         let effective = self.effective_factor()?;
-        let shifted =
-            self.shifts().map(|shift| self.factor_at_shift(shift)).collect::<Result<Vec<_>>>()?;
+        let shifted = self
+            .shifts()
+            .map(|shift| self.factor_of_sum(shift * shift, 1.0))
+            .collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(&*effective).chain(&shifted).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         let mut products = Vec::new();
         let mut min_fraction =
             MIN_NEW_FRACTION.min(NEW_FRACTION_PER_ROOT_TOLERANCE * tolerance.sqrt());
         let mut previous_responses: Option<StepResponses> = None;
-        let mut change = f64::INFINITY;
-        // Change that the next round will cause, at the rate of the last round.
-        let mut expected_change = f64::INFINITY;
+        let mut changes = ResponseChanges::none();
         for round in 1..=MAX_KRYLOV_ROUNDS {
             if !add_powers(&mut space, &factors, &mut blocks, min_fraction) {
                 if min_fraction <= FINAL_MIN_NEW_FRACTION {
@@ -185,23 +178,17 @@ impl<'a> Reduction<'a> {
                 continue;
             }
             let modes = space.ritz()?;
-            products.extend(space.products(products.len() / row_count, rows));
+            space.extend_products(&mut products, rows);
             let modal_rows = Subspace::modal_rows(&modes, &products);
             let responses = self.responses(&modes, modal_rows, 0);
-            let mut rate = 1.0;
             if let Some(previous) = &previous_responses {
-                let new_change = responses.difference(previous, tolerance);
-                if change.is_finite() {
-                    rate = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
-                }
-                change = new_change;
-                expected_change = new_change * rate;
+                changes.push(responses.difference(previous, tolerance));
             }
-            if expected_change <= tolerance || space.count() == self.assembled.dofs() {
+            if changes.next() <= tolerance || space.count() == self.assembled.dofs() {
                 return self.basis_with_damping(space, &modes, &factors, tolerance);
             }
             let remaining_rounds = i32::try_from(MAX_KRYLOV_ROUNDS - round).unwrap_or(0);
-            let final_change = expected_change * rate.powi(remaining_rounds);
+            let final_change = changes.next() * changes.ratio.powi(remaining_rounds);
             if 2 * round >= MAX_KRYLOV_ROUNDS && final_change > tolerance {
                 break;
             }
@@ -210,7 +197,7 @@ impl<'a> Reduction<'a> {
         let vector_count = space.count();
         let remedy =
             format!("with {vector_count} vectors; damping in proportion to stiffness helps");
-        Err(inaccurate(expected_change, tolerance, remedy))
+        Err(inaccurate(changes.next(), tolerance, remedy))
     }
 
     /// Factors K_eff, with proportional damping in place of a damping that differs from it by P–Δ alone.
@@ -218,14 +205,10 @@ impl<'a> Reduction<'a> {
         let Some([beta, alpha]) = self.damping_without_p_delta else {
             return (self.factor_effective)();
         };
-        let mass: &SparseMatrix = &self.assembled.mass;
         let c = self.coefficients;
         let mass_factor = c.acceleration[0] + c.velocity[0] * alpha;
         let stiffness_factor = c.displacement[0] + c.velocity[0] * beta;
-        let terms = [(mass_factor, mass), (stiffness_factor, &self.assembled.stiffness)];
-        let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
-        SparseFactor::with_elimination(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
-            .map(Box::new)
+        self.factor_of_sum(mass_factor, stiffness_factor).map(Box::new)
     }
 
     /// Responses over the steps of the run to forces that grow over `growth_steps` steps.
@@ -279,90 +262,12 @@ impl<'a> Reduction<'a> {
         higher_shift.chain(lower_shifts).filter(move |shift| *shift < max_shift)
     }
 
-    /// Factors K + σ²M at a shift σ.
-    fn factor_at_shift(&self, shift: f64) -> Result<SparseFactor> {
-        let Assembled { mass, stiffness, .. } = self.assembled;
-        let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
+    /// Factors the sum of the mass and the stiffness with these factors.
+    fn factor_of_sum(&self, mass_factor: f64, stiffness_factor: f64) -> Result<SparseFactor> {
+        let Assembled { mass, stiffness, elimination, .. } = self.assembled;
+        let terms = [(mass_factor, &**mass), (stiffness_factor, &**stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
-        SparseFactor::with_elimination(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
-    }
-}
-
-/// Adds the builder's loads, and samples of the structure's load, to the rows.
-fn collect_loads(
-    rows: &mut ResponseRows,
-    parts: &Parts,
-    dofs: usize,
-    step_count: usize,
-) -> Result<()> {
-    for load in &parts.builder.loads {
-        push_nonzero(&mut rows.all, spread(load.row(), dofs));
-    }
-    let duration = step_count as f64 * parts.builder.time_step;
-    for sample in 0..=LOAD_INTERVAL_COUNT {
-        let time = duration * f64::from(sample) / f64::from(LOAD_INTERVAL_COUNT);
-        let mut load = vec![0.0; dofs];
-        let result = parts.structure.load(time, &mut load);
-        if sample == 0 {
-            result?;
-        } else if result.is_err() {
-            // The run may end before that time.
-            continue;
-        }
-        if load.iter().all(|force| force.is_finite()) {
-            push_nonzero(&mut rows.all, load);
-        }
-    }
-    rows.load_count = rows.all.len() / dofs;
-    Ok(())
-}
-
-/// Adds the forces of a unit traction in each component of each element to the rows.
-fn collect_tractions(rows: &mut ResponseRows, assembled: &Assembled) {
-    let component_count = assembled.base.layout().len();
-    let mut unit_traction = vec![0.0; component_count];
-    for i in 0..component_count {
-        let mut force = vec![0.0; assembled.dofs()];
-        unit_traction[i] = 1.0;
-        assembled.base.add_forces(1.0, &unit_traction, &mut force);
-        unit_traction[i] = 0.0;
-        push_nonzero(&mut rows.all, force);
-    }
-}
-
-/// Adds the momenta of the initial displacement and velocity to the rows, and returns the motions.
-fn collect_initial_motions(
-    rows: &mut ResponseRows,
-    parts: &Parts,
-    assembled: &Assembled,
-) -> Vec<f64> {
-    let dofs = assembled.dofs();
-    let mut motions = Vec::new();
-    for initial_values in [&parts.builder.initial_displacement, &parts.builder.initial_velocity] {
-        for motion in initial_values.chunks_exact(dofs) {
-            let mut force = vec![0.0; dofs];
-            assembled.mass.multiply_add(1.0, motion, &mut force);
-            push_nonzero(&mut rows.all, force);
-        }
-        motions.extend_from_slice(initial_values);
-    }
-    rows.force_count = rows.all.len() / dofs;
-    motions
-}
-
-/// Adds the rows of the probes: first displacements, then velocities, then accelerations.
-fn collect_probes(rows: &mut ResponseRows, parts: &Parts, dofs: usize) {
-    let probes = &parts.builder.probes;
-    rows.probes = vec![[None; 3]; probes.len()];
-    for derivative in 0..3 {
-        if derivative == 2 {
-            rows.first_acceleration = rows.all.len() / dofs;
-        }
-        for (probe, probe_rows) in probes.iter().zip(&mut rows.probes) {
-            let row = rows.all.len() / dofs;
-            let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[derivative], dofs));
-            probe_rows[derivative] = is_nonzero.then_some(row);
-        }
+        SparseFactor::with_elimination(DYNAMIC_STIFFNESS_NAME, &matrix, elimination)
     }
 }
 
@@ -381,15 +286,6 @@ fn add_powers(
         block.extend_from_slice(space.momenta(first_new));
     }
     space.count() > initial_count
-}
-
-/// Adds a row unless it is zero; returns whether it was added.
-fn push_nonzero(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
-    let is_nonzero = row.iter().any(|value| *value != 0.0);
-    if is_nonzero {
-        rows.extend(row);
-    }
-    is_nonzero
 }
 
 /// Error for reduced coordinates that do not reach a tolerance.

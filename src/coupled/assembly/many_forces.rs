@@ -8,9 +8,9 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::coupled::assembly::krylov::{
-    FINAL_MIN_NEW_FRACTION, MIN_CHANGE_RATIO, MIN_NEW_FRACTION, Reduction, inaccurate,
+    FINAL_MIN_NEW_FRACTION, MIN_NEW_FRACTION, Reduction, inaccurate,
 };
-use crate::coupled::assembly::step_response::StepResponses;
+use crate::coupled::assembly::step_response::{ResponseChanges, StepResponses};
 use crate::coupled::assembly::subspace::{RitzModes, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
@@ -81,7 +81,6 @@ impl Reduction<'_> {
         let mut space = self.rigid_motion_space(matrices, rounding);
         let rows = &self.rows.all;
         let c = self.coefficients;
-        let row_count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());
         space.extend(self.initial_motions.clone(), FINAL_MIN_NEW_FRACTION);
         let scheme_shift = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
@@ -90,7 +89,7 @@ impl Reduction<'_> {
         let mut converged: Option<RitzModes> = None;
         let mut products = Vec::new();
         let mut effective = None;
-        let mut change = f64::INFINITY;
+        let mut changes = ResponseChanges::none();
         // Index of the first vector of the last extension.
         let mut first_new = 0;
         let mut min_length = 0.5 * tolerance.sqrt();
@@ -109,37 +108,33 @@ impl Reduction<'_> {
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
             if round == 0 && !self.probes().is_empty() {
-                products.extend(space.products(0, rows));
+                space.extend_products(&mut products, rows);
                 min_length *= self.probe_length_factor(&space, &products)?;
             }
-            let mut is_last = false;
             if let Some((previous_responses, previous_modes)) = previous.take() {
-                products.extend(space.products(products.len() / row_count, rows));
+                space.extend_products(&mut products, rows);
                 let (modes, extended_products) =
                     space.extended_ritz((&block, first_new), c, (&products, rows), min_length)?;
                 let responses = self.smooth_responses(&modes, &extended_products);
-                let new_change = responses.difference(&previous_responses, tolerance);
-                if new_change <= tolerance {
+                changes.push(responses.difference(&previous_responses, tolerance));
+                if changes.last <= tolerance {
                     converged = Some(previous_modes);
                     break;
                 }
-                let ratio = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
-                is_last = change.is_finite() && new_change * ratio <= tolerance;
-                change = new_change;
             }
             first_new = space.count();
             space.extend_by_length(block, min_length);
             block = space.inertia(first_new, c.acceleration[0]);
             let modes = space.ritz()?;
-            if is_last || space.count() == self.assembled.dofs() {
+            if changes.next() <= tolerance || space.count() == self.assembled.dofs() {
                 converged = Some(modes);
                 break;
             }
-            products.extend(space.products(products.len() / row_count, rows));
+            space.extend_products(&mut products, rows);
             previous = Some((self.smooth_responses(&modes, &products), modes));
         }
         let Some(modes) = converged else {
-            return Err(self.slow_convergence(space.count(), change, tolerance));
+            return Err(self.slow_convergence(space.count(), changes.last, tolerance));
         };
         self.basis_of_modes(space, &modes, effective.as_deref(), scheme_shift, tolerance)
     }

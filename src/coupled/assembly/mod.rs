@@ -19,6 +19,7 @@ mod initial_motion;
 mod krylov;
 mod many_forces;
 mod p_delta_damping;
+mod response_rows;
 mod settled;
 mod static_stages;
 mod step_response;
@@ -35,6 +36,7 @@ use crate::coupled::base::tears;
 use crate::coupled::builder::SimulationBuilder;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::operators::Operators;
 use crate::coupled::model::supports;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::mistake::Mistake;
@@ -105,53 +107,61 @@ impl SimulationBuilder {
         let SteppedStructure { model, base, operators } =
             SteppedStructure::new(&parts, &assembled, reduction, &static_state)?;
         let scene = Scene::new(&mut parts, model, base, static_state, is_connected_by_force);
-
-        let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } =
-            parts;
-        let mut solver = Solver::new(&scene, operators, builder.search);
-        let mut state = State::at_rest(&scene)?;
-        let is_compliant = scene.is_compliant(&state.start)?;
-        let mass = &assembled.mass;
-        initial_motion::set_initial_motion(&builder, mass, &scene, structure.as_mut(), &mut state)?;
-        let mut energies = None;
-        if builder.has_energy_balance {
-            energies =
-                Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, is_compliant)?);
-        }
-        state.energy_balance =
-            energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
-        let mut warnings =
-            Warning::of_scene(&scene, &description, builder.motion.as_ref(), fixed_base.period);
-        warnings
-            .extend(is_first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
-        let weight = Weight::new(builder.gravity, &assembled);
-        let soils = &description.soils;
-        Warning::add_mistakes(&mut warnings, &scene, soils, structure.as_ref(), &weight);
-        warnings.extend(Warning::of_tears(tears(&structure.base())?));
-        warnings.extend(coarse_base_warning);
-        let pressures_above =
-            wall_pressure::pressures_above(&scene, &description.mass_above, builder.gravity);
-        let conditioning = conditioning(&scene, &mut solver, &state.start)?;
-        // The check for mechanisms comes last. Stiffnesses too different for double precision look like a mechanism and
-        // have an error of their own.
-        fixed_base.mechanism_check?;
-        Ok(Simulation {
-            forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene, &state, is_compliant && builder.has_energy_balance),
-            energies,
-            motion: builder.motion,
-            structure,
-            ground,
-            scene,
-            solver,
-            state,
-            conditioning,
-            warnings,
-            pressures_above,
-            translation_damping_rate: assembled.translation_damping_rate(),
-            rotation_limit: builder.rotation_limit,
-            expected_steps: builder.expected_steps,
-            prepared_steps: builder.expected_steps,
-        })
+        start(parts, &assembled, fixed_base, scene, operators, coarse_base_warning)
     }
+}
+
+/// Starts the simulation of a scene at t = 0.
+fn start(
+    parts: Parts,
+    assembled: &Assembled,
+    fixed_base: FixedBaseResults,
+    scene: Scene,
+    operators: Operators,
+    coarse_base_warning: Option<Warning>,
+) -> Result<Simulation> {
+    let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } = parts;
+    let mut solver = Solver::new(&scene, operators, builder.search);
+    let mut state = State::at_rest(&scene)?;
+    let is_compliant = scene.is_compliant(&state.start)?;
+    let mass = &assembled.mass;
+    initial_motion::set_initial_motion(&builder, mass, &scene, structure.as_mut(), &mut state)?;
+    let mut energies = None;
+    if builder.has_energy_balance {
+        energies = Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, is_compliant)?);
+    }
+    state.energy_balance =
+        energies.as_ref().map_or(EnergyBalance::ALL_NAN, |energies| energies.energy_balance);
+    let mut warnings =
+        Warning::of_scene(&scene, &description, builder.motion.as_ref(), fixed_base.period);
+    warnings.extend(is_first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
+    let weight = Weight::new(builder.gravity, assembled);
+    let soils = &description.soils;
+    Warning::add_mistakes(&mut warnings, &scene, soils, structure.as_ref(), &weight);
+    warnings.extend(Warning::of_tears(tears(&structure.base())?));
+    warnings.extend(coarse_base_warning);
+    let pressures_above =
+        wall_pressure::pressures_above(&scene, &description.mass_above, builder.gravity);
+    let conditioning = conditioning(&scene, &mut solver, &state.start)?;
+    // The check for mechanisms comes last. Stiffnesses too different for double precision look like a mechanism and
+    // have an error of their own.
+    fixed_base.mechanism_check?;
+    Ok(Simulation {
+        forcing: Forcing::new(&scene),
+        increment: Increment::new(&scene, &state, is_compliant && builder.has_energy_balance),
+        energies,
+        motion: builder.motion,
+        structure,
+        ground,
+        scene,
+        solver,
+        state,
+        conditioning,
+        warnings,
+        pressures_above,
+        translation_damping_rate: assembled.translation_damping_rate(),
+        rotation_limit: builder.rotation_limit,
+        expected_steps: builder.expected_steps,
+        prepared_steps: builder.expected_steps,
+    })
 }

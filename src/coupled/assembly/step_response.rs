@@ -9,28 +9,17 @@
 //! accelerations are the velocities v under a constant force, and the velocities are the displacements u. Loads may start
 //! suddenly. The value of a probe is then its sum of u, v and a.
 
+use std::ops::Range;
+
+use crate::coupled::assembly::response_rows::ResponseRows;
 use crate::coupled::assembly::subspace::RitzModes;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::linalg::{largest, row_products};
 
 /// Rounding of a response, relative to the largest response.
 const RESPONSE_ROUNDING_TOLERANCE: f64 = 1e-13;
-
-/// Rows of forces and of probes, with a weight for each degree of freedom.
-#[derive(Default)]
-pub(crate) struct ResponseRows {
-    /// All rows, one after the other: loads, other forces, displacements and velocities of probes, accelerations of
-    /// probes.
-    pub(crate) all: Vec<f64>,
-    /// Number of loads, which are the first rows.
-    pub(crate) load_count: usize,
-    /// Number of all forces, loads included.
-    pub(crate) force_count: usize,
-    /// Index of the first row of an acceleration.
-    pub(crate) first_acceleration: usize,
-    /// Indices of the rows of displacement, velocity and acceleration of each probe; `None` for a row of zeros.
-    pub(crate) probes: Vec<[Option<usize>; 3]>,
-}
+/// Smallest predicted ratio of the changes of two successive rounds.
+const MIN_CHANGE_RATIO: f64 = 0.1;
 
 /// Responses of all outputs (rows) to all forces, at some steps.
 pub(crate) struct StepResponses {
@@ -117,7 +106,7 @@ impl StepResponses {
     /// It is at most about 1, the response of a row of unit energy norm to a force on itself. The row of a section force has
     /// a large norm because of the stiffness at the section, and small responses to distant tractions. Directions that the
     /// modes do not contain cause errors relative to the norms. These errors are larger relative to a small response.
-    pub(crate) fn weakest_response(&self, outputs: std::ops::Range<usize>) -> f64 {
+    pub(crate) fn weakest_response(&self, outputs: Range<usize>) -> f64 {
         let mut max_values = vec![0.0_f64; outputs.len()];
         for responses in self.displacements.chunks_exact(self.output_count.max(1)) {
             let pairs = max_values.iter_mut().zip(&responses[outputs.clone()]);
@@ -132,76 +121,83 @@ impl StepResponses {
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
         let Self { output_count, first_acceleration, .. } = *self;
         let rounding = RESPONSE_ROUNDING_TOLERANCE / tolerance;
-        let displacements = ResponseComparison {
-            values: &self.displacements,
-            other_values: &other.displacements,
-            output_count,
-            compared_outputs: 0..first_acceleration,
-            min_scale: rounding * largest(&self.displacements),
+        let compare = |values: [&[f64]; 2], output_count, outputs, min_scale| {
+            largest_difference(values, output_count, outputs, min_scale, rounding)
         };
-        let accelerations = ResponseComparison {
-            values: &self.velocities,
-            other_values: &other.velocities,
-            output_count,
-            compared_outputs: first_acceleration..output_count,
-            min_scale: rounding * largest(&self.velocities),
-        };
+        let values = [&self.displacements[..], &other.displacements[..]];
+        let scale = rounding * largest(&self.displacements);
+        let displacements = compare(values, output_count, 0..first_acceleration, scale);
+        let values = [&self.velocities[..], &other.velocities[..]];
+        let scale = rounding * largest(&self.velocities);
+        let accelerations = compare(values, output_count, first_acceleration..output_count, scale);
         // Probes have different units and therefore no common smallest scale.
-        let probes = ResponseComparison {
-            values: &self.probe_values,
-            other_values: &other.probe_values,
-            output_count: self.probe_count,
-            compared_outputs: 0..self.probe_count,
-            min_scale: 0.0,
-        };
-        let mut max_difference = RESPONSE_ROUNDING_TOLERANCE;
-        for comparison in [displacements, accelerations, probes] {
-            max_difference = max_difference.max(comparison.difference(rounding));
-        }
-        max_difference
+        let values = [&self.probe_values[..], &other.probe_values[..]];
+        let probes = compare(values, self.probe_count, 0..self.probe_count, 0.0);
+        [displacements, accelerations, probes]
+            .into_iter()
+            .fold(RESPONSE_ROUNDING_TOLERANCE, f64::max)
     }
 }
 
-/// ResponseComparison of two sets of responses.
-struct ResponseComparison<'a> {
-    /// Responses, one output after the other for each force and step.
-    values: &'a [f64],
-    other_values: &'a [f64],
+/// Changes of the responses from each round of a reduction to the next.
+pub(super) struct ResponseChanges {
+    /// Relative change in the last round; infinite before the second round.
+    pub(super) last: f64,
+    /// Ratio of the last two changes, at most 1; it predicts the next ratio.
+    pub(super) ratio: f64,
+}
+
+impl ResponseChanges {
+    /// No change so far.
+    pub(super) fn none() -> Self {
+        Self { last: f64::INFINITY, ratio: 1.0 }
+    }
+
+    /// Stores the change in another round.
+    pub(super) fn push(&mut self, change: f64) {
+        if self.last.is_finite() {
+            self.ratio = (change / self.last).clamp(MIN_CHANGE_RATIO, 1.0);
+        }
+        self.last = change;
+    }
+
+    /// Change that the next round will cause, at the ratio of the last two.
+    pub(super) fn next(&self) -> f64 {
+        self.last * self.ratio
+    }
+}
+
+/// Largest difference of any compared output, relative to the largest value of this output.
+///
+/// Two sets of responses have one output after the other for each force and step. An output's scale is at least `min_scale`.
+fn largest_difference(
+    [values, other_values]: [&[f64]; 2],
     output_count: usize,
-    compared_outputs: std::ops::Range<usize>,
-    /// Smallest scale of an output.
+    compared_outputs: Range<usize>,
     min_scale: f64,
-}
-
-impl ResponseComparison<'_> {
-    /// Largest difference of any compared output, relative to the largest value of this output.
-    fn difference(self, rounding: f64) -> f64 {
-        let compared_outputs = self.compared_outputs;
-        let mut scales = vec![self.min_scale; compared_outputs.len()];
-        let mut changes = vec![0.0_f64; compared_outputs.len()];
-        let output_count = self.output_count.max(1);
-        let rows = self.values.chunks_exact(output_count);
-        for (row, other_row) in rows.zip(self.other_values.chunks_exact(output_count)) {
-            let pairs =
-                row[compared_outputs.clone()].iter().zip(&other_row[compared_outputs.clone()]);
-            for ((a, b), (scale, change)) in pairs.zip(scales.iter_mut().zip(&mut changes)) {
-                *scale = scale.max(a.abs());
-                // `max` ignores NaN.
-                let difference = (a - b).abs();
-                *change =
-                    if difference.is_finite() { change.max(difference) } else { f64::INFINITY };
-            }
+    rounding: f64,
+) -> f64 {
+    let mut scales = vec![min_scale; compared_outputs.len()];
+    let mut changes = vec![0.0_f64; compared_outputs.len()];
+    let rows = values.chunks_exact(output_count.max(1));
+    for (row, other_row) in rows.zip(other_values.chunks_exact(output_count.max(1))) {
+        let pairs = row[compared_outputs.clone()].iter().zip(&other_row[compared_outputs.clone()]);
+        for ((a, b), (scale, change)) in pairs.zip(scales.iter_mut().zip(&mut changes)) {
+            *scale = scale.max(a.abs());
+            // `max` ignores NaN.
+            let difference = (a - b).abs();
+            *change = if difference.is_finite() { change.max(difference) } else { f64::INFINITY };
         }
-        let mut max_difference = 0.0_f64;
-        for (scale, change) in scales.into_iter().zip(changes) {
-            if change.is_infinite() {
-                return f64::INFINITY;
-            }
-            let relative = if change > 0.0 { change / (scale * rounding.max(1.0)) } else { 0.0 };
-            max_difference = max_difference.max(relative);
-        }
-        max_difference
     }
+    let mut max_difference = 0.0_f64;
+    for (scale, change) in scales.into_iter().zip(changes) {
+        if change.is_infinite() {
+            return f64::INFINITY;
+        }
+        let relative = if change > 0.0 { change / (scale * rounding.max(1.0)) } else { 0.0 };
+        max_difference = max_difference.max(relative);
+    }
+    max_difference
 }
 
 /// Responses of all outputs to the first `force_count` rows as forces, from the states of the modes.

@@ -17,7 +17,7 @@ use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::interface::LawForm;
-use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::linalg::SparseMatrix;
 use crate::structure::{Structure, Tangent};
 
 /// Number of steps for the choice of coordinates if the expected number is unknown.
@@ -79,49 +79,39 @@ impl SteppedStructure {
             let factor = StiffnessFactorization::in_dofs(&physical, coefficients, &tangent);
             factor.map_err(|error| singularity_cause(assembled, structure, &tangent, error))
         };
-        let chosen = match builder.coordinates {
-            Coordinates::Physical => ChosenCoordinates::Physical(factor_in_dofs()?),
+        // The factor in degrees of freedom, if the choice has computed it.
+        let mut chosen_factor = None;
+        let modes = match builder.coordinates {
+            Coordinates::Physical => None,
             Coordinates::Auto => {
-                let factor = factor_in_dofs()?;
-                let modes = modes_if_faster(assembled, factor.entry_count(), steps);
-                modes.map_or(ChosenCoordinates::Physical(factor), ChosenCoordinates::Modes)
+                let factor = chosen_factor.insert(factor_in_dofs()?);
+                modes_if_faster(assembled, factor.entry_count(), steps)
             }
             Coordinates::Modes => {
-                let Some(modes) = vibration_modes(assembled) else {
+                let modes = vibration_modes(assembled);
+                if modes.is_none() {
                     // A singular matrix has its own error, which comes first.
                     factor_in_dofs()?;
-                    return Err(Error::Scene {
-                        quantity: "modal coordinates",
-                        needed: MODAL_COORDINATES_NEED,
-                    });
-                };
-                ChosenCoordinates::Modes(modes)
+                    let needed = MODAL_COORDINATES_NEED;
+                    return Err(Error::Scene { quantity: "modal coordinates", needed });
+                }
+                modes
             }
             Coordinates::Reduced { tolerance } => {
                 let (fixed_base, shifted_stiffness) = reduction.unwrap_or_default();
                 let inputs =
                     (fixed_base, shifted_stiffness, &factor_in_dofs as &FactorEffective<'_>);
                 let reduction = Reduction::new(parts, assembled, inputs, steps)?;
-                let max_dofs = if reduction.has_many_forces() {
-                    MAX_FALLBACK_DOFS_OF_MANY_FORCES
-                } else {
-                    MAX_FALLBACK_DOFS
-                };
-                let modes = reduction.modes(tolerance);
-                ChosenCoordinates::Modes(
-                    modes.or_else(|error| all_modes_instead(assembled, max_dofs, error))?,
-                )
+                Some(ritz_modes(&reduction, assembled, tolerance)?)
             }
         };
-        let (model, factor) = match chosen {
-            ChosenCoordinates::Physical(factor) => {
-                (physical, StiffnessFactorization::Sparse(factor))
-            }
-            ChosenCoordinates::Modes(modes) => {
-                let model = physical.in_modes(assembled, modes);
-                let factor = StiffnessFactorization::in_modal_coordinates(&model, coefficients)?;
-                (model, factor)
-            }
+        let (model, factor) = if let Some(modes) = modes {
+            let model = physical.in_modes(assembled, modes);
+            let factor = StiffnessFactorization::in_modal_coordinates(&model, coefficients)?;
+            (model, factor)
+        } else {
+            let factor = chosen_factor.map_or_else(factor_in_dofs, Ok)?;
+            (physical, StiffnessFactorization::Sparse(factor))
         };
         let base = assembled.base.stepped(&model.transformation);
         let operators = Operators::new(&model, &base, &parts.step_compliance, factor, tangent)?;
@@ -139,19 +129,22 @@ fn check_tangent(structure: &dyn Structure, assembled: &Assembled) -> Result<()>
     Err(Error::Scene { quantity, needed: "symmetric on a base in plan" })
 }
 
-/// Chosen coordinates, with the matrices that have been computed for the choice.
-enum ChosenCoordinates {
-    Physical(Box<SparseFactor>),
-    Modes(ModalBasis),
-}
-
-/// All modes of a structure of at most `max_dofs`, in place of inaccurate Ritz modes.
-///
-/// Returns `error` for a larger structure, and for any error except a missing accuracy.
-fn all_modes_instead(assembled: &Assembled, max_dofs: usize, error: Error) -> Result<ModalBasis> {
-    let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= max_dofs;
-    let modes = if is_small { vibration_modes(assembled) } else { None };
-    modes.ok_or(error)
+/// Ritz modes of a tolerance, or all modes of a small structure whose Ritz modes do not reach it.
+fn ritz_modes(
+    reduction: &Reduction<'_>,
+    assembled: &Assembled,
+    tolerance: f64,
+) -> Result<ModalBasis> {
+    let max_dofs = if reduction.has_many_forces() {
+        MAX_FALLBACK_DOFS_OF_MANY_FORCES
+    } else {
+        MAX_FALLBACK_DOFS
+    };
+    reduction.modes(tolerance).or_else(|error| {
+        let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= max_dofs;
+        let modes = if is_small { vibration_modes(assembled) } else { None };
+        modes.ok_or(error)
+    })
 }
 
 /// Replaces the `error` of a singular effective stiffness by the mechanism that causes it, if there is one.

@@ -210,6 +210,12 @@ impl<'a> Subspace<'a> {
         row_products(&self.rows.vectors()[first * self.order()..], rows, self.order())
     }
 
+    /// Adds the products of the newest vectors to those of all earlier ones, a row for each vector.
+    pub(super) fn extend_products(&self, products: &mut Vec<f64>, rows: &[f64]) {
+        let row_count = (rows.len() / self.order()).max(1);
+        products.extend(self.products(products.len() / row_count, rows));
+    }
+
     /// Modal weights F Φᵀ of the rows of F, from the products of all vectors.
     pub(crate) fn modal_rows(modes: &RitzModes, products: &[f64]) -> Vec<f64> {
         let count = modes.stiffness.len();

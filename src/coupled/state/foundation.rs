@@ -7,8 +7,7 @@
 
 use std::ops::Range;
 
-use crate::geometry::resultant;
-use crate::geometry::{COMPONENTS_IN_SPACE, Footing, Patch};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, Footing, Patch, resultant};
 use crate::interface::{ContactState, Mode};
 
 /// Forces of one foundation on the soil, and motion of its base.
@@ -101,6 +100,19 @@ pub(crate) struct ContactSums {
     slip_across: f64,
 }
 
+impl ContactSums {
+    /// Adds the integrals over one element.
+    fn add(&mut self, element: &ContactElement, area: f64, state: &ContactState, mode: Mode) {
+        let slip = element.vector([0.0, state.slip, state.slip_across]);
+        self.area += area;
+        self.slip += area * slip[0];
+        self.slip_across += area * slip[1];
+        if !mode.is_closed() {
+            self.open_area += area;
+        }
+    }
+}
+
 impl Foundation {
     /// Force on the soil as a vector, N/m; in plan along x, y and up, N.
     ///
@@ -155,11 +167,12 @@ impl Foundation {
         let mut sums = ContactSums::default();
         let mut resistance = 0.0;
         let mut largest_slip = 0.0_f64;
-        let mut normal_force = 0.0;
-        let mut shear = 0.0;
-        let mut shear_across = 0.0;
-        let mut torque = 0.0;
         let mut moment = [0.0; 2];
+        self.in_plan = patch.is_plan();
+        self.base_shear = 0.0;
+        self.shear_across = 0.0;
+        self.normal_force = 0.0;
+        self.torque = 0.0;
         for (k, (e, &[x, y, z])) in elements.zip(&footing.arms).enumerate() {
             let element = &patch[e];
             let area = patch.areas()[e];
@@ -172,49 +185,35 @@ impl Foundation {
             }
             let [traction_x, traction_y, traction_z] = element.vector(state.traction());
             let vertical_force = area * -traction_z;
-            normal_force += vertical_force;
-            shear += area * traction_x;
-            shear_across += area * traction_y;
-            torque += area * (x * traction_y - y * traction_x);
+            self.normal_force += vertical_force;
+            self.base_shear += area * traction_x;
+            self.shear_across += area * traction_y;
+            self.torque += area * (x * traction_y - y * traction_x);
             moment[0] += vertical_force * x + area * traction_x * z;
             moment[1] += vertical_force * y + area * traction_y * z;
             largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
-            if !element.faces_down() {
-                continue;
-            }
-            let slip = element.vector([0.0, state.slip, state.slip_across]);
-            sums.area += area;
-            sums.slip += area * slip[0];
-            sums.slip_across += area * slip[1];
-            if !modes[e].is_closed() {
-                sums.open_area += area;
+            if element.faces_down() {
+                sums.add(element, area, state, modes[e]);
             }
         }
-        self.in_plan = patch.is_plan();
-        self.base_shear = shear;
-        self.shear_across = shear_across;
-        self.normal_force = normal_force;
         // Subtraction from zero avoids negative zero in the plane.
         self.moment_across = 0.0 - moment[1];
-        self.torque = torque;
         self.base_moment = footing.rotation_sign * moment[0];
         let area = sums.area.max(f64::MIN_POSITIVE);
         self.uplifted_fraction = sums.open_area / area;
         self.mean_slip = sums.slip / area;
         self.mean_slip_across = sums.slip_across / area;
-        let demand = resultant(shear, self.shear_across).abs();
+        let demand = resultant(self.base_shear, self.shear_across).abs();
+        let mut sliding = f64::NAN;
+        let mut overturning = [f64::NAN; 2];
         // Pressure on walls resists sliding and overturning, which these factors do not include.
-        let has_walls = patch.has_walls();
-        let sliding = if has_walls || friction.is_empty() {
-            f64::NAN
-        } else {
-            factor_of_safety(normal_force, resistance, demand)
-        };
-        let overturning = if has_walls {
-            [f64::NAN; 2]
-        } else {
-            [0, 1].map(|axis| overturning_safety(footing, normal_force, moment, axis))
-        };
+        if !patch.has_walls() {
+            if !friction.is_empty() {
+                sliding = factor_of_safety(self.normal_force, resistance, demand);
+            }
+            overturning =
+                [0, 1].map(|axis| overturning_safety(footing, self.normal_force, moment, axis));
+        }
         (sums, FoundationChecks { largest_slip, sliding, overturning })
     }
 }
@@ -259,7 +258,6 @@ fn factor_of_safety(normal_force: f64, resistance: f64, demand: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bem::ContactElement;
 
     fn patch() -> Patch {
         Patch::new(vec![ContactElement::new(-1.0, 1.0), ContactElement::new(1.0, 2.0)]).unwrap()

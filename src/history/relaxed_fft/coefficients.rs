@@ -5,12 +5,21 @@
 use std::sync::Arc;
 
 use super::ring::LEAF_STEPS;
-use super::tables::{ClassCoefficients, ShortLagTables};
 use crate::error::Result;
 use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::{Pair, PairClasses};
+use crate::history::pair_classes::{MAX_PLANE_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows};
+
+/// Coefficients d = 0 … of one class, kind by kind; empty for kinds that the ground does not have.
+///
+/// The index d counts the steps after the step of the traction. It is the lag d + 1 of the convolution weights.
+pub(super) type ClassCoefficients = [Vec<f64>; MAX_PLANE_KINDS];
+
+/// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1.
+///
+/// The coefficient of d = 0 is zero. The coupling is stored as long as it is not zero.
+pub(crate) type ShortLagTables = [Vec<Vec<f64>>; MAX_PLANE_KINDS];
 
 /// Pairs of a patch, with their coefficients of short lags.
 pub(super) struct Coefficients {

@@ -18,8 +18,7 @@ use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexPlanner, Fft};
 use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 
-use super::plan_spectra::{LAGS_PER_CHUNK, coefficients_in_plan};
-use super::wave_numbers::WaveNumbers;
+use super::plan_spectra::{LAGS_PER_CHUNK, WaveNumbers, coefficients_in_plan};
 use crate::error::Result;
 use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice};
 use crate::history::convolution_weights::ConvolutionWeights;

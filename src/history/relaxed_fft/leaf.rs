@@ -2,7 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::wave_numbers::WaveNumbers;
+use super::plan_spectra::WaveNumbers;
 use crate::geometry::{COMPLIANCES_PER_OFFSET, COMPONENTS_IN_SPACE};
 use crate::history::pair_classes::STRIP_KINDS;
 use crate::linalg::{Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd};

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::coefficients::ClassCoefficients;
 use super::ring::Ring;
-use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::pair_classes::{COUPLING_KIND, MAX_PLANE_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};

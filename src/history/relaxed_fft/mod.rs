@@ -10,9 +10,7 @@ mod pairs;
 mod plan_spectra;
 mod ring;
 mod saved_state;
-mod tables;
 mod wave_level;
-mod wave_numbers;
 mod waves;
 
 use std::sync::Arc;

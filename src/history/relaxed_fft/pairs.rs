@@ -6,10 +6,9 @@ use std::sync::Arc;
 use basemat_fourier::RealPlanner;
 
 use super::blocks::{HistoryBlocks, SPECTRA_PROGRESS_PARTS};
-use super::coefficients::{Coefficients, Scatter};
+use super::coefficients::{ClassCoefficients, Coefficients, Scatter, ShortLagTables};
 use super::level::{BlockRows, Components, PairLevel, TransformScratch};
 use super::ring::{LEAF_STEPS, Ring, widened};
-use super::tables::{ClassCoefficients, ShortLagTables};
 use super::wave_level::Levels;
 use crate::error::{ProgressReporter, Result, unobserved};
 use crate::geometry::COMPONENTS_IN_PLANE;

@@ -1,10 +1,36 @@
 //! Transforms along the surface of coefficients in plan, by their symmetry.
 
-use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::geometry::{COMPLIANCES_PER_OFFSET, Lattice};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::{add_combined_rows, next_smooth_even};
+
+/// Counts of wavenumbers: those with spectra, and their mirror images.
+#[derive(Clone, Copy)]
+pub(super) struct WaveNumbers {
+    /// Number of all wavenumbers.
+    pub(super) count: usize,
+    /// Number of wavenumbers with spectra, which come first.
+    pub(super) with_spectra: usize,
+    /// First wavenumber that has an image.
+    pub(super) first_mirrored: usize,
+}
+
+impl WaveNumbers {
+    /// Index of the spectrum of a wavenumber.
+    pub(super) fn spectrum(self, wave: usize) -> usize {
+        if wave < self.with_spectra {
+            wave
+        } else {
+            wave - self.with_spectra + self.first_mirrored
+        }
+    }
+
+    /// Ranges of wavenumbers, and the index of the first spectrum of each range.
+    pub(super) fn ranges(self) -> [(std::ops::Range<usize>, usize); 2] {
+        [(0..self.with_spectra, 0), (self.with_spectra..self.count, self.first_mirrored)]
+    }
+}
 
 /// Number of lags evaluated in one pass.
 pub(super) const LAGS_PER_CHUNK: usize = 512;
@@ -30,8 +56,7 @@ pub(super) fn coefficients_in_plan(
     lag_count: usize,
     mut accept: impl FnMut(usize, usize, &[f64]) -> Result<()>,
 ) -> Result<()> {
-    let columns = lattice.counts[0];
-    let rows = lattice.counts[1];
+    let [columns, rows] = lattice.counts;
     let spectrum_counts = lengths.map(|length| length / 2 + 1);
     let axis_factors = [0, 1].map(|axis| cosines_and_sines(lattice.counts[axis], lengths[axis]));
     let max_chunk_lags = LAGS_PER_CHUNK.min(lag_count);

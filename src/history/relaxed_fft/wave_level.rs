@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::level::Components;
+use super::plan_spectra::WaveNumbers;
 use super::ring::Ring;
-use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::history::pair_classes::{COUPLING_KIND, STRIP_KINDS};
 use basemat_fourier::RealPlanner;

@@ -36,7 +36,6 @@ pub(crate) mod probe;
 mod rayleigh_damping;
 mod reduction;
 mod rigid_motions;
-mod section_rows;
 
 #[doc(inline)]
 pub use crate::error::StructureError;
@@ -46,7 +45,7 @@ pub use crate::linalg::Triplets;
 pub use base::Base;
 pub use base_node::BaseNode;
 pub use description::StructureDescription;
-pub use dof_combination::DofCombination;
+pub use dof_combination::{DofCombination, SectionRows};
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
@@ -64,7 +63,6 @@ pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
-pub use section_rows::SectionRows;
 
 use std::any::Any;
 

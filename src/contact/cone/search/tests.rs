@@ -11,24 +11,23 @@ const ELEMENT_COUNT: usize = LATTICE_COUNTS[0] * LATTICE_COUNTS[1];
 /// A tilted rigid body that lands and slides on a half-space, with its centre of gravity at `height`.
 fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
     let mut problem = ConeProblem::new(ELEMENT_COUNT);
-    let at =
+    let position =
         |e: usize| [(e % LATTICE_COUNTS[0]) as f64 - 4.0, (e / LATTICE_COUNTS[0]) as f64 - 3.5];
-    // Motions of an element's components by the body's six motions.
+    // Displacements of a component due to the six displacements and rotations of the body.
     let modes = |i: usize| {
-        let place = at(i % ELEMENT_COUNT);
-        let x = place[0];
-        let y = place[1];
+        let [x, y] = position(i % ELEMENT_COUNT);
         match i / ELEMENT_COUNT {
             0 => [1.0, 0.0, 0.0, x, y, 0.0],
             1 => [0.0, 1.0, 0.0, -height, 0.0, -y],
             _ => [0.0, 0.0, 1.0, 0.0, -height, x],
         }
     };
-    let compliance = [0.02, 0.02, 0.02, 1e-3, 1e-3, 1e-3];
+    let body_compliance = [0.02, 0.02, 0.02, 1e-3, 1e-3, 1e-3];
     for i in 0..3 * ELEMENT_COUNT {
         for j in 0..3 * ELEMENT_COUNT {
-            let ([x, y], [u, v]) = (at(i % ELEMENT_COUNT), at(j % ELEMENT_COUNT));
-            let distance = (x - u).hypot(y - v);
+            let receiver = position(i % ELEMENT_COUNT);
+            let source = position(j % ELEMENT_COUNT);
+            let distance = (receiver[0] - source[0]).hypot(receiver[1] - source[1]);
             let soil = if i / ELEMENT_COUNT != j / ELEMENT_COUNT {
                 0.0
             } else if distance == 0.0 {
@@ -36,17 +35,17 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
             } else {
                 1.0 / distance
             };
-            let body: f64 = (0..6).map(|k| compliance[k] * modes(i)[k] * modes(j)[k]).sum();
+            let body: f64 = (0..6).map(|k| body_compliance[k] * modes(i)[k] * modes(j)[k]).sum();
             problem.w[i * 3 * ELEMENT_COUNT + j] = soil + body;
         }
     }
-    let motion: [f64; 6] = std::array::from_fn(|k| match k {
+    let body_displacement: [f64; 6] = std::array::from_fn(|k| match k {
         0 => -random.within(0.2, 1.0),
         1 | 2 => random.within(-2.0, 2.0),
         _ => random.within(-0.3, 0.3),
     });
     for i in 0..3 * ELEMENT_COUNT {
-        problem.q[i] = (0..6).map(|k| motion[k] * modes(i)[k]).sum();
+        problem.q[i] = (0..6).map(|k| body_displacement[k] * modes(i)[k]).sum();
     }
     problem.bounds.fill(Bounds { friction, ..Bounds::WITHOUT_FRICTION });
     problem.min_force_scale = 1e-3;
@@ -55,33 +54,35 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
     problem
 }
 
-/// Newton's method that ends early, and factors of the same step, lead to the forces of complete iterations.
+/// Newton's method with early ends and with factors of the same step finds the forces of complete iterations.
 #[test]
 fn sweeps_and_brief_iterations_find_the_forces_of_other_methods() {
     let mut random = Random(23);
-    let mut compared = 0;
+    let mut comparison_count = 0;
     for case in 0..12 {
         let mut problem = landing(&mut random, 0.2, [1.0, 6.0][case % 2]);
         let mut newton = Newton::new(ELEMENT_COUNT);
         let mut proximal = Proximal::new(ELEMENT_COUNT);
         assert!(problem.acceleration.is_some());
-        assert!(rounds(&mut problem, &mut newton).method.is_some(), "case {case}");
-        let found = problem.change.clone();
-        let largest = problem.largest_force();
-        problem.change.fill(0.0);
-        let complete = proximal.solve(&mut problem, |problem| {
-            newton.forget(false);
+        let outcome = alternate_sweeps_and_newton(&mut problem, &mut newton);
+        assert!(outcome.method.is_some(), "case {case}");
+        let computed = problem.force_change.clone();
+        let largest_force = problem.largest_force();
+        problem.force_change.fill(0.0);
+        let is_solved = proximal.solve(&mut problem, |problem| {
+            newton.invalidate(false);
             problem.sweep(60).is_solved || newton.solve(problem, false).is_solved
         });
-        if complete {
-            compared += 1;
-            for (i, (found, other)) in found.iter().zip(&problem.change).enumerate() {
+        if is_solved {
+            comparison_count += 1;
+            for (i, (computed, expected)) in computed.iter().zip(&problem.force_change).enumerate()
+            {
                 assert!(
-                    (found - other).abs() < 1e-7 * largest,
-                    "case {case}, {i}: {found} {other}"
+                    (computed - expected).abs() < 1e-7 * largest_force,
+                    "case {case}, {i}: {computed} {expected}"
                 );
             }
         }
     }
-    assert!(compared > 6, "{compared}");
+    assert!(comparison_count > 6, "{comparison_count}");
 }

@@ -1,6 +1,6 @@
 //! Resultants of the storeys of a building in space.
 
-use super::space_section::SpaceSection;
+use super::section::SpaceSection;
 use super::storey_building::StoreyBuilding;
 use crate::error::{Result, finite, in_bounds};
 use crate::structure::{DofCombination, SectionRows};

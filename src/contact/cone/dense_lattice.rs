@@ -1,17 +1,18 @@
-//! W of elements on a lattice each of which moves most others: by tables over the offset, and the structure's modes.
+//! W of a lattice whose elements move most others: influence tables over the offset, and the structure's modes.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
 use super::group::LANE_COUNT;
-use super::modes::find_modes;
+use super::low_rank::find_modes;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd};
 
 /// W = G + L Lᵀ: soil and structure.
 pub(super) struct DenseLattice {
-    /// Columns and rows of the lattice, and its columns with others of no element that complete the lanes.
+    /// Columns and rows of the lattice.
     counts: [usize; 2],
+    /// Columns of the lattice, padded to whole vector registers.
     row_length: usize,
-    /// For each direction of motion and of force, G of all offsets: rows of the columns and the completed columns.
+    /// G of all offsets for each direction of displacement and of force, row by row.
     tables: [[Vec<f64>; 3]; 3],
     product: LatticeProduct,
     scratch: LatticeScratch,
@@ -19,9 +20,9 @@ pub(super) struct DenseLattice {
     layers: Vec<[f64; 3]>,
     /// L of each element, mode by mode.
     modes: Vec<[f64; 3]>,
-    rank: usize,
-    /// Motions of all cells by the soil, row by row; amplitudes Lᵀ r of the modes.
-    motions: [Vec<f64>; 3],
+    mode_count: usize,
+    /// Displacements of all cells due to the soil in each direction, row by row; modal amplitudes Lᵀ r.
+    displacements: [Vec<f64>; 3],
     amplitudes: Vec<f64>,
 }
 
@@ -29,7 +30,7 @@ impl DenseLattice {
     /// W of `cells` (column and row): the row-major `w` with the part `soil(row, column)`.
     ///
     /// `layer(row)`: part of the diagonal that is neither soil nor structure. `None` if blocks of equal offset differ, or
-    /// the rest of W has too many modes.
+    /// the structure has too many modes.
     pub(super) fn new(
         w: &[f64],
         cells: &[[usize; 2]],
@@ -58,90 +59,94 @@ impl DenseLattice {
             }
         }
         let modes = find_modes(w, 3 * count, &soil, &layer)?;
-        let places = |e: usize| [e, count + e, 2 * count + e];
+        let indices = |e: usize| [e, count + e, 2 * count + e];
         Some(Self {
             counts,
             row_length,
             tables,
             scratch: product.scratch(),
             product,
-            layers: (0..count).map(|e| places(e).map(&layer)).collect(),
+            layers: (0..count).map(|e| indices(e).map(&layer)).collect(),
             modes: (0..count)
-                .flat_map(|e| modes.iter().map(move |mode| places(e).map(|i| mode[i])))
+                .flat_map(|e| modes.iter().map(move |mode| indices(e).map(|i| mode[i])))
                 .collect(),
-            rank: modes.len(),
-            motions: [(); 3].map(|()| vec![0.0; row_length * counts[1]]),
+            mode_count: modes.len(),
+            displacements: [(); 3].map(|()| vec![0.0; row_length * counts[1]]),
             amplitudes: vec![0.0; modes.len()],
         })
     }
 
-    /// Sets the motions to W r.
-    pub(super) fn update_motions(&mut self, forces: &[f64]) {
-        let Self { product, scratch, motions, row_length, amplitudes, modes, rank, .. } = self;
+    /// Sets the displacements to those due to forces r.
+    pub(super) fn update_displacements(&mut self, forces: &[f64]) {
+        let Self {
+            product, scratch, displacements, row_length, amplitudes, modes, mode_count, ..
+        } = self;
         let cells = product.cells();
         product.multiply(forces, scratch, |k, e, value| {
-            motions[k][cells[e][1] * *row_length + cells[e][0]] = value;
+            displacements[k][cells[e][1] * *row_length + cells[e][0]] = value;
         });
         amplitudes.fill(0.0);
         let count = cells.len();
-        for (e, modes) in modes.chunks_exact((*rank).max(1)).enumerate() {
+        for (e, modes) in modes.chunks_exact((*mode_count).max(1)).enumerate() {
             for (amplitude, [p, x, y]) in amplitudes.iter_mut().zip(modes) {
                 *amplitude += p * forces[e] + x * forces[count + e] + y * forces[2 * count + e];
             }
         }
     }
 
-    /// Motions along each direction and amplitudes of the modes, which are linear in the forces.
+    /// Displacements along each direction, and modal amplitudes; all are linear in the forces.
     pub(super) fn response_mut(&mut self) -> [&mut [f64]; 4] {
-        let [normal, along_x, along_y] = &mut self.motions;
-        [normal, along_x, along_y, &mut self.amplitudes]
+        let [p, x, y] = &mut self.displacements;
+        [p, x, y, &mut self.amplitudes]
     }
 
-    /// Number of the motions and amplitudes.
+    /// Number of displacements and amplitudes.
     pub(super) fn response_count(&self) -> usize {
-        3 * self.motions[0].len() + self.amplitudes.len()
+        3 * self.displacements[0].len() + self.amplitudes.len()
     }
 
-    /// Motion of an element with the force `change`.
+    /// Displacement of an element under the present forces; `force` is its part of them.
     #[inline(always)]
-    pub(super) fn motion(&self, e: usize, change: [f64; 3]) -> [f64; 3] {
+    pub(super) fn displacement(&self, e: usize, force: [f64; 3]) -> [f64; 3] {
         let [i, j] = self.product.cells()[e];
-        let place = j * self.row_length + i;
-        let mut motion = [0.0; 3];
+        let cell_index = j * self.row_length + i;
+        let mut displacement = [0.0; 3];
         for k in 0..3 {
-            motion[k] = self.motions[k][place] + self.layers[e][k] * change[k];
+            displacement[k] = self.displacements[k][cell_index] + self.layers[e][k] * force[k];
         }
-        for (amplitude, mode) in self.amplitudes.iter().zip(&self.modes[e * self.rank..]) {
+        for (amplitude, mode) in self.amplitudes.iter().zip(&self.modes[e * self.mode_count..]) {
             for k in 0..3 {
-                motion[k] += amplitude * mode[k];
+                displacement[k] += amplitude * mode[k];
             }
         }
-        motion
+        displacement
     }
 
-    /// Adds the motion of all elements by a force on one.
+    /// Adds the displacements of all elements due to a force on one.
     #[inline(always)]
-    pub(super) fn push<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
+    pub(super) fn add_force<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
         let [columns, rows] = self.counts;
         let [i, j] = self.product.cells()[e];
-        let length = self.row_length;
-        let width = columns + length - 1;
+        let row_length = self.row_length;
+        let width = columns + row_length - 1;
         let splatted = force.map(|force| simd.splat_f64s(force));
-        for (motions, [a, b, c]) in self.motions.iter_mut().zip(&self.tables) {
+        for (displacements, [a, b, c]) in self.displacements.iter_mut().zip(&self.tables) {
             for row in 0..rows {
                 let begin = (rows - 1 + row - j) * width + columns - 1 - i;
-                let sums = S::as_mut_simd_f64s(&mut motions[row * length..][..length]).0;
-                let a = S::as_simd_f64s(&a[begin..begin + length]).0;
-                let b = S::as_simd_f64s(&b[begin..begin + length]).0;
-                let c = S::as_simd_f64s(&c[begin..begin + length]).0;
+                let sums =
+                    S::as_mut_simd_f64s(&mut displacements[row * row_length..][..row_length]).0;
+                let a = S::as_simd_f64s(&a[begin..begin + row_length]).0;
+                let b = S::as_simd_f64s(&b[begin..begin + row_length]).0;
+                let c = S::as_simd_f64s(&c[begin..begin + row_length]).0;
                 for (sum, ((a, b), c)) in sums.iter_mut().zip(a.iter().zip(b).zip(c)) {
-                    let first = simd.mul_add_e_f64s(*a, splatted[0], *sum);
-                    let second = simd.mul_add_e_f64s(*b, splatted[1], first);
-                    *sum = simd.mul_add_e_f64s(*c, splatted[2], second);
+                    *sum = simd.mul_add_e_f64s(*a, splatted[0], *sum);
+                    *sum = simd.mul_add_e_f64s(*b, splatted[1], *sum);
+                    *sum = simd.mul_add_e_f64s(*c, splatted[2], *sum);
                 }
             }
         }
-        for (amplitude, mode) in self.amplitudes.iter_mut().zip(&self.modes[e * self.rank..]) {
+        for (amplitude, mode) in self.amplitudes.iter_mut().zip(&self.modes[e * self.mode_count..])
+        {
             *amplitude += mode[0] * force[0] + mode[1] * force[1] + mode[2] * force[2];
         }
     }

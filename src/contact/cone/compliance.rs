@@ -1,0 +1,38 @@
+//! W in the form whose products take the least time, chosen when W is read.
+
+use super::dense_lattice::DenseLattice;
+use super::low_rank::LowRankCompliance;
+use super::near_field::NearFieldBlocks;
+
+/// Form of W for products and sweeps, without the diagonal that the proximal point method adds.
+///
+/// Newton's method factors the stored entries in all forms but the last.
+#[derive(Default)]
+pub(super) enum ComplianceForm {
+    /// The stored entries alone; they contain the added diagonal.
+    #[default]
+    Entries,
+    /// Elements on a lattice, each of which moves few others much.
+    NearField(Box<NearFieldBlocks>),
+    /// Elements on a lattice, each of which moves most others much.
+    DenseLattice(Box<DenseLattice>),
+    /// Independent elements under a structure with few modes; no entries are stored.
+    LowRank(Box<LowRankCompliance>),
+}
+
+impl ComplianceForm {
+    /// Blocks of elements that move each other much, if W has this form.
+    pub(super) fn near_field(&self) -> Option<&NearFieldBlocks> {
+        if let Self::NearField(blocks) = self { Some(blocks) } else { None }
+    }
+
+    /// As [`ComplianceForm::near_field`], to change them.
+    pub(super) fn near_field_mut(&mut self) -> Option<&mut NearFieldBlocks> {
+        if let Self::NearField(blocks) = self { Some(blocks) } else { None }
+    }
+
+    /// W of low rank, if W has this form.
+    pub(super) fn low_rank(&self) -> Option<&LowRankCompliance> {
+        if let Self::LowRank(operator) = self { Some(operator) } else { None }
+    }
+}

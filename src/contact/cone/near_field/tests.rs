@@ -1,0 +1,227 @@
+//! Near-field blocks and influence tables of a lattice against the entries of W.
+
+use super::super::dense_lattice::DenseLattice;
+use super::super::newton::Newton;
+use super::super::problem::{Bounds, ConeProblem};
+use super::super::{compliance::ComplianceForm, proximal::Proximal, search::find_forces};
+use super::*;
+use basemat_testkit::random::Random;
+
+/// Elements along a side of the mat.
+const SIDE_COUNT: usize = 10;
+const ELEMENT_COUNT: usize = SIDE_COUNT * SIDE_COUNT;
+
+/// Compliance between two elements of a lattice, without the structure.
+fn soil(row: usize, column: usize) -> f64 {
+    let cells = cells();
+    let receiver = cells[row % ELEMENT_COUNT].map(|k| k as f64);
+    let source = cells[column % ELEMENT_COUNT].map(|k| k as f64);
+    let dx = source[0] - receiver[0];
+    let distance = dx.hypot(source[1] - receiver[1]);
+    match (row / ELEMENT_COUNT, column / ELEMENT_COUNT) {
+        (i, j) if i == j => (-3.0 * distance).exp() * if i == 0 { 0.8 } else { 1.0 },
+        (0, 1) => 0.1 * dx * (-4.0 * distance).exp(),
+        (1, 0) => -0.1 * dx * (-4.0 * distance).exp(),
+        _ => 0.0,
+    }
+}
+
+/// Column and row of each element.
+fn cells() -> Vec<[usize; 2]> {
+    (0..ELEMENT_COUNT).map(|e| [e % SIDE_COUNT, e / SIDE_COUNT]).collect()
+}
+
+/// Near-field blocks of a problem on this soil.
+fn blocks(problem: &ConeProblem, soil: impl Fn(usize, usize) -> f64) -> Option<NearFieldBlocks> {
+    NearFieldBlocks::new(&problem.w, &problem.rho, &cells(), soil, |_| 0.0)
+}
+
+/// A rigid body on the lattice that partly lifts off and slides.
+fn rocking_body(random: &mut Random, friction: f64) -> ConeProblem {
+    let size = 3 * ELEMENT_COUNT;
+    let mut problem = ConeProblem::new(ELEMENT_COUNT);
+    let arms: Vec<[f64; 2]> = cells()
+        .iter()
+        .map(|cell| cell.map(|k| k as f64 - 0.5 * (SIDE_COUNT - 1) as f64))
+        .collect();
+    let modes: Vec<[f64; 4]> = (0..size)
+        .map(|i| {
+            let arm = arms[i % ELEMENT_COUNT];
+            let normal_mode = [0.1, 0.0, 0.02 * arm[0], 0.02 * arm[1]];
+            [normal_mode, [0.0, 0.1, 0.0, 0.05], [0.0, 0.0, 0.05, 0.0]][i / ELEMENT_COUNT]
+        })
+        .collect();
+    for i in 0..size {
+        for j in 0..size {
+            let rigid: f64 = modes[i].iter().zip(&modes[j]).map(|(a, b)| a * b).sum();
+            problem.w[i * size + j] = soil(i, j) + rigid;
+        }
+        let arm = arms[i % ELEMENT_COUNT];
+        problem.static_force[i] = if i < ELEMENT_COUNT { 1.0 } else { 0.0 };
+        problem.q[i] = 0.1 * random.within(-1.0, 1.0)
+            + [0.25 * arm[0] - 0.1 * arm[1], 0.5, 0.3][i / ELEMENT_COUNT] * random.within(0.9, 1.1);
+    }
+    problem.bounds.fill(Bounds { friction, ..Bounds::WITHOUT_FRICTION });
+    for bounds in problem.bounds.iter_mut().step_by(3) {
+        (bounds.interval[1], bounds.hardening) = (1.2, 0.8);
+    }
+    problem.min_force_scale = 1.0;
+    problem.update_scales();
+    problem
+}
+
+#[test]
+fn near_field_blocks_multiply_as_the_entries_of_w() {
+    let mut random = Random(3);
+    let mut problem = rocking_body(&mut random, 0.5);
+    let near_field = blocks(&problem, soil).unwrap();
+    assert!(
+        near_field.mode_count == 4 && near_field.near.blocks.len() < 20,
+        "{} {}",
+        near_field.mode_count,
+        near_field.near.blocks.len()
+    );
+    // Each element is in one group, without elements near it.
+    let mut has_group = [false; ELEMENT_COUNT];
+    for group in &near_field.groups {
+        let elements = group.iter().filter(|e| **e < ELEMENT_COUNT);
+        for e in elements {
+            assert!(!std::mem::replace(&mut has_group[*e], true));
+            let links = near_field.near.of(*e);
+            let links_in_group =
+                links.iter().filter(|link| group.contains(&(link.element as usize))).count();
+            assert!(links.len() < 20 && links_in_group == 1);
+        }
+    }
+    assert!(has_group.iter().all(|has_group| *has_group) && near_field.groups.len() < 30);
+    problem.force_change.iter_mut().for_each(|change| *change = random.within(-1.0, 1.0));
+    problem.force_change[7] = 0.0;
+    problem.update_displacements();
+    let expected = problem.y.clone();
+    problem.form = ComplianceForm::NearField(Box::new(near_field));
+    problem.update_displacements();
+    for (computed, expected) in problem.y.iter().zip(&expected) {
+        assert!((computed - expected).abs() < 1e-13, "{computed} {expected}");
+    }
+    // The stored product has the same bits as a new product.
+    let stored = problem.y.clone();
+    let change = problem.force_change.clone();
+    problem.force_change.iter_mut().for_each(|change| *change *= 0.3);
+    problem.update_displacements();
+    problem.force_change.copy_from_slice(&change);
+    problem.update_displacements();
+    assert_eq!(stored, problem.y);
+    problem.update_displacements();
+    assert_eq!(stored, problem.y);
+    // With a number on the diagonal.
+    problem.added_diagonal = 0.1;
+    problem.update_displacements();
+    for ((computed, expected), change) in problem.y.iter().zip(&expected).zip(&problem.force_change)
+    {
+        assert!((computed - expected - 0.1 * change).abs() < 1e-13, "{computed} {expected}");
+    }
+    // The structure's part of W is not positive.
+    assert!(blocks(&problem, |i, j| 1.1 * soil(i, j)).is_none());
+    // Every block is another one, or the structure's part has many modes.
+    assert!(blocks(&problem, |i, j| soil(i, j) * (1 + i + j) as f64).is_none());
+    assert!(blocks(&problem, |_, _| 0.0).is_none());
+}
+
+#[test]
+fn influence_tables_multiply_as_the_entries_of_w() {
+    let mut random = Random(7);
+    let mut problem = rocking_body(&mut random, 0.5);
+    problem.force_change.iter_mut().for_each(|change| *change = random.within(-1.0, 1.0));
+    // Another layer under each element.
+    let layers: Vec<f64> = (0..3 * ELEMENT_COUNT).map(|_| random.within(0.0, 0.3)).collect();
+    for (i, layer) in layers.iter().enumerate() {
+        problem.w[i * (3 * ELEMENT_COUNT + 1)] += layer;
+    }
+    problem.added_diagonal = 0.1;
+    problem.update_displacements();
+    let expected: Vec<f64> = problem
+        .y
+        .iter()
+        .zip(&problem.force_change)
+        .map(|(y, change)| y + 0.1 * change)
+        .collect();
+    let dense_lattice = |soil: &dyn Fn(usize, usize) -> f64| {
+        DenseLattice::new(&problem.w, &cells(), soil, |i| layers[i])
+    };
+    assert!(dense_lattice(&|i, j| soil(i, j) * (1 + i + j) as f64).is_none());
+    assert!(dense_lattice(&|i, j| 1.1 * soil(i, j)).is_none());
+    problem.form = ComplianceForm::DenseLattice(Box::new(dense_lattice(&soil).unwrap()));
+    problem.update_displacements();
+    for (computed, expected) in problem.y.iter().zip(&expected) {
+        assert!((computed - expected).abs() < 1e-13, "{computed} {expected}");
+    }
+    // Displacements that sweeps have added are products with W.
+    for _ in 0..3 {
+        assert!(problem.relax_all(1e-12) > 1e-3);
+    }
+    let ComplianceForm::DenseLattice(lattice) = &problem.form else {
+        unreachable!()
+    };
+    let displacements: Vec<[f64; 3]> = (0..ELEMENT_COUNT)
+        .map(|e| {
+            let change = problem.component_indices(e).map(|i| problem.force_change[i]);
+            lattice.displacement(e, change)
+        })
+        .collect();
+    problem.update_displacements();
+    for (e, displacement) in displacements.iter().enumerate() {
+        for (k, i) in problem.component_indices(e).into_iter().enumerate() {
+            let computed = displacement[k];
+            let expected = problem.y[i] - problem.q[i] - 0.1 * problem.force_change[i];
+            assert!((computed - expected).abs() < 1e-12, "{e}, {k}: {computed} {expected}");
+        }
+    }
+}
+
+#[test]
+fn sweeps_of_all_forms_find_the_same_forces() {
+    let mut random = Random(5);
+    let mut open_count = 0;
+    let mut slide_count = 0;
+    for friction in [0.2, 0.6, 1.5] {
+        let mut problem = rocking_body(&mut random, friction);
+        let near_field = blocks(&problem, soil).unwrap();
+        let lattice = DenseLattice::new(&problem.w, &cells(), soil, |_| 0.0).unwrap();
+        let mut solve = |form: ComplianceForm| {
+            problem.form = form;
+            problem.force_change.fill(0.0);
+            let mut newton = Newton::new(ELEMENT_COUNT);
+            let mut proximal = Proximal::new(ELEMENT_COUNT);
+            let mut scratch = [(); 2].map(|()| vec![0.0; 3 * ELEMENT_COUNT]);
+            let [initial, limited] = &mut scratch;
+            let outcome =
+                find_forces(&mut problem, &mut newton, &mut proximal, initial, limited, true);
+            assert!(outcome.method.is_some() && problem.is_solved());
+            // The proximal point method alone, too.
+            let forces: Vec<f64> = (0..3 * ELEMENT_COUNT).map(|i| problem.force(i)).collect();
+            problem.force_change.fill(0.0);
+            let sweep = |problem: &mut ConeProblem| problem.sweep(200).is_solved;
+            assert!(proximal.solve(&mut problem, sweep));
+            for (i, expected) in forces.iter().enumerate() {
+                assert!((problem.force(i) - expected).abs() < 1e-9, "{friction}, {i}");
+            }
+            forces
+        };
+        let expected = solve(ComplianceForm::Entries);
+        let near_field_forces = solve(ComplianceForm::NearField(Box::new(near_field)));
+        let lattice_forces = solve(ComplianceForm::DenseLattice(Box::new(lattice)));
+        for computed in [near_field_forces, lattice_forces] {
+            for (i, (expected, computed)) in expected.iter().zip(&computed).enumerate() {
+                assert!(
+                    (expected - computed).abs() < 1e-10,
+                    "{friction}, {i}: {expected} {computed}"
+                );
+            }
+        }
+        open_count += expected[..ELEMENT_COUNT].iter().filter(|p| **p == 0.0).count();
+        slide_count += (0..ELEMENT_COUNT)
+            .filter(|e| expected[*e] > 0.0 && problem.y[ELEMENT_COUNT + e].abs() > 1e-6)
+            .count();
+    }
+    assert!(open_count > 10 && slide_count > 10, "{open_count} {slide_count}");
+}
