@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use super::connectivity::Connectivity;
 use super::material::formulation;
 use super::mesh::PyMesh;
-use super::solid_material::{BlockMaterials, Components, SolidList};
+use super::solid_material::{BlockMaterials, PlaneTensors, SolidList};
 use crate::array::{Numbers, whole_numbers};
 use crate::error::OrRaise;
 
@@ -25,7 +25,7 @@ impl PyMesh {
         x: Numbers,
         y: Numbers,
         material: BlockMaterials,
-        initial_stress: Option<Components>,
+        initial_stress: Option<PlaneTensors>,
     ) -> PyResult<Self> {
         let column_count = x.0.len().saturating_sub(1);
         let row_count = y.0.len().saturating_sub(1);
@@ -68,10 +68,10 @@ impl PyMesh {
         material: SolidList,
         formulation: &str,
         #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
-        initial_stress: Option<Components>,
+        initial_stress: Option<PlaneTensors>,
     ) -> PyResult<Vec<usize>> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
-        let zero_stress = Components(vec![[0.0; 4]]);
+        let zero_stress = PlaneTensors(vec![[0.0; 4]]);
         let stresses = initial_stress.as_ref().unwrap_or(&zero_stress);
         if nodes.nodes_each == 8 {
             let quads = nodes.rows::<8>()?;

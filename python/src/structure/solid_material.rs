@@ -222,9 +222,9 @@ impl BlockMaterials {
 }
 
 /// Stresses or strains `[xx, yy, zz, xy]`: one for all, or one for each.
-pub(crate) struct Components(pub(super) Vec<[f64; 4]>);
+pub(crate) struct PlaneTensors(pub(super) Vec<[f64; 4]>);
 
-extracts!(Components, object => {
+extracts!(PlaneTensors, object => {
     if let Ok(components) = object.extract::<[f64; 4]>() {
         return Ok(Self(vec![components]));
     }
@@ -235,7 +235,7 @@ extracts!(Components, object => {
     components.map(Self).map_err(|_| input_error(text))
 });
 
-impl Components {
+impl PlaneTensors {
     /// Initial stress of an `element` out of `element_count`.
     pub(super) fn at(&self, element: usize, element_count: usize) -> PyResult<[f64; 4]> {
         Ok(*one_of(&self.0, "initial_stress", element, element_count)?)
@@ -252,7 +252,7 @@ impl Components {
 #[pyo3(signature = (material, strains, *, initial_stress=None))]
 pub(crate) fn stress_path(
     material: SolidLike,
-    strains: Components,
+    strains: PlaneTensors,
     initial_stress: Option<[f64; 4]>,
 ) -> PyResult<Rows> {
     let law = material.0.law();
