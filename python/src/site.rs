@@ -6,7 +6,7 @@ use basemat::site::{ComplexModulus, EquivalentLinear, EquivalentLinearOptions};
 use basemat::soil::StrainCurves;
 use pyo3::prelude::*;
 
-use crate::array::{Array, Numbers, Rows, whole_numbers};
+use crate::array::{Array, Numbers, Pairs, Rows, whole_numbers};
 use crate::error::{OrRaise, input_error};
 use crate::list_arguments::ListOf;
 use crate::motion::{PyColumn, PyRecord, control_point};
@@ -91,6 +91,16 @@ impl PyStrainCurves {
             rows.map(|((strain, modulus_ratio), damping)| [*strain, *modulus_ratio, *damping])
                 .collect(),
         ))
+    }
+
+    /// Soil whose stress–strain loops follow Masing's rules on a backbone: the equivalent-linear approximation of `Iwan`.
+    ///
+    /// ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
+    /// backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
+    /// up to the strain γ and its stress τ, the damping ratio is (2/π)(2A/(γτ) − 1).
+    #[staticmethod]
+    fn masing(points: Pairs) -> PyResult<Self> {
+        StrainCurves::masing(&points.0).or_raise().map(Self)
     }
 
     /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).

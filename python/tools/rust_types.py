@@ -20,6 +20,7 @@ SIMPLE = {
     "bool": "bool",
     "BackfillArguments": "tuple[float, Soil] | tuple[float, Soil, DampingLaw]",
     "BaseLike": "_Base",
+    "BlockMaterials": "_Solid | Sequence[_Solid | Sequence[_Solid]]",
     "Cells": "ArrayLike | Sequence[Sequence[int]]",
     "Contact": "Sequence[int] | Sequence[Sequence[int]]",
     "ContactMesh": "Strip | Sequence[Strip] | Plan",
@@ -28,12 +29,15 @@ SIMPLE = {
     "Matrix": "_MatrixLike",
     "NodeLists": "Sequence[BaseNode] | Sequence[Sequence[BaseNode]]",
     "Profile": "Soil | SoilProfile",
+    "PlaneTensors": "ArrayLike",
     "PathBuf": "str | os.PathLike[str]",
     "PyBytes": "bytes",
     "PyDict": "dict[str, Any]",
     "RotaryInertia": "float | Sequence[float]",
     "RowLike": "_RowLike",
     "Rows": ARRAY,
+    "SolidLike": "_Solid",
+    "SolidList": "_Solid | Sequence[_Solid]",
     "SpringList": "Sequence[_Spring]",
 }
 """Python's types of the Rust types other than lists, tuples and classes of the module."""

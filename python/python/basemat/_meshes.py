@@ -24,7 +24,8 @@ def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -
 
     In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
     of one per cell; of "hexahedron" it is a `Material`; of "line" it is ``(material, section, orientation)`` as in
-    `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`. Triangles match the
+    `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`, of "quad8" also another material of
+    `Mesh.add_quads`. Triangles match the
     sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
     added by the methods of the mesh.
     """

@@ -75,6 +75,8 @@ def _kept(value: Any) -> Any:
         return value
     if kind is tuple or kind is list:
         return kind(map(_kept, value))
+    if isinstance(value, np.ndarray) and value.dtype == object:
+        return _kept(value.tolist())
     if isinstance(value, np.ndarray) or hasattr(value, "tocoo"):
         return value.copy()
     if isinstance(value, _core.Mesh):
@@ -93,8 +95,8 @@ def _kept(value: Any) -> Any:
 
 
 def _is_part(value: Any) -> bool:
-    """Whether this is a function, a structure, a ground or a law of the user's, whatever else it may be."""
-    methods = ("base", "conditions", "limits", "step_compliance")
+    """Whether this is a function, a structure, a ground, a law or a material of the user's, whatever else it may be."""
+    methods = ("base", "conditions", "limits", "step_compliance", "stress")
     return callable(value) or any(callable(getattr(value, method, None)) for method in methods)
 
 

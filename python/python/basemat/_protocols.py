@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-__all__ = ["Mode", "UserGround", "UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
+__all__ = ["Mode", "UserGround", "UserHysteresis", "UserLaw", "UserMaterial", "UserPlanLaw", "UserStructure"]
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ._core import (
         BaseFaces,
@@ -172,3 +172,43 @@ class UserHysteresis(Protocol):
 
     def force(self, deformation: float) -> float:
         """Force at a ``deformation`` (m), N/m, positive against a positive one; changes nothing."""
+
+
+class UserMaterial(Protocol):
+    """A material of solids in plane strain written in Python: for quadrilaterals of a `Mesh`.
+
+    Strains and stresses are arrays of shape (4,) of xx, yy, zz and xy; tension is positive, and the shear strain is the
+    engineering strain. The material stores nothing itself: the element stores ``variables``, an array of shape (n,) with the
+    internal variables of a point at the end of the last step. Methods belong to the straight path from the strain of that
+    step to ``strain``, and may be called for any strain, as often as Newton's method needs. Arrays are copies.
+
+    If it has them, these count too: ``variable_count`` (n; 0 unless given, an int),
+    ``initialize(initial_stress)`` (variables at zero strain under a stress; otherwise zeros, and there is no initial stress),
+    ``commit(strain, variables)`` (variables after a step that ended with ``strain``),
+    ``state(strain, variables)`` (plastic shear strain and mobilised strength, for `Simulation.solid_points`; otherwise zeros) and
+    ``symmetric_tangent`` (False if the tangent is not always symmetric). ``density`` and ``elasticity()`` are read once, when an
+    element is added. The mid-step remainder of the energy balance is the definition by ``stress`` and ``energy``: the residual
+    of the balance does not check them.
+
+    What they raise comes out of the run; the simulation stays at the last accepted step. Only ``commit`` is called after a
+    step is accepted: its exception ends the run after the step. Arrays of other shapes, and numbers that are not finite, are
+    errors that name the method.
+
+    `stress_path` tries a material without a mesh.
+    """
+
+    @property
+    def density(self) -> float:
+        """Density, kg/m³; 0 is allowed."""
+
+    def elasticity(self) -> ArrayLike:
+        """Elasticity matrix of small strains: array of shape (4, 4), Pa."""
+
+    def stress(self, strain: NDArray[np.float64], variables: NDArray[np.float64]) -> ArrayLike:
+        """Stress at a ``strain``: array of shape (4,), Pa."""
+
+    def tangent(self, strain: NDArray[np.float64], variables: NDArray[np.float64]) -> ArrayLike:
+        """Derivatives of the stresses (rows) by the strains (columns): array of shape (4, 4), Pa."""
+
+    def energy(self, strain: NDArray[np.float64], variables: NDArray[np.float64]) -> Sequence[float]:
+        """Stored energy, and energy dissipated since the start, J/m³."""

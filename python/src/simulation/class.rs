@@ -63,7 +63,7 @@ pub(crate) struct PySimulation {
 
 impl PySimulation {
     /// The simulation; an error while it is running.
-    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
+    pub(super) fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
         self.simulation.try_lock().map_err(lock_error)
     }
 }

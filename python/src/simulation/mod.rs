@@ -8,6 +8,7 @@ mod options;
 mod parts;
 mod run_reporter;
 mod scheme;
+mod solids;
 mod state;
 
 pub(crate) use class::PySimulation;

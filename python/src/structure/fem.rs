@@ -29,9 +29,12 @@ use crate::row::{PyDofCombination, PySectionRows, space_sections};
 /// "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
 /// body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
 /// along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
-/// displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
-/// forces at rest; none unless given. ``active_damping``: whether damping may add energy, an error by default.
-/// ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+/// displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the
+/// weight that causes P–Δ by the forces at rest; none unless given. ``active_damping``: whether damping may add energy, an
+/// error by default. ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+///
+/// Elements whose material yields act by a nonlinear force: the matrix of `stiffness` has the linear elements only. Each simulation
+/// starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic strains.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
@@ -97,10 +100,16 @@ impl PyFemModel {
             model = model.with_active_stiffness();
         }
         let model = Arc::new(model);
-        let superclass = PyStructure::from_structure(SharedStructure {
-            structure: Arc::clone(&model),
-            dof_names: None,
-        });
+        let superclass = if model.inelastic_elements().next().is_none() {
+            PyStructure::from_structure(SharedStructure {
+                structure: Arc::clone(&model),
+                dof_names: None,
+            })
+        } else {
+            // Each simulation has separate internal variables.
+            let undeformed = Arc::clone(&model);
+            PyStructure::new(move || Ok(FemModel::clone(&undeformed)))
+        };
         Ok(PyClassInitializer::from(superclass).add_subclass(Self(model)))
     }
 

@@ -20,6 +20,7 @@ pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<Quad
         ("incompatible_modes", QuadFormulation::IncompatibleModes),
         ("one_point", QuadFormulation::OnePoint),
         ("hourglass", QuadFormulation::Hourglass { percent }),
+        ("mean_dilatation", QuadFormulation::MeanDilatation),
     ];
     choice("formulation", name, &choices)
 }
@@ -41,8 +42,9 @@ impl PyMaterial {
 /// ``material`` (`Material`).
 ///
 /// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
-/// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
-/// point, stabilised with ``hourglass_percent``, 5 by default).
+/// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one
+/// point, stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean
+/// dilatation of the element: the only one of materials that yield).
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(pub(super) Layer);
 

@@ -1,13 +1,11 @@
 //! Meshes from arrays.
 
-use basemat::fem::{
-    Beam, Dashpot, Direction, Element, Layer, LumpedMass, Mesh, Quad4, Quad8, Spring, Truss,
-};
+use basemat::fem::{Beam, Dashpot, Direction, Element, Layer, LumpedMass, Mesh, Spring, Truss};
 use pyo3::prelude::*;
 
 use super::connectivity::{Connectivity, PerElement};
-use super::material::{PyLayer, PyMaterial, formulation};
-use crate::array::{Count, Numbers, Pairs, Points, Rows, whole_numbers};
+use super::material::PyLayer;
+use crate::array::{Count, Numbers, Pairs, Points, Rows};
 use crate::error::{OrRaise, WithOption, input_error};
 use crate::list_arguments::ListOf;
 use crate::names::choice;
@@ -299,27 +297,6 @@ impl PyMesh {
             }
         };
         self.0.add(element.or_raise()?).or_raise()
-    }
-
-    /// Adds plane-strain quadrilaterals of a ``material`` and returns their numbers.
-    ///
-    /// ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
-    /// Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
-    #[pyo3(signature = (nodes, material, *, formulation="incompatible_modes", hourglass_percent=5))]
-    fn add_quads(
-        &mut self,
-        nodes: Connectivity,
-        material: &PyMaterial,
-        formulation: &str,
-        #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
-    ) -> PyResult<Vec<usize>> {
-        let formulation = self::formulation(formulation, hourglass_percent)?;
-        if nodes.nodes_each == 8 {
-            let quads = nodes.rows::<8>()?.into_iter();
-            return self.add_all(quads.map(|nodes| Ok(Quad8::new(nodes, material.0))));
-        }
-        let quads = nodes.rows::<4>()?.into_iter();
-        self.add_all(quads.map(|nodes| Ok(Quad4::new(nodes, material.0, formulation))))
     }
 
     /// Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists.

@@ -14,7 +14,10 @@ mod in_space;
 mod material;
 mod matrices;
 mod mesh;
+mod quads;
 mod shells;
+mod solid_material;
+mod solid_points;
 mod superclass;
 
 pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
@@ -34,4 +37,6 @@ pub(crate) use material::{PyBeamSection, PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::PyMesh;
 pub(crate) use shells::{PyShellResultants, PyShellRows};
+pub(crate) use solid_material::{PyDruckerPrager, PyIwan, stress_path};
+pub(crate) use solid_points::PySolidPoints;
 pub(crate) use superclass::{PyStructure, new_structure, structure_recipe};

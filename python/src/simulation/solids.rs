@@ -1,0 +1,61 @@
+//! States of solids during a simulation.
+
+use std::any::Any;
+
+use basemat::Simulation;
+use basemat::structure::{FemModel, Structure};
+use pyo3::prelude::*;
+
+use super::PySimulation;
+use crate::array::{Array, Count};
+use crate::error::input_error;
+use crate::names::choice;
+use crate::structure::PySolidPoints;
+
+/// The model of a simulation whose structure is a `FemModel` with elements that have internal variables.
+fn inelastic_model(simulation: &Simulation) -> PyResult<&FemModel> {
+    let mut structure: &dyn Any = simulation.structure();
+    // Recipes return boxed structures.
+    while let Some(boxed) = structure.downcast_ref::<Box<dyn Structure>>() {
+        structure = boxed.as_ref();
+    }
+    structure.downcast_ref().ok_or_else(|| {
+        input_error(
+            "the structure of the simulation must be a FemModel with materials that yield, without another structure \
+             around it",
+        )
+    })
+}
+
+/// Value of an element by the states of its points.
+type ElementValue = fn(&PySolidPoints) -> f64;
+
+#[pymethods]
+impl PySimulation {
+    /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
+    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`.
+    fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
+        PySolidPoints::of_element(inelastic_model(&*self.lock()?)?, element.0)
+    }
+
+    /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
+    /// an array of as many values, for `Mesh.plot_solids`. The structure is a `FemModel`.
+    ///
+    /// ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
+    /// ratio of shear stress to shear strength at its points.
+    fn solid_values(&self, quantity: &str) -> PyResult<(Vec<usize>, Array)> {
+        let choices: [(&str, ElementValue); 2] = [
+            ("plastic_strain", PySolidPoints::mean_plastic),
+            ("mobilised_strength", PySolidPoints::largest_mobilised),
+        ];
+        let value = choice("quantity", quantity, &choices)?;
+        let simulation = self.lock()?;
+        let model = inelastic_model(&simulation)?;
+        let elements: Vec<usize> = model.inelastic_elements().collect();
+        let values = elements
+            .iter()
+            .map(|&element| Ok(value(&PySolidPoints::of_element(model, element)?)))
+            .collect::<PyResult<Array>>()?;
+        Ok((elements, values))
+    }
+}
