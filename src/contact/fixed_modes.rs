@@ -223,9 +223,6 @@ impl ContactModeSolver {
         }
     }
 
-<<<<<<< HEAD
-    /// Whether an element yields in `mode`, that of the last solution, and its pressure grows with the settlement.
-=======
     /// Corrects the last solution for the present lines of yielding elements, which have only shifted.
     ///
     /// `modes`: of the last solution.
@@ -254,7 +251,6 @@ impl ContactModeSolver {
     /// Whether an element yields in `mode`, and its pressure grows with the settlement.
     ///
     /// `mode`: of the last solution.
->>>>>>> cost
     pub(super) fn yields_with_hardening(&self, element: usize, mode: Mode) -> bool {
         mode.is_yield() && self.conditions[element][0].gap != 0.0
     }

@@ -51,15 +51,9 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) length_scale: f64,
     /// Bonds, one per element; empty if all are free.
     pub(crate) bonds: &'a [Bond],
-<<<<<<< HEAD
-    /// Settlements at which the laws are linearised, m, one per element; empty if all are zero.
-    pub(crate) trial_settlements: &'a [Cell<f64>],
-    /// In space, whether laws act without friction and cohesion, as while the weight is applied.
-=======
     /// Lines in place of the laws' curves, one per element; empty for the tangents at a settlement of zero.
     pub(crate) trial_lines: &'a [Cell<TrialLine>],
-    /// In plan, whether friction and cohesion are left out, as while the weight comes on.
->>>>>>> cost
+    /// In space, whether laws act without friction and cohesion, as while the weight is applied.
     pub(crate) frictionless: bool,
 }
 
@@ -109,22 +103,15 @@ impl ContactInput<'_> {
     pub(super) fn conditions(&self, element: usize, mode: Mode) -> LawResult<[Condition; 2]> {
         let law = self.law(element);
         let start = self.start_of(element);
-<<<<<<< HEAD
-        let conditions = law.conditions(mode, &start);
-        // The sum also overflows for some finite values.
-        if !(conditions[0].sum() + conditions[1].sum()).is_finite()
-            && let Some((quantity, value)) = conditions.iter().find_map(Condition::not_finite)
-=======
-        let mut pair = law.conditions(mode, &start);
+        let mut conditions = law.conditions(mode, &start);
         if mode.is_yield()
             && let Some(line) = self.trial_lines.get(element)
         {
-            line.get().replace_tangent(&mut pair[0]);
+            line.get().replace_tangent(&mut conditions[0]);
         }
-        // A value is not finite, or the sum overflows.
-        if !(pair[0].sum() + pair[1].sum()).is_finite()
-            && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
->>>>>>> cost
+        // The sum also overflows for some finite values.
+        if !(conditions[0].sum() + conditions[1].sum()).is_finite()
+            && let Some((quantity, value)) = conditions.iter().find_map(Condition::not_finite)
         {
             return Err(match law.check_start(&start) {
                 Ok(()) => LawError::not_finite(element, mode.word(), quantity, value),

@@ -21,12 +21,8 @@ use super::element::local_mode;
 use super::fixed_modes::ContactModeSolver;
 use super::linearisation::Linearisation;
 use super::path::Path;
-<<<<<<< HEAD
 use super::problem::{Bond, ContactInput, LawResult};
-=======
-use super::problem::{Bond, ContactInput};
 use super::trial_line::{LineMotion, TrialLine};
->>>>>>> cost
 use super::{ContactSearch, SearchMethod};
 use crate::error::StepError;
 use crate::interface::Mode;
@@ -293,13 +289,6 @@ impl ModeSearch {
             if !self.solver.solve_for_modes(input, modes)? {
                 return Ok(false);
             }
-<<<<<<< HEAD
-            let is_admissible = self.update_next_modes(input, modes)?;
-            if self.move_tangents(input, modes, &mut linearisation)? {
-                // Other tangents define another problem, in which the same modes may occur again.
-                modes.copy_from_slice(&self.next_modes);
-                self.visited_modes.clear();
-=======
             let mut is_admissible = self.update_next_modes(input, modes)?;
             let mut motion = self.move_tangents(input, modes, &mut linearisation)?;
             if is_admissible && motion == LineMotion::Shifted {
@@ -309,24 +298,17 @@ impl ModeSearch {
             if motion != LineMotion::None {
                 // Other tangents make another problem, in which the same modes may occur again.
                 self.begin_lines(input, modes);
-                modes.copy_from_slice(&self.next);
-                self.visited.clear();
->>>>>>> cost
+                modes.copy_from_slice(&self.next_modes);
+                self.visited_modes.clear();
                 continue;
             }
             if is_admissible {
                 return Ok(true);
             }
-<<<<<<< HEAD
             self.visited_modes.extend_from_slice(modes);
+            self.begin_lines(input, modes);
             modes.copy_from_slice(&self.next_modes);
             if self.visited_modes.chunks_exact(modes.len()).any(|visited| visited == modes) {
-=======
-            self.visited.extend_from_slice(modes);
-            self.begin_lines(input, modes);
-            modes.copy_from_slice(&self.next);
-            if self.visited.chunks_exact(modes.len()).any(|visited| visited == modes) {
->>>>>>> cost
                 return Ok(false);
             }
         }

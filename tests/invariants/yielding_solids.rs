@@ -26,9 +26,9 @@ struct YieldingScene {
 fn random_material(random: &mut Random, pressure: f64) -> (SharedMaterial, bool, String) {
     let poisson = random.within(0.1, 0.49);
     let density = random.within(1500.0, 2500.0);
-    let shear_modulus = pressure * random.log_within(1e2, 1e4);
+    let shear_modulus = pressure * random.log_within(3e2, 1e4);
     if random.chance(0.5) {
-        let strength = pressure * random.log_within(0.4, 4.0);
+        let strength = pressure * random.log_within(0.7, 4.0);
         let limit_strain = random.within(50.0, 300.0) * strength / shear_modulus;
         let clay =
             Iwan::hyperbolic(shear_modulus, strength, limit_strain, poisson, density).unwrap();
@@ -86,7 +86,7 @@ fn four_node_block(
             let lower = grid.row(row);
             let upper = grid.row(row + 1);
             let nodes = [lower[column], lower[column + 1], upper[column + 1], upper[column]];
-            mesh.add(Quad4::new(nodes, material.clone(), QuadFormulation::default()))?;
+            mesh.add(Quad4::new(nodes, material.clone(), QuadFormulation::MeanDilatation))?;
         }
     }
     Ok(mesh)
@@ -111,9 +111,9 @@ fn random_scene(seed: u64) -> YieldingScene {
         })?;
         let builder = Simulation::builder(time_step).motion(motion);
         let builder = if is_on_springs {
-            builder.ground(SpringGround::under(&model, 4, 5.0e8, 3.0e8)?)
+            builder.ground(SpringGround::under(&model, 8, 5.0e7, 3.0e7)?)
         } else {
-            builder.ground(ElasticGround::under(Soil::new(1.5e8, 0.3, 2000.0)?, &model, 4)?)
+            builder.ground(ElasticGround::under(Soil::new(1.5e8, 0.3, 2000.0)?, &model, 8)?)
         };
         let builder = builder.structure(model);
         if is_bonded {

@@ -171,7 +171,7 @@ impl ModeSearch {
     /// `modes`: of the last trial.
     pub(super) fn begin_lines(&self, input: &ContactInput<'_>, modes: &[Mode]) {
         for (e, line) in input.trial_lines.iter().enumerate() {
-            let begins = self.next[e].is_yield() && !modes[e].is_yield();
+            let begins = self.next_modes[e].is_yield() && !modes[e].is_yield();
             if begins
                 && line.get().settlement == 0.0
                 && let Ok(limits) = input.limits(e, 0.0)

@@ -63,6 +63,13 @@ pub(crate) fn on_fixed_base(
     Ok((structure, Box::new(ground)))
 }
 
+/// The structure that the builder received, without the rigid foundations of a fixed base.
+pub(crate) fn without_rigid_foundations(structure: &dyn Structure) -> &dyn Structure {
+    let any: &dyn std::any::Any = structure;
+    any.downcast_ref::<StructureOnRigidFoundations>()
+        .map_or(structure, |on_foundations| on_foundations.structure.as_ref())
+}
+
 /// Whether the ground belongs to a fixed base.
 pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
