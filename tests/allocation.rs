@@ -176,6 +176,16 @@ fn cyclic_yielding() -> CyclicYielding {
     law.with_elastic_range(0.1).unwrap().with_depth_gradient(1e6).unwrap()
 }
 
+/// Block of clay that yields, of columns × rows elements.
+fn yielding_block(columns: u32, rows: u32) -> FemModel {
+    let clay: SharedMaterial = Iwan::hyperbolic(40e6, 90e3, 0.45, 0.45, 1900.0).unwrap().into();
+    let lines = |count: u32, start: f64, length: f64| -> Vec<f64> {
+        (0..=count).map(|i| start + length * f64::from(i) / f64::from(count)).collect()
+    };
+    let [x, y] = [lines(columns, -2.0, 4.0), lines(rows, 0.0, 5.0)];
+    FemModel::on_base(Mesh::quad8_block(&x, &y, |_, _| clay.clone()).unwrap()).unwrap()
+}
+
 /// Scenes in the plane.
 fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
     let modes = Coordinates::Modes;
@@ -216,6 +226,8 @@ fn plane_scenes() -> Vec<(&'static str, SimulationBuilder)> {
         ),
         ("Newton", base().structure(QuadraticSpring(block)).interface(friction(0.3))),
         ("yielding column", base().structure(yielding_column(8)).interface(friction(0.3))),
+        ("yielding block", base().structure(yielding_block(2, 3)).interface(friction(0.3))),
+        ("large yielding block", base().structure(yielding_block(6, 10)).interface(friction(0.3))),
     ]
 }
 

@@ -1,19 +1,23 @@
 //! GOAL: blocks of soil that yields, shaken on a half-plane: the balance closes with the remainder of the laws.
-//! SCENE: a block of `Quad8` of clay (Iwan) or sand (Drucker–Prager) that slides and uplifts; few and many elements.
+//! SCENE: a block of `Quad8` of clay (Iwan) or sand (Drucker–Prager) that slides and uplifts or is bonded; few and many
+//! elements.
 //! REFERENCE: the identity of the energies, in which force, energies and remainder come from formulas of their own.
 
 use basemat::coupled::{EnergyBalance, State};
 use basemat::fem::{DruckerPrager, Iwan, Material, Mesh, SharedMaterial};
+use basemat::interface::Bonded;
 use basemat::results::Run;
 use basemat::structure::FemModel;
 
 use basemat_problems::scenes::{SI_UNITS, friction, scene};
 
-/// Block of `columns` × `rows` elements under two pulses, bonded to nothing, and the balance after each step.
+/// Block of `columns` × `rows` elements under two pulses, and the balance after each step.
+///
+/// With weight it slides and uplifts, without weight it is bonded.
 fn shaken_block(
     material: impl Into<SharedMaterial>,
-    columns: usize,
-    rows: usize,
+    [columns, rows]: [usize; 2],
+    has_weight: bool,
 ) -> (Run, Vec<EnergyBalance>) {
     let material = material.into();
     let lines = |count: usize, start: f64, length: f64| -> Vec<f64> {
@@ -22,7 +26,12 @@ fn shaken_block(
     let [x, y] = [lines(columns, -2.0, 4.0), lines(rows, 0.0, 5.0)];
     let mesh = Mesh::quad8_block(&x, &y, |_, _| material.clone()).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
-    let builder = scene(SI_UNITS, 0.6).structure(model).interface(friction(0.7));
+    let mut builder = scene(SI_UNITS, 0.6).structure(model);
+    builder = if has_weight {
+        builder.interface(friction(0.7))
+    } else {
+        builder.gravity(0.0).interface(Bonded)
+    };
     let mut balances = Vec::new();
     let mut simulation = builder.build().unwrap();
     let mut iterations = 0;
@@ -70,15 +79,17 @@ fn sand(dilation_angle: f64) -> DruckerPrager {
 #[test]
 fn clay_closes_the_balance_with_few_and_many_elements() {
     for (columns, rows) in [(4, 5), (6, 10)] {
-        let (run, balances) = shaken_block(clay(), columns, rows);
+        let (run, balances) = shaken_block(clay(), [columns, rows], true);
         assert_energies(&run, &balances, true);
     }
 }
 
 #[test]
 fn sand_closes_the_balance_with_any_dilation() {
-    for (dilation_angle, columns) in [(0.55, 4), (0.1, 4), (0.1, 8)] {
-        let (run, balances) = shaken_block(sand(dilation_angle), columns, 2 * columns);
+    for (dilation_angle, columns, has_weight) in [(0.55, 4, true), (0.1, 4, false), (0.1, 7, false)]
+    {
+        let (run, balances) =
+            shaken_block(sand(dilation_angle), [columns, 2 * columns], has_weight);
         assert_energies(&run, &balances, dilation_angle == 0.55);
     }
 }

@@ -18,7 +18,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::interface::LawForm;
 use crate::linalg::SparseMatrix;
-use crate::structure::{Structure, Tangent};
+use crate::structure::{NonlinearForce, Structure, Tangent};
 
 /// Number of steps for the choice of coordinates if the expected number is unknown.
 const DEFAULT_EXPECTED_STEPS: usize = 4_000;
@@ -121,7 +121,7 @@ impl SteppedStructure {
 
 /// Returns an error for an unsymmetric tangent in plan, where contact needs a symmetric compliance.
 fn check_tangent(structure: &dyn Structure, assembled: &Assembled) -> Result<()> {
-    let is_symmetric = structure.nonlinear().is_none_or(|force| force.has_symmetric_tangent());
+    let is_symmetric = structure.nonlinear().is_none_or(NonlinearForce::has_symmetric_tangent);
     if is_symmetric || LawForm::of(assembled.base.layout()) == LawForm::Modes {
         return Ok(());
     }

@@ -105,9 +105,9 @@ energies! {
     ///
     /// The force acts at mid-step, and plastic strains follow at the end of the step. The term is from the
     /// [`remainder`](crate::structure::NonlinearForce::remainder) of the nonlinear force; without one it is zero. In each
-    /// step it is of second order in the time step, but it accumulates. For Iwan's model, and for Drucker–Prager with
-    /// equal angles of friction and dilation, it never decreases: the time scheme takes energy. With a smaller angle of
-    /// dilation it has either sign.
+    /// step it is of second order in the time step, but it accumulates. For [`Iwan`](crate::fem::Iwan), and for
+    /// [`DruckerPrager`](crate::fem::DruckerPrager) with equal angles of friction and dilation, it never decreases: the
+    /// time scheme takes energy. With a smaller angle of dilation it has either sign.
     MidstepRemainder midstep_remainder (default), Balance, "mid-step remainder";
     /// Work of the changes of traction on the soil: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";

@@ -283,16 +283,17 @@ mod tests {
     use super::*;
     use crate::Triplets;
 
-    /// Grid of springs with random stiffnesses between `low` and 1, and an unsymmetric part.
+    /// Grid of springs to near neighbours, with stiffnesses between `low` and 1, and an unsymmetric part.
     fn grid(side: usize, seed: f64, low: f64, skew: f64) -> SparseMatrix {
         let mut matrix = Triplets::new(side * side);
         for v in 0..side * side {
             matrix.add(v, v, 0.1);
             let stiffness = low + (seed + v as f64).sin().abs() * (1.0 - low);
-            for (u, is_inside) in [(v + 1, v % side + 1 < side), (v + side, v / side + 1 < side)] {
-                if is_inside {
-                    matrix.add_spring(v, u, stiffness);
-                    matrix.add(v, u, skew);
+            // Many neighbours: the factor of a large grid then has dense blocks.
+            for [x, y] in (1..16).map(|k| [v % side + k % 4, v / side + k / 4]) {
+                if x < side && y < side {
+                    matrix.add_spring(v, x + side * y, stiffness);
+                    matrix.add(v, x + side * y, skew);
                 }
             }
         }
