@@ -11,6 +11,7 @@ mod profile;
 mod profile_moduli;
 mod published_curves;
 mod relaxation;
+mod strain_backbone;
 mod strain_curves;
 mod strength;
 

@@ -12,7 +12,9 @@ use basemat::contact::ContactSearch;
 use basemat::coupled::{
     Coordinates, DissipativeMidpoint, GravityStage, HhtAlpha, Midpoint, Newmark, Probe, Theta,
 };
-use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
+use basemat::fem::{
+    Direction, DruckerPrager, Iwan, Layer, MassKind, Material, Quad8Integration, QuadFormulation,
+};
 use basemat::history::HistoryMethod;
 use basemat::interface::{
     Bonded, Cohesive, Coulomb, CyclicYielding, FrictionLimit, Mode, SlipSense, ThinLayer,
@@ -114,6 +116,20 @@ fn soils_materials_and_their_damping() {
     assert_round_trip(&Material::new(200e9, 0.25, 0.0).unwrap());
     let bad = json!({"young_modulus": 0.0, "poisson": 0.3, "density": 1.0});
     assert_refused::<Material>(bad, "Young's modulus is 0");
+    let clay = Iwan::new(&[[1e-3, 2.0e4], [1e-2, 5.0e4]], 0.45, 1800.0).unwrap();
+    let points = json!([[1e-3, 2.0e4], [1e-2, 5.0e4]]);
+    assert_form(&clay, json!({"points": points, "poisson": 0.45, "density": 1800.0}));
+    assert_refused::<Iwan>(
+        json!({"points": [[1e-3, 2.0e4], [2e-3, 5.0e4]], "poisson": 0.45, "density": 1800.0}),
+        "point 2 of the backbone: slope",
+    );
+    let elastic = Material::new(8.0e7, 0.3, 1900.0).unwrap();
+    assert_round_trip(&DruckerPrager::new(elastic, 1.0e3, 0.6, 0.1).unwrap());
+    let elastic = json!({"young_modulus": 8.0e7, "poisson": 0.3, "density": 1900.0});
+    assert_refused::<DruckerPrager>(
+        json!({"elastic": elastic, "cohesion": 0.0, "friction_angle": 0.5, "dilation_angle": 0.6}),
+        "dilation angle of the soil (rad) is 0.6",
+    );
     assert_round_trip(&Elastic);
     assert_round_trip(&KelvinVoigt::with_ratio(0.05, 3.0).unwrap());
     assert_refused::<KelvinVoigt>(json!({"time": -1.0}), "relaxation time");

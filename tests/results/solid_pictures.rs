@@ -170,7 +170,7 @@ fn solids_have_the_colours_of_their_values() {
     let all: Vec<(usize, f64)> = [0, 1, 2, 3, 4, 5, 8].map(|element| (element, 2e-4)).to_vec();
     let complete = plot::solid_section("T", "strain", &mesh, &all).unwrap();
     assert!(!complete.as_str().contains("without a value"));
-    shows(&complete, &["0.00018 to 0.00020"]);
+    shows(&complete, &["1.8e-4 to 2.0e-4"]);
 }
 
 fn section_error(mesh: &Mesh, values: &[(usize, f64)]) -> Error {

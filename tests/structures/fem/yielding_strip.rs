@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use basemat_problems::yielding_strip::{
-    CLAY_PRESSURES, REFERENCE_SETTLEMENTS, SAND_PRESSURES, StripSoil, clay, sand,
+    CLAY_PRESSURES, SAND_PRESSURES, StripRun, StripSoil, clay, sand,
 };
 
 /// Relative differences from pressures of reference.
@@ -19,7 +19,7 @@ fn differences(run: &StripRun, reference: &[f64; 6]) -> Vec<f64> {
 fn strip_on_clay_has_the_pressures_of_reference() {
     let run = StripSoil::CLAY_BOX.push_down(clay(), 8, 0.0025, 120);
     let differences = differences(&run, &CLAY_PRESSURES);
-    println!("clay: {differences:.1e?}, {} iterations", run.iterations);
+    println!("clay: {differences:?}, {} iterations", run.iterations);
     assert!(differences.iter().all(|difference| difference.abs() < 1e-4), "{differences:?}");
     // Prandtl: 2 + π; the mesh is 3 % stiffer.
     assert!((1.0..1.04).contains(&(run.pressures[119] / (2.0 + PI))));
@@ -30,7 +30,7 @@ fn strip_on_clay_has_the_pressures_of_reference() {
 fn strip_on_sand_has_the_pressures_of_reference() {
     let run = StripSoil::SAND_BOX.push_down(sand(), 6, 0.005, 100);
     let differences = differences(&run, &SAND_PRESSURES);
-    println!("sand: {differences:.1e?}, {} iterations", run.iterations);
+    println!("sand: {differences:?}, {} iterations", run.iterations);
     assert!(differences.iter().all(|difference| difference.abs() < 1e-3), "{differences:?}");
     // Prandtl and Reissner: q N_q + c N_c, with φ = 30°.
     let factor_q = (PI * (PI / 6.0).tan()).exp() * (PI / 3.0).tan().powi(2);

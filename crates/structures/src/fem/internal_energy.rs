@@ -1,6 +1,8 @@
 //! Energies of internal forces.
 
-/// Stored and dissipated energy of internal forces, J per metre of thickness.
+/// Stored and dissipated energy of internal forces, J.
+///
+/// In the plane it is per metre of thickness; that of a [`SolidMaterial`](crate::fem::SolidMaterial) is per m³.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InternalEnergy {
     /// Energy that unloading recovers.

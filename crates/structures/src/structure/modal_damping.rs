@@ -226,6 +226,14 @@ impl WithModalDamping {
         }
     }
 
+    /// The structure without modal damping, with its present internal variables.
+    ///
+    /// A downcast of it to its type gives access to its results, such as
+    /// [`FemModel::solid_points`](crate::structure::FemModel::solid_points).
+    pub fn structure(&self) -> &dyn Structure {
+        self.structure.as_ref()
+    }
+
     /// Frequencies of the modes that are not rigid, Hz, ascending.
     pub fn frequencies(&self) -> &[f64] {
         &self.frequencies

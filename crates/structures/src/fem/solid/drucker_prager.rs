@@ -13,7 +13,8 @@ use crate::fem::material::Material;
 /// Sand or other drained soil: yields on Drucker–Prager's cone, matched to Mohr–Coulomb in plane strain.
 ///
 /// Elastic–perfectly plastic with cohesion c, friction angle φ and dilation angle ψ ≤ φ. A smaller ψ than φ makes the
-/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the
+/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip, where the tangent is 10⁻⁴ of the elasticity
+/// in place of zero, so that stiffness matrices stay regular. With φ = 0 it is von Mises' law with the
 /// shear strength c. The table of laws in [`SolidMaterial`] has the formulas.
 ///
 /// An **initial stress** lies within the cone. Stress at rest with σ_h = K₀ σ_v and K₀ = 1 − sin φ (Jaky) lies outside of
@@ -72,7 +73,7 @@ pub(super) const APEX_TANGENT_FRACTION: f64 = 1e-4;
 const YIELD_FUNCTION_ROUNDING: f64 = 1e-9;
 
 /// Internal variables of a point.
-struct Variables {
+struct ConeVariables {
     /// Plastic strain, with the engineering shear strain.
     plastic_strain: [f64; 4],
     /// Energy dissipated since the initial state, J/m³.
@@ -161,7 +162,7 @@ impl DruckerPrager {
     }
 
     /// Elastic trial stress at a strain.
-    fn trial_stress(&self, strain: [f64; 4], variables: &Variables) -> Stress {
+    fn trial_stress(&self, strain: [f64; 4], variables: &ConeVariables) -> Stress {
         let elastic_strain = std::array::from_fn(|i| strain[i] - variables.plastic_strain[i]);
         let initial = Stress::of(variables.initial_stress);
         let increment = scaled(strain_deviator(elastic_strain), 2.0 * self.cone.g);
@@ -172,17 +173,17 @@ impl DruckerPrager {
     }
 
     /// Stress at a strain by the backward Euler scheme from the committed variables.
-    fn stress_at(&self, strain: [f64; 4], variables: &Variables) -> Stress {
+    fn stress_at(&self, strain: [f64; 4], variables: &ConeVariables) -> Stress {
         let trial = self.trial_stress(strain, variables);
         self.cone.returned(trial).stress(trial)
     }
 }
 
 /// Internal variables of a point, by their names.
-fn read(variables: &[f64]) -> Result<Variables> {
+fn read(variables: &[f64]) -> Result<ConeVariables> {
     let quantity = "internal variables of Drucker-Prager's law";
     same_length(quantity, variables.len(), VARIABLE_COUNT)?;
-    Ok(Variables {
+    Ok(ConeVariables {
         plastic_strain: std::array::from_fn(|i| variables[i]),
         dissipated: variables[4],
         initial_stress: std::array::from_fn(|i| variables[5 + i]),

@@ -77,7 +77,7 @@ const COMPONENT_VARIABLE_COUNT: usize = 3;
 const INITIAL_STRESS_ROUNDING: f64 = 1e-9;
 
 /// Internal variables of a point.
-struct Variables<'a> {
+struct IwanVariables<'a> {
     /// Deviator of the initial stress, Pa.
     rest_deviator: Deviator,
     /// Mean of the initial stress, Pa.
@@ -179,11 +179,11 @@ impl Iwan {
     }
 
     /// Internal variables of a point, by their names.
-    fn read<'a>(&self, variables: &'a [f64]) -> Result<Variables<'a>> {
+    fn read<'a>(&self, variables: &'a [f64]) -> Result<IwanVariables<'a>> {
         let quantity = "internal variables of Iwan's model";
         same_length(quantity, variables.len(), self.variable_count())?;
         let (common, of_components) = variables.split_at(COMMON_VARIABLE_COUNT);
-        Ok(Variables {
+        Ok(IwanVariables {
             rest_deviator: [common[0], common[1], common[2]],
             rest_mean_stress: common[3],
             rest_energy: common[4],
@@ -193,7 +193,11 @@ impl Iwan {
     }
 
     /// Deviator of the stress at a deviator of the strain.
-    fn stress_deviator(&self, strain_deviator: Deviator, variables: &Variables<'_>) -> Deviator {
+    fn stress_deviator(
+        &self,
+        strain_deviator: Deviator,
+        variables: &IwanVariables<'_>,
+    ) -> Deviator {
         let mut stress = [0.0; 3];
         for (component, &stress_free_strain) in
             self.components.iter().zip(variables.stress_free_strains)

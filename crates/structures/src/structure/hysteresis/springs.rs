@@ -172,6 +172,14 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }
 
+    /// The structure between whose degrees of freedom the springs act, with its present internal variables.
+    ///
+    /// A downcast of it to its type gives access to its results, such as
+    /// [`FemModel::solid_points`](crate::structure::FemModel::solid_points).
+    pub fn structure(&self) -> &dyn Structure {
+        self.structure.as_ref()
+    }
+
     /// Adds a spring with one `deformation`.
     ///
     /// # Errors

@@ -148,6 +148,18 @@ impl StructureGroup {
         self.members.len()
     }
 
+    /// Structure `member` with its present internal variables, counted from 0, the first one added.
+    ///
+    /// A downcast of it to its type gives access to its results, such as
+    /// [`FemModel::solid_points`](crate::structure::FemModel::solid_points).
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a structure that does not exist.
+    pub fn structure(&self, member: usize) -> Result<&dyn Structure> {
+        let index = in_bounds("structure of the group", member, self.len())?;
+        Ok(self.members[index].structure.as_ref())
+    }
+
     /// Converts a weighted sum of degrees of freedom of structure `member` to the group's.
     ///
     /// Members count from 0, the first one added.

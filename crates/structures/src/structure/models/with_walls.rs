@@ -62,6 +62,14 @@ impl WithWalls {
         nodes.push(BaseNode { horizontal: right_top, ..right_end });
         Ok(Self { structure: Box::new(structure), nodes })
     }
+
+    /// The structure without its walls, with its present internal variables.
+    ///
+    /// A downcast of it to its type gives access to its results, such as
+    /// [`FemModel::solid_points`](crate::structure::FemModel::solid_points).
+    pub fn structure(&self) -> &dyn Structure {
+        self.structure.as_ref()
+    }
 }
 
 impl Structure for WithWalls {

@@ -13,7 +13,7 @@ use crate::fem::solid::StrainPath;
 
 /// What random steps of a material show.
 #[derive(Debug, Default)]
-struct Observed {
+struct EnergyRange {
     /// Steps that dissipate.
     yielding_count: usize,
     /// Smallest remainder over the energy of the step.
@@ -23,9 +23,9 @@ struct Observed {
 }
 
 /// Takes random steps, checks each, and returns the range of the remainder.
-fn observe(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) -> Observed {
+fn observe(material: &dyn SolidMaterial, initial_stress: [f64; 4], seed: u64) -> EnergyRange {
     let mut random = Random(seed);
-    let mut observed = Observed::default();
+    let mut observed = EnergyRange::default();
     for _ in 0..300 {
         let mut variables = variables_at_rest(material, initial_stress);
         let size = random.log_within(1e-5, 1e-2);

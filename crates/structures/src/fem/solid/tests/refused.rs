@@ -6,9 +6,6 @@ use super::{
 };
 use crate::error::{Error, Result};
 
-const NAN: f64 = f64::NAN;
-const INFINITY: f64 = f64::INFINITY;
-
 /// Asserts that a constructor refuses, with a text that contains `part`.
 #[track_caller]
 fn assert_refused<T: std::fmt::Debug>(result: Result<T>, part: &str) {
@@ -22,12 +19,12 @@ fn backbones_that_no_soil_has_are_refused() {
         (&[], "points of the backbone has length 0"),
         (&[[0.0, 1.0e3]], "point 1 of the backbone: shear strain is 0"),
         (&[[-1e-3, 1.0e3]], "point 1 of the backbone: shear strain is -0.001"),
-        (&[[NAN, 1.0e3]], "point 1 of the backbone: shear strain is NaN"),
-        (&[[INFINITY, 1.0e3]], "point 1 of the backbone: shear strain is inf"),
+        (&[[f64::NAN, 1.0e3]], "point 1 of the backbone: shear strain is NaN"),
+        (&[[f64::INFINITY, 1.0e3]], "point 1 of the backbone: shear strain is inf"),
         (&[[1e-3, 0.0]], "point 1 of the backbone: shear stress (Pa) is 0"),
         (&[[1e-3, -1.0]], "point 1 of the backbone: shear stress (Pa) is -1"),
-        (&[[1e-3, NAN]], "point 1 of the backbone: shear stress (Pa) is NaN"),
-        (&[[1e-3, INFINITY]], "point 1 of the backbone: shear stress (Pa) is inf"),
+        (&[[1e-3, f64::NAN]], "point 1 of the backbone: shear stress (Pa) is NaN"),
+        (&[[1e-3, f64::INFINITY]], "point 1 of the backbone: shear stress (Pa) is inf"),
         (&[[1e-3, 1.0e3], [1e-3, 1.1e3]], "point 2 of the backbone: shear strain is 0.001"),
         (&[[1e-3, 1.0e3], [2e-3, 0.9e3]], "point 2 of the backbone: shear stress (Pa) is 900"),
         (&[[1e-3, 1.0e3], [2e-3, 2.1e3]], "point 2 of the backbone: slope up to the point"),
@@ -41,10 +38,10 @@ fn backbones_that_no_soil_has_are_refused() {
         assert_refused(Iwan::new(points, 0.3, 0.0), part);
     }
     let points = [[1e-3, 1.0e3]];
-    for poisson in [-1.0, 0.5, NAN, 2.0] {
+    for poisson in [-1.0, 0.5, f64::NAN, 2.0] {
         assert_refused(Iwan::new(&points, poisson, 0.0), "Poisson's ratio of the soil");
     }
-    for density in [-1.0, NAN, INFINITY] {
+    for density in [-1.0, f64::NAN, f64::INFINITY] {
         assert_refused(Iwan::new(&points, 0.3, density), "density of the soil");
     }
     assert!(matches!(Iwan::new(&[], 0.3, 0.0), Err(Error::Size { found: 0, needed: 1, .. })));
@@ -52,11 +49,11 @@ fn backbones_that_no_soil_has_are_refused() {
 
 #[test]
 fn hyperbolic_backbones_that_no_soil_has_are_refused() {
-    for bad in [0.0, -1.0, NAN, INFINITY] {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_refused(Iwan::hyperbolic(bad, 1.0e3, 0.1, 0.3, 0.0), "shear modulus of the soil");
         assert_refused(Iwan::hyperbolic(1.0e6, bad, 0.1, 0.3, 0.0), "shear strength of the soil");
     }
-    for limit_strain in [4.9e-3, 0.0, -1.0, NAN, INFINITY] {
+    for limit_strain in [4.9e-3, 0.0, -1.0, f64::NAN, f64::INFINITY] {
         let clay = Iwan::hyperbolic(1.0e6, 1.0e3, limit_strain, 0.3, 0.0);
         assert_refused(clay, "strain at which the soil has its strength");
     }
@@ -69,15 +66,15 @@ fn cones_that_no_soil_has_are_refused() {
     let material = elastic(2.0e7, 4.0e7);
     let bad_cones = [
         (-1.0, 0.5, 0.1, "cohesion of the soil is -1"),
-        (NAN, 0.5, 0.1, "cohesion of the soil is NaN"),
-        (INFINITY, 0.5, 0.1, "cohesion of the soil is inf"),
+        (f64::NAN, 0.5, 0.1, "cohesion of the soil is NaN"),
+        (f64::INFINITY, 0.5, 0.1, "cohesion of the soil is inf"),
         (0.0, std::f64::consts::FRAC_PI_2, 0.1, "friction angle of the soil (rad)"),
         (0.0, 32.0, 0.0, "friction angle of the soil (rad) is 32"),
         (0.0, -0.1, 0.0, "friction angle of the soil (rad) is -0.1"),
-        (0.0, NAN, 0.0, "friction angle of the soil (rad) is NaN"),
+        (0.0, f64::NAN, 0.0, "friction angle of the soil (rad) is NaN"),
         (0.0, 0.5, 0.6, "dilation angle of the soil (rad) is 0.6"),
         (0.0, 0.5, -0.1, "dilation angle of the soil (rad) is -0.1"),
-        (0.0, 0.5, NAN, "dilation angle of the soil (rad) is NaN"),
+        (0.0, 0.5, f64::NAN, "dilation angle of the soil (rad) is NaN"),
         (0.0, 0.0, 0.0, "cohesion of the soil is 0, but must be above zero for a soil without"),
     ];
     for (cohesion, friction_angle, dilation_angle, part) in bad_cones {
@@ -96,7 +93,10 @@ fn initial_stresses_outside_of_the_yield_surface_are_refused() {
             [1.0e4, 1.0e4, 1.0e4, 0.0],
             "soil with a strength √J₂ of 0 Pa at a mean stress of 10000 Pa",
         ),
-        ([NAN, 0.0, 0.0, 0.0], "initial stress of Drucker-Prager's law is not finite: entry 0"),
+        (
+            [f64::NAN, 0.0, 0.0, 0.0],
+            "initial stress of Drucker-Prager's law is not finite: entry 0",
+        ),
     ] {
         assert_refused(sand.initialize(initial_stress, &mut variables), part);
     }
@@ -107,7 +107,7 @@ fn initial_stresses_outside_of_the_yield_surface_are_refused() {
             [0.0, 0.0, 0.0, 41.0e3],
             "soil with a strength of 40000 Pa: shear stress √J₂ of the initial",
         ),
-        ([0.0, 0.0, 0.0, INFINITY], "initial stress of Iwan's model is not finite: entry 3"),
+        ([0.0, 0.0, 0.0, f64::INFINITY], "initial stress of Iwan's model is not finite: entry 3"),
     ] {
         assert_refused(clay.initialize(initial_stress, &mut clay_variables), part);
     }
@@ -132,7 +132,7 @@ fn strains_that_are_not_finite_change_nothing() {
         let mut variables = variables_at_rest(material, [0.0; 4]);
         material.commit([1e-3, 0.0, 0.0, 2e-3], &mut variables);
         let committed = variables.clone();
-        for bad in [NAN, INFINITY, -INFINITY, 1e305, 1e152] {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e305, 1e152] {
             for entry in 0..4 {
                 let mut strain = [1e-3, 0.0, 0.0, 2e-3];
                 strain[entry] = bad;
