@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
-use crate::coupled::base::fixed_base::is_fixed_base;
+use crate::coupled::base::fixed_base::{is_fixed_base, without_rigid_foundations};
 use crate::coupled::conditioning::Conditioning;
 use crate::coupled::run::Run;
 use crate::coupled::run::resolution::Resolution;
@@ -142,7 +142,7 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn structure(&self) -> &dyn Structure {
-        self.structure.as_ref()
+        without_rigid_foundations(self.structure.as_ref())
     }
 
     /// Returns the structure by value and drops the simulation.

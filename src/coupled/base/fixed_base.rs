@@ -63,6 +63,14 @@ pub(crate) fn on_fixed_base(
     Ok((structure, Box::new(ground)))
 }
 
+/// The structure that the builder received, without the stiffness that makes its foundations rigid.
+pub(crate) fn without_rigid_foundations(structure: &dyn Structure) -> &dyn Structure {
+    let wrapper: &dyn std::any::Any = structure;
+    wrapper
+        .downcast_ref::<StructureOnRigidFoundations>()
+        .map_or(structure, |wrapper| wrapper.structure.as_ref())
+}
+
 /// Whether the ground belongs to a fixed base.
 pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
     let ground: &dyn std::any::Any = ground;
