@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use basemat::Simulation;
-use basemat::structure::{FemModel, Structure};
+use basemat::structure::{FemModel, Structure, WithModalDamping, WithSprings, WithWalls};
 use pyo3::prelude::*;
 
 use super::PySimulation;
@@ -13,18 +13,33 @@ use crate::names::choice;
 use crate::structure::PySolidPoints;
 
 /// The model of a simulation whose structure is a `FemModel` with elements that have internal variables.
+///
+/// Springs, modal damping or walls may be around it.
 fn inelastic_model(simulation: &Simulation) -> PyResult<&FemModel> {
     let mut structure: &dyn Any = simulation.structure();
-    // Recipes return boxed structures.
-    while let Some(boxed) = structure.downcast_ref::<Box<dyn Structure>>() {
-        structure = boxed.as_ref();
+    while let Some(inner) = inner_structure(structure) {
+        structure = inner;
     }
     structure.downcast_ref().ok_or_else(|| {
         input_error(
-            "the structure of the simulation must be a FemModel with materials that yield, without another structure \
-             around it",
+            "the structure of the simulation must be a FemModel with materials that yield, alone or with springs, modal \
+             damping or walls",
         )
     })
+}
+
+/// The structure inside a box or a wrapper.
+fn inner_structure(structure: &dyn Any) -> Option<&dyn Structure> {
+    if let Some(boxed) = structure.downcast_ref::<Box<dyn Structure>>() {
+        return Some(boxed.as_ref());
+    }
+    if let Some(with_springs) = structure.downcast_ref::<WithSprings>() {
+        return Some(with_springs.structure());
+    }
+    if let Some(damped) = structure.downcast_ref::<WithModalDamping>() {
+        return Some(damped.structure());
+    }
+    structure.downcast_ref::<WithWalls>().map(WithWalls::structure)
 }
 
 /// Value of an element by the states of its points.
