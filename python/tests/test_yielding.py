@@ -32,7 +32,7 @@ class VonMises:
     """Von Mises' law: its shear stress √J₂ stays below a limit (Pa)."""
 
     variable_count = 5
-    limit = 30e3
+    limit = 10e3
     shear, bulk = 60e6 / 2.6, 60e6 / 1.2
     density = 1900.0
     deviator = np.array([[2.0, -1.0, -1.0], [-1.0, 2.0, -1.0], [-1.0, -1.0, 2.0]]) / 3.0
@@ -189,7 +189,7 @@ def test_a_column_follows_a_program_of_two_node_cells() -> None:
     last = simulation.state.energy_balance
     assert last.hysteresis > 0.0 and last.midstep_remainder > 0.0 and run.energy_error < 1e-9
     points = simulation.solid_points(0)
-    assert 0.9 < points.largest_mobilised_strength <= 1.0 and points.mean_plastic_strain > 1e-3
+    assert 0.0 < points.largest_mobilised_strength <= 1.0 and points.mean_plastic_strain > 1e-4
 
 
 def test_materials_of_ones_own_are_those_of_the_package() -> None:
@@ -214,7 +214,7 @@ def test_materials_of_ones_own_are_those_of_the_package() -> None:
 def test_states_of_points_of_a_run() -> None:
     own, package = (shaken(tied(block(material))) for material in (VonMises(), MISES))
     for simulation in (own, package):
-        simulation.run(500)
+        simulation.run(300)
     mesh = block(MISES)
     for element in range(4):
         found, expected = own.solid_points(element), package.solid_points(element)
@@ -222,13 +222,14 @@ def test_states_of_points_of_a_run() -> None:
         assert np.all(np.abs(found.position - [0.5, -7.0 + 2.0 * element]) < [0.5, 1.0])
         for name in ("position", "area", "strain", "stress", "plastic_strain", "mobilised_strength"):
             values = getattr(expected, name)
-            np.testing.assert_allclose(getattr(found, name), values, rtol=1e-6, atol=1e-9 * np.abs(values).max())
+            tolerance = max(1e-9 * np.abs(values).max(), 1e-15)
+            np.testing.assert_allclose(getattr(found, name), values, rtol=1e-6, atol=tolerance)
         mean = np.average(found.plastic_strain, weights=found.area)
         assert found.mean_plastic_strain == pytest.approx(mean)
         assert found.largest_mobilised_strength == found.mobilised_strength.max()
     elements, strains = package.solid_values("plastic_strain")
     assert elements == [0, 1, 2, 3] == package.structure.inelastic_elements
-    assert strains[0] == package.solid_points(0).mean_plastic_strain > strains[3] >= 0.0
+    assert strains[0] == package.solid_points(0).mean_plastic_strain > 1e-5 > strains[3] >= 0.0
     _, strengths = package.solid_values("mobilised_strength")
     assert strengths[0] == package.solid_points(0).largest_mobilised_strength
     pytest.importorskip("matplotlib").use("agg")
@@ -238,7 +239,7 @@ def test_states_of_points_of_a_run() -> None:
 
 def test_states_of_points_inside_other_structures() -> None:
     model = tied(block(CLAY))
-    row = model.row(model.node_at(0.0, 0.0), "x")
+    row = model.row(model.node_at(0.0, 0.0), "x") - model.row(model.node_at(0.0, -8.0), "x")
     for structure in (
         bm.WithSprings(model, [(row, bm.Bilinear(1e5, 1e3, 0.1))]),
         bm.WithModalDamping(model, [0.02], fixed_base=True),

@@ -48,13 +48,14 @@ type ElementValue = fn(&PySolidPoints) -> f64;
 #[pymethods]
 impl PySimulation {
     /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
-    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`.
+    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also one inside
+    /// `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, it raises an `Error`: own the loop by `steps`.
     fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
         PySolidPoints::of_element(inelastic_model(&*self.lock()?)?, element.0)
     }
 
     /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
-    /// an array of as many values, for `Mesh.plot_solids`. The structure is a `FemModel`.
+    /// an array of shape (elements,), for `Mesh.plot_solids`. The structure is as for `solid_points`.
     ///
     /// ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
     /// ratio of shear stress to shear strength at its points.
