@@ -12,6 +12,7 @@ use crate::list_arguments::ListOf;
 use crate::motion::{PyColumn, PyRecord, control_point};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
+use crate::structure::PyIwan;
 use crate::ticker::with_progress;
 
 /// Modulus reduction and damping ratio of a soil over shear strain.
@@ -101,6 +102,23 @@ impl PyStrainCurves {
     #[staticmethod]
     fn masing(points: Pairs) -> PyResult<Self> {
         StrainCurves::masing(&points.0).or_raise().map(Self)
+    }
+
+    /// The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);
+    /// ``poisson`` and ``density`` (kg/m³) are those of `Iwan`.
+    ///
+    /// The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the strength;
+    /// curves that end below the strength go on with their last slope. Damping follows from Masing's rules, not from the
+    /// curves of damping.
+    fn iwan(
+        &self,
+        shear_modulus: f64,
+        strength: f64,
+        poisson: f64,
+        density: f64,
+    ) -> PyResult<PyIwan> {
+        let soil = self.0.iwan(shear_modulus, strength, poisson, density);
+        soil.or_raise().map(PyIwan::from)
     }
 
     /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).

@@ -81,6 +81,9 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
         if page in ran:
             assert {own.name for own in ran[page][1].iterdir()} == {f"{page}.png"}
     assert len(ran["fragility"][0]["table"]) == 200 and ran["fragility"][0]["table"]["error"].isna().all()
+    yielding = ran["yielding"][0]
+    assert f"reaches {1e-3 * yielding['linear_stress']:.0f} kPa" in (pages.DOCS / "gallery" / "yielding.md").read_text("utf-8")
+    assert 35e3 < max(yielding["stress"]) < 40e3
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3
 
 

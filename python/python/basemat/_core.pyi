@@ -14,7 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from pandas import DataFrame
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import Mode as Mode, UserGround, UserHysteresis, UserLaw, UserPlanLaw, UserStructure
+from ._protocols import (
+    Mode as Mode,
+    UserGround,
+    UserHysteresis,
+    UserLaw,
+    UserMaterial,
+    UserPlanLaw,
+    UserStructure,
+)
 
 __version__: str
 MODES: list[Mode]
@@ -60,7 +68,7 @@ _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
 _Face: TypeAlias = Literal["left_wall", "base", "right_wall"]
 _PlanDirection: TypeAlias = Literal["x", "y", "xy", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
-_Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass"]
+_Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass", "mean_dilatation"]
 _Direction: TypeAlias = Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
 _SpringDirection: TypeAlias = Literal[
     "x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z", "axial"
@@ -107,6 +115,7 @@ _Spring: TypeAlias = Union[
 _GmshPart: TypeAlias = Union[
     "Material", tuple["Material", float], tuple["Material", "BeamSection", Sequence[float]], None
 ]
+_Solid: TypeAlias = Union["Material", "Iwan", "DruckerPrager", UserMaterial]
 _ShellAxes: TypeAlias = Union[ArrayLike, Callable[[float, float, float], ArrayLike]]
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
@@ -2291,6 +2300,20 @@ class Simulation:
 
         As for `checkpoint`, a structure written in Python that has ``commit`` must also have ``save`` and ``restore``.
         """
+    def solid_points(self, element: int) -> SolidPoints:
+        """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
+        plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`.
+        """
+    def solid_values(
+        self,
+        quantity: Literal["plastic_strain", "mobilised_strength"],
+    ) -> tuple[list[int], NDArray[np.float64]]:
+        """One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
+        an array of as many values, for `Mesh.plot_solids`. The structure is a `FemModel`.
+
+        ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
+        ratio of shear stress to shear strength at its points.
+        """
 
 @final
 class FoundationState:
@@ -2715,6 +2738,22 @@ class StrainCurves:
     def table(strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike) -> StrainCurves:
         """A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
         ratios, ``dampings``.
+        """
+    @staticmethod
+    def masing(points: ArrayLike) -> StrainCurves:
+        """Soil whose stress–strain loops follow Masing's rules on a backbone: the equivalent-linear approximation of `Iwan`.
+
+        ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
+        backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
+        up to the strain γ and its stress τ, the damping ratio is (2/π)(2A/(γτ) − 1).
+        """
+    def iwan(self, shear_modulus: float, strength: float, poisson: float, density: float) -> Iwan:
+        """The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);
+        ``poisson`` and ``density`` (kg/m³) are those of `Iwan`.
+
+        The backbone G_max (G/G_max) γ is straight between the points of the curves, and ends where it reaches the strength;
+        curves that end below the strength go on with their last slope. Damping follows from Masing's rules, not from the
+        curves of damping.
         """
     def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
@@ -3267,9 +3306,13 @@ class FemModel(Structure):
     from the surface; False by default. ``rayleigh``: `RayleighDamping`; none unless given. ``mass``: matrix of masses,
     "consistent" (the default) or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one
     body; none unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader
-    along x, along y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight that causes P–Δ by the
-    forces at rest; none unless given. ``active_damping``: whether damping may add energy, an error by default.
-    ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+    along x, along y and about z; none unless given. ``ties``: list of such pairs, whose nodes at one height have the
+    displacements of the leader, as both sides of a soil column; none unless given. ``p_delta``: gravity (m/s²) of the
+    weight that causes P–Δ by the forces at rest; none unless given. ``active_damping``: whether damping may add energy, an
+    error by default. ``active_stiffness``: whether matrices of elements may be unsymmetric, an error by default.
+
+    Elements whose material yields act by a nonlinear force: the matrix of `stiffness` has the linear elements only. Each simulation
+    starts from the undeformed model; `Simulation.solid_points` returns stresses and plastic strains.
     """
 
     def beam_rows(self, element: int) -> BeamRows:
@@ -3284,6 +3327,7 @@ class FemModel(Structure):
         mass: _Mass = "consistent",
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,
         diaphragms: Sequence[tuple[int, Sequence[int]]] | None = None,
+        ties: Sequence[tuple[int, Sequence[int]]] | None = None,
         p_delta: float | None = None,
         active_damping: bool = False,
         active_stiffness: bool = False,
@@ -3341,6 +3385,13 @@ class FemModel(Structure):
 
         ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
         part of the first in the plane of a shell, and the normal n is on the side of the second.
+        """
+    @property
+    def inelastic_elements(self) -> list[int]:
+        """Numbers of the elements whose material yields or is a `UserMaterial`: list, ascending."""
+    def solid_points(self, element: int) -> SolidPoints:
+        """The `SolidPoints` of an ``element`` of the undeformed model, with its initial stress; those of a run are
+        `Simulation.solid_points`.
         """
 
 @final
@@ -3555,8 +3606,9 @@ class Layer:
     ``material`` (`Material`).
 
     ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
-    "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
-    point, stabilised with ``hourglass_percent``, 5 by default).
+    "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one
+    point, stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean
+    dilatation of the element: the only one of materials that yield).
     """
 
     def __new__(
@@ -3755,19 +3807,6 @@ class Mesh:
         """Adds a ``mass`` (kg/m, in space kg) at a ``node``, with a ``rotary_inertia`` (kg m²/m; in space three numbers
         about x, y and z, kg m²; none unless given).
         """
-    def add_quads(
-        self,
-        nodes: ArrayLike,
-        material: Material,
-        *,
-        formulation: _Formulation = "incompatible_modes",
-        hourglass_percent: int = 5,
-    ) -> list[int]:
-        """Adds plane-strain quadrilaterals of a ``material`` and returns their numbers.
-
-        ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
-        Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
-        """
     @property
     def elements(self) -> list[list[int]]:
         """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
@@ -3780,6 +3819,39 @@ class Mesh:
         default): list, from left to right, in space at each x from front to back.
         """
     @staticmethod
+    def quad8_block(
+        x: ArrayLike,
+        y: ArrayLike,
+        material: _Solid | Sequence[_Solid | Sequence[_Solid]],
+        *,
+        initial_stress: ArrayLike | None = None,
+    ) -> Mesh:
+        """Block of eight-node quadrilaterals between the vertical lines at ``x`` and the horizontal lines at ``y`` (arrays of
+        shape (columns + 1,) and (rows + 1,), m, ascending), such as a column or a box of soil.
+
+        ``material``: `Material`, `Iwan`, `DruckerPrager` or `UserMaterial`; or a list of one per row from the bottom, whose
+        entries may be lists of one per column from the left. Elements are numbered row by row from the bottom, each from left
+        to right. ``initial_stress``: stress xx, yy, zz and xy of the undeformed elements (Pa; tension is positive), four
+        numbers or an array of shape (elements, 4); none unless given. Integration is reduced (2 × 2 points).
+        """
+    def add_quads(
+        self,
+        nodes: ArrayLike,
+        material: _Solid | Sequence[_Solid],
+        *,
+        formulation: _Formulation = "incompatible_modes",
+        hourglass_percent: int = 5,
+        initial_stress: ArrayLike | None = None,
+    ) -> list[int]:
+        """Adds plane-strain quadrilaterals of a ``material`` and returns their numbers.
+
+        ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last. ``material``:
+        `Material`, `Iwan`, `DruckerPrager` or `UserMaterial`, or a list of one per quadrilateral. Quadrilaterals of four nodes
+        take a ``formulation`` and ``hourglass_percent`` as `Layer` does; those of a material that yields need
+        "mean_dilatation". ``initial_stress``: stress xx, yy, zz and xy of the undeformed quadrilaterals (Pa; tension is
+        positive), four numbers or an array of shape (quads, 4); none unless given. A linear elastic material has none.
+        """
+    @staticmethod
     def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:
         """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
 
@@ -3789,7 +3861,8 @@ class Mesh:
 
         In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
         of one per cell; of "hexahedron" it is a `Material`; of "line" it is ``(material, section, orientation)`` as in
-        `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`. Triangles match the
+        `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`, of "quad8" also another material of
+        `Mesh.add_quads`. Triangles match the
         sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
         added by the methods of the mesh.
         """
@@ -3889,6 +3962,118 @@ class ShellRows:
         """Two `SectionRows` of the shear forces q_1 and q_2, N/m."""
     def value(self, displacement: ArrayLike) -> ShellResultants:
         """The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
+
+@final
+class Iwan:
+    """Clay without drainage, a material of solids in plane strain: yields in shear alone, along any concave backbone.
+
+    Elastic–perfectly plastic components act in parallel (Iwan 1967, Besseling 1958), so that the stress in simple shear
+    follows the backbone, and unloads and reloads by Masing's rules. The strength is the stress of the last point; it
+    does not depend on the mean stress, which stays elastic. An initial stress must lie within the strength: with principal
+    stresses σ_v and σ_h its √J₂ is |σ_v − σ_h|/√3 in plane strain with σ_z = σ_h.
+
+    ``points``: array of shape (n, 2) of shear strain γ (engineering, 0.01 is 1 %) and shear stress τ (Pa) in simple
+    shear, without the origin. The backbone is straight between points and constant beyond the last one. ``poisson``: Poisson's
+    ratio ν of small strains; the bulk modulus is 2 G (1 + ν)/(3 (1 − 2ν)) with G = τ/γ of the first point. ``density``:
+    kg/m³; 0 is allowed.
+    """
+
+    def __new__(cls, points: ArrayLike, poisson: float, density: float) -> Self: ...
+    @staticmethod
+    def hyperbolic(
+        shear_modulus: float,
+        strength: float,
+        limit_strain: float,
+        poisson: float,
+        density: float,
+    ) -> Iwan:
+        """Soil with a hyperbolic backbone from its ``shear_modulus`` G of small strains (Pa) and its ``strength`` τ_s (Pa), which
+        it reaches at the shear strain ``limit_strain`` γ_n; 200 τ_s/G is usual. ``poisson`` and ``density`` are as in the class.
+
+        The backbone is τ = G γ/(1 + G γ/τ_m) with 1/τ_m = 1/τ_s − 1/(γ_n G), at 12 strains in a geometric series from
+        0.02 τ_s/G to γ_n. Up to the first of them it is straight with the slope G. γ_n must be 5 τ_s/G or more.
+        """
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Points of the backbone: array of shape (n, 2) of shear strain and shear stress (Pa)."""
+    @property
+    def shear_modulus(self) -> float:
+        """Shear modulus G of small strains, Pa."""
+    @property
+    def bulk_modulus(self) -> float:
+        """Bulk modulus, Pa."""
+    @property
+    def strength(self) -> float:
+        """Shear strength, Pa: the stress of the last point."""
+
+@final
+class DruckerPrager:
+    """Sand or other drained soil, a material of solids in plane strain: yields on Drucker–Prager's cone, matched to
+    Mohr–Coulomb's law in plane strain.
+
+    Elastic–perfectly plastic, with a ``cohesion`` c (Pa), a ``friction_angle`` φ and a ``dilation_angle`` ψ (rad), 0 ≤ ψ ≤
+    φ < π/2; ``elastic`` is its `Material`. A smaller ψ than φ makes the tangent unsymmetric, and steps take longer. Stress
+    beyond the tip of the cone returns to the tip. With φ = 0 it is von Mises' law with the shear strength c, and with ψ = 0
+    the plastic strain has no change of volume.
+
+    An initial stress must lie within the cone. Without cohesion stress at rest with σ_h = (1 − sin φ) σ_v lies outside of
+    it for φ above about 36°; and without an initial stress such a soil has no strength.
+    """
+
+    def __new__(
+        cls,
+        elastic: Material,
+        cohesion: float,
+        friction_angle: float,
+        dilation_angle: float,
+    ) -> Self: ...
+    @property
+    def cohesion(self) -> float:
+        """Cohesion c, Pa."""
+    @property
+    def friction_angle(self) -> float:
+        """Friction angle φ, rad."""
+    @property
+    def dilation_angle(self) -> float:
+        """Dilation angle ψ, rad."""
+
+@final
+class SolidPoints:
+    """States at the n integration points of an element whose material yields or is a `UserMaterial`.
+
+    `Simulation.solid_points` and `FemModel.solid_points` return them. Components are xx, yy, zz and xy; tension is positive, and
+    the shear strain is the engineering strain. The static state is contained.
+    """
+
+    @property
+    def element(self) -> int:
+        """Number of the element."""
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Positions x and y in the undeformed mesh: array of shape (n, 2), m."""
+    @property
+    def area(self) -> NDArray[np.float64]:
+        """Areas of the points: array of shape (n,), m²."""
+    @property
+    def strain(self) -> NDArray[np.float64]:
+        """Strains: array of shape (n, 4), numbers without unit."""
+    @property
+    def stress(self) -> NDArray[np.float64]:
+        """Stresses: array of shape (n, 4), Pa."""
+    @property
+    def plastic_strain(self) -> NDArray[np.float64]:
+        """Plastic shear strains √(2 e^p : e^p) of the deviator e^p, in simple shear |γ^p|: array of shape (n,), numbers without
+        unit.
+        """
+    @property
+    def mobilised_strength(self) -> NDArray[np.float64]:
+        """Ratios of shear stress to shear strength, from 0 to 1: array of shape (n,)."""
+    @property
+    def mean_plastic_strain(self) -> float:
+        """Plastic shear strain, mean over the area of the element; a number without unit."""
+    @property
+    def largest_mobilised_strength(self) -> float:
+        """Largest ratio of shear stress to shear strength at the points."""
 
 @final
 class Condition:
@@ -4219,6 +4404,20 @@ def equivalent_damping(rotation: ArrayLike, moment: ArrayLike) -> float:
     Args:
         rotation: rotations, array of shape (m,), rad.
         moment: moments in any unit, array of shape (m,).
+    """
+
+def stress_path(
+    material: _Solid,
+    strains: ArrayLike,
+    *,
+    initial_stress: Sequence[float] | None = None,
+) -> NDArray[np.float64]:
+    """Stresses at the ``strains`` of a path through a ``material`` of solids, which starts without strain: array of shape
+    (n, 4), Pa.
+
+    ``material``: a `Material`, `Iwan`, `DruckerPrager` or `UserMaterial`. ``strains``: array of shape (n, 4) of xx, yy, zz
+    and xy, with the engineering shear strain; every state is committed. ``initial_stress``: stress at zero strain, xx, yy, zz
+    and xy (four numbers, Pa; tension is positive); none unless given.
     """
 
 def _cancel_when(event: Any = None) -> None: ...

@@ -31,6 +31,7 @@ _RETURNING = (
     (_core.InclinedWave, "field"),
     (_core.SoilColumn, "equivalent_linear"),
     (_core.EquivalentLinear, "profile"),
+    (_core.StrainCurves, "iwan"),
     (_core.GmshMesh, "mesh"),
     (_core.GmshSpaceMesh, "mesh"),
 )

@@ -194,7 +194,9 @@ class UserMaterial(Protocol):
     step is accepted: its exception ends the run after the step. Arrays of other shapes, and numbers that are not finite, are
     errors that name the method.
 
-    `stress_path` tries a material without a mesh.
+    A call takes about 4 µs beside the method itself, or 9 µs if the method returns a list in place of an array of numpy; a
+    material of the package takes less than 1 µs in all. Each iteration of Newton's method calls ``stress`` and ``tangent`` at
+    every integration point. `stress_path` tries a material without a mesh.
     """
 
     @property

@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use basemat::Simulation;
-use basemat::structure::{FemModel, Structure};
+use basemat::structure::{FemModel, Structure, WithModalDamping, WithSprings, WithWalls};
 use pyo3::prelude::*;
 
 use super::PySimulation;
@@ -13,18 +13,33 @@ use crate::names::choice;
 use crate::structure::PySolidPoints;
 
 /// The model of a simulation whose structure is a `FemModel` with elements that have internal variables.
+///
+/// Springs, modal damping or walls may be around it.
 fn inelastic_model(simulation: &Simulation) -> PyResult<&FemModel> {
     let mut structure: &dyn Any = simulation.structure();
-    // Recipes return boxed structures.
-    while let Some(boxed) = structure.downcast_ref::<Box<dyn Structure>>() {
-        structure = boxed.as_ref();
+    while let Some(inner) = inner_structure(structure) {
+        structure = inner;
     }
     structure.downcast_ref().ok_or_else(|| {
         input_error(
-            "the structure of the simulation must be a FemModel with materials that yield, without another structure \
-             around it",
+            "the structure of the simulation must be a FemModel with materials that yield, alone or with springs, modal \
+             damping or walls",
         )
     })
+}
+
+/// The structure inside a box or a wrapper.
+fn inner_structure(structure: &dyn Any) -> Option<&dyn Structure> {
+    if let Some(boxed) = structure.downcast_ref::<Box<dyn Structure>>() {
+        return Some(boxed.as_ref());
+    }
+    if let Some(with_springs) = structure.downcast_ref::<WithSprings>() {
+        return Some(with_springs.structure());
+    }
+    if let Some(damped) = structure.downcast_ref::<WithModalDamping>() {
+        return Some(damped.structure());
+    }
+    structure.downcast_ref::<WithWalls>().map(WithWalls::structure)
 }
 
 /// Value of an element by the states of its points.
@@ -33,13 +48,14 @@ type ElementValue = fn(&PySolidPoints) -> f64;
 #[pymethods]
 impl PySimulation {
     /// The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
-    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`.
+    /// plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also one inside
+    /// `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, it raises an `Error`: own the loop by `steps`.
     fn solid_points(&self, element: Count) -> PyResult<PySolidPoints> {
         PySolidPoints::of_element(inelastic_model(&*self.lock()?)?, element.0)
     }
 
     /// One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
-    /// an array of as many values, for `Mesh.plot_solids`. The structure is a `FemModel`.
+    /// an array of shape (elements,), for `Mesh.plot_solids`. The structure is as for `solid_points`.
     ///
     /// ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
     /// ratio of shear stress to shear strength at its points.

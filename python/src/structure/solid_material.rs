@@ -27,11 +27,17 @@ use crate::user;
 #[pyclass(name = "Iwan", module = "basemat", frozen, dict)]
 pub(crate) struct PyIwan(Arc<Iwan>);
 
+impl From<Iwan> for PyIwan {
+    fn from(soil: Iwan) -> Self {
+        Self(Arc::new(soil))
+    }
+}
+
 #[pymethods]
 impl PyIwan {
     #[new]
     fn new(points: Pairs, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Arc::new(Iwan::new(&points.0, poisson, density).or_raise()?)))
+        Iwan::new(&points.0, poisson, density).or_raise().map(Self::from)
     }
 
     /// Soil with a hyperbolic backbone from its ``shear_modulus`` G of small strains (Pa) and its ``strength`` τ_s (Pa), which
@@ -48,7 +54,7 @@ impl PyIwan {
         density: f64,
     ) -> PyResult<Self> {
         let soil = Iwan::hyperbolic(shear_modulus, strength, limit_strain, poisson, density);
-        Ok(Self(Arc::new(soil.or_raise()?)))
+        soil.or_raise().map(Self::from)
     }
 
     /// Points of the backbone: array of shape (n, 2) of shear strain and shear stress (Pa).

@@ -76,7 +76,7 @@ impl PySolidPoints {
         rows(&self.positions)
     }
 
-    /// Areas of the points: array of shape (n,), m².
+    /// Area of each point, the factor of its values in integrals over the element: array of shape (n,), m².
     #[getter]
     fn area(&self) -> Array {
         self.areas.as_slice().into()
@@ -101,7 +101,7 @@ impl PySolidPoints {
         self.plastic_strains.as_slice().into()
     }
 
-    /// Ratios of shear stress to shear strength, from 0 to 1: array of shape (n,).
+    /// Ratio of shear stress to shear strength at each point, from 0 to 1: array of shape (n,).
     #[getter]
     fn mobilised_strength(&self) -> Array {
         self.mobilised_strengths.as_slice().into()

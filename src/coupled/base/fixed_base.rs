@@ -63,11 +63,12 @@ pub(crate) fn on_fixed_base(
     Ok((structure, Box::new(ground)))
 }
 
-/// The structure that the builder received, without the rigid foundations of a fixed base.
+/// The structure that the builder received, without the stiffness that makes its foundations rigid.
 pub(crate) fn without_rigid_foundations(structure: &dyn Structure) -> &dyn Structure {
-    let any: &dyn std::any::Any = structure;
-    any.downcast_ref::<StructureOnRigidFoundations>()
-        .map_or(structure, |on_foundations| on_foundations.structure.as_ref())
+    let wrapper: &dyn std::any::Any = structure;
+    wrapper
+        .downcast_ref::<StructureOnRigidFoundations>()
+        .map_or(structure, |wrapper| wrapper.structure.as_ref())
 }
 
 /// Whether the ground belongs to a fixed base.
