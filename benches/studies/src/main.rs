@@ -98,7 +98,10 @@ fn main() -> ExitCode {
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
-        Study::Yielding(options) => yielding::run(&options),
+        Study::Yielding(options) => {
+            yielding::run(&options);
+            Ok(())
+        }
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
