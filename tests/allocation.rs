@@ -312,7 +312,7 @@ fn soil_blocks(soil: &SharedMaterial) -> [FemModel; 2] {
     let lines = [0.0, 1.0, 3.0, 4.0];
     let mesh = Mesh::quad8_block(&lines, &lines, |_, _| soil.clone()).unwrap();
     let mut small_mesh = Mesh::new();
-    for [x, y] in [[0.0, 0.0], [1.2, 0.1], [1.0, 1.0], [0.0, 1.1]] {
+    for [x, y] in [[0.0, 0.0], [1.2, 0.0], [1.0, 1.0], [0.0, 1.1]] {
         small_mesh.add_node(x, y).unwrap();
     }
     let quad = Quad4::new([0, 1, 2, 3], soil.clone(), QuadFormulation::MeanDilatation);

@@ -15,8 +15,6 @@ use basemat_problems::yielding_strip::{
     sand,
 };
 
-use crate::document::AnyError;
-
 /// Rigid rough strip on clay and on sand that yield: pressures and capacities.
 ///
 /// Prints a table.
@@ -42,7 +40,7 @@ struct StripCase {
 }
 
 /// Runs the study.
-pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
+pub(crate) fn run(options: &YieldingOptions) {
     let friction_angle = PI / 6.0;
     let factor_q =
         (PI * friction_angle.tan()).exp() * (PI / 4.0 + 0.5 * friction_angle).tan().powi(2);
@@ -80,7 +78,6 @@ pub(crate) fn run(options: &YieldingOptions) -> Result<(), AnyError> {
     for case in &cases {
         print_case(case);
     }
-    Ok(())
 }
 
 /// Prints the rows of a case.

@@ -75,10 +75,10 @@ fn mean_dilatation_does_not_lock_in_nearly_incompressible_material() {
         [0.3, 0.49, 0.4999].map(|nu| tip_ratio(mesh, nu, QuadFormulation::MeanDilatation))
     });
     println!("mean dilatation at 0.3, 0.49, 0.4999: {ratios:?}");
-    for (row, lower_bound) in ratios.iter().zip([0.8, 0.94, 0.97]) {
-        assert!(row.iter().all(|ratio| (lower_bound..1.02).contains(ratio)), "{row:?}");
-        // Poisson's ratio changes little.
-        assert!((row[2] - row[1]).abs() < 0.01 && (row[2] - row[0]).abs() < 0.06, "{row:?}");
+    // Two elements across are too soft, four are right. A fixed base also hinders the strain across it.
+    for (row, tolerance) in ratios.iter().zip([0.1, 0.02, 0.02]) {
+        assert!(row.iter().all(|ratio| (ratio - 1.0).abs() < tolerance), "{row:?}");
+        assert!((row[2] - row[1]).abs() < 2e-3, "{row:?}");
     }
     assert!(tip_ratio([4, 40], 0.4999, QuadFormulation::Full) < 0.5);
 }

@@ -5,8 +5,9 @@
 
 use std::f64::consts::PI;
 
+use basemat_problems::heavy;
 use basemat_problems::yielding_strip::{
-    CLAY_PRESSURES, SAND_PRESSURES, StripRun, StripSoil, clay, sand,
+    CLAY_PRESSURES, FINE_CLAY_PRESSURE, SAND_PRESSURES, StripRun, StripSoil, clay, sand,
 };
 
 /// Relative differences from pressures of reference.
@@ -24,6 +25,17 @@ fn strip_on_clay_has_the_pressures_of_reference() {
     // Prandtl: 2 + π; the mesh is 3 % stiffer.
     assert!((1.0..1.04).contains(&(run.pressures[119] / (2.0 + PI))));
     assert!(run.iterations < 8 * 120);
+}
+
+/// Every night: a mesh twice as fine comes closer to Prandtl's capacity.
+#[test]
+fn strip_on_clay_converges_to_the_capacity() {
+    if !heavy() {
+        return;
+    }
+    let run = StripSoil::CLAY_BOX.push_down(clay(), 16, 0.0025, 120);
+    println!("fine clay: {}, {} iterations", run.pressures[119], run.iterations);
+    assert!((run.pressures[119] / FINE_CLAY_PRESSURE - 1.0).abs() < 1e-4);
 }
 
 #[test]

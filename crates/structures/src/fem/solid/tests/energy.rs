@@ -148,13 +148,15 @@ fn the_remainder_of_a_component_has_a_lower_bound() {
     }
 }
 
-/// R over the dissipation falls with the square of the step.
+/// R over the dissipation falls with the square of the step: 64 times in steps an eighth as long.
+///
+/// Where in its step a point begins to yield scatters this by a third.
 #[test]
 fn the_remainder_is_of_second_order() {
     let clay = hyperbolic_clay();
     let sand = associated_sand();
     for (material, amplitude) in [(&clay as &dyn SolidMaterial, 5e-3), (&sand, 1e-2)] {
-        let ratios = [400_u32, 800, 1600].map(|step_count| {
+        let ratios = [400_u32, 3200].map(|step_count| {
             let mut variables = variables_at_rest(material, [-1.0e5, -1.0e5, -1.0e5, 0.0]);
             let mut start = [0.0; 4];
             let mut sum = 0.0;
@@ -171,8 +173,6 @@ fn the_remainder_is_of_second_order() {
             }
             sum / material.energy(start, &variables).unwrap().dissipated
         });
-        for pair in ratios.windows(2) {
-            assert!((3.0..6.0).contains(&(pair[0] / pair[1])), "{ratios:?}");
-        }
+        assert!((35.0..120.0).contains(&(ratios[0] / ratios[1])), "{ratios:?}");
     }
 }
