@@ -2302,14 +2302,15 @@ class Simulation:
         """
     def solid_points(self, element: int) -> SolidPoints:
         """The `SolidPoints` of an ``element`` (its number in the mesh) at the end of the last accepted step: strains, stresses,
-        plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`.
+        plastic strains and mobilised strengths at its integration points. The structure is a `FemModel`, also one inside
+        `WithSprings`, `WithModalDamping` or `WithWalls`. While `run` calls ``observe``, it raises an `Error`: own the loop by `steps`.
         """
     def solid_values(
         self,
         quantity: Literal["plastic_strain", "mobilised_strength"],
     ) -> tuple[list[int], NDArray[np.float64]]:
         """One value for each element whose material yields, at the end of the last accepted step: the list of their numbers, and
-        an array of as many values, for `Mesh.plot_solids`. The structure is a `FemModel`.
+        an array of shape (elements,), for `Mesh.plot_solids`. The structure is as for `solid_points`.
 
         ``quantity``: "plastic_strain", the mean plastic shear strain of the element, or "mobilised_strength", the largest
         ratio of shear stress to shear strength at its points.
@@ -4053,7 +4054,7 @@ class SolidPoints:
         """Positions x and y in the undeformed mesh: array of shape (n, 2), m."""
     @property
     def area(self) -> NDArray[np.float64]:
-        """Areas of the points: array of shape (n,), m²."""
+        """Area of each point, the factor of its values in integrals over the element: array of shape (n,), m²."""
     @property
     def strain(self) -> NDArray[np.float64]:
         """Strains: array of shape (n, 4), numbers without unit."""
@@ -4067,7 +4068,7 @@ class SolidPoints:
         """
     @property
     def mobilised_strength(self) -> NDArray[np.float64]:
-        """Ratios of shear stress to shear strength, from 0 to 1: array of shape (n,)."""
+        """Ratio of shear stress to shear strength at each point, from 0 to 1: array of shape (n,)."""
     @property
     def mean_plastic_strain(self) -> float:
         """Plastic shear strain, mean over the area of the element; a number without unit."""
