@@ -20,6 +20,8 @@ use crate::structure::{Structure, Tangent, nonlinear_state};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
 const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
+/// Unbalanced force of a nonlinear structure over the rounding of its stiffness, up to which it counts as rounding.
+const ROUNDING_FACTOR: f64 = 10.0;
 /// Condition beyond which rounding of K u exceeds the tolerance of the force balance.
 ///
 /// The value is from `tests/coupled/conditioning.rs`.
@@ -103,7 +105,10 @@ impl StaticProblem<'_> {
             if has_converged(previous_change, change, iterations, compliance) {
                 // If K u is only rounding, the springs may have no force without an equilibrium.
                 let residual = imbalance(assembled, load, &state.traction);
-                if residual <= FORCE_BALANCE_TOLERANCE {
+                let inner_residual = self.yielding_residual(&relative_norm, load, &state)?;
+                let rounding = f64::EPSILON * compliance.factor.condition();
+                let inner_tolerance = FORCE_BALANCE_TOLERANCE.max(ROUNDING_FACTOR * rounding);
+                if residual <= FORCE_BALANCE_TOLERANCE && inner_residual <= inner_tolerance {
                     self.share(stored_compliance, initial_shift);
                     state.substituted_friction =
                         solver.substituted_friction().or(state.substituted_friction);
@@ -111,7 +116,7 @@ impl StaticProblem<'_> {
                     state.set_gaps(laws, start, states)?;
                     return Ok((state, states.clone()));
                 }
-                change = residual;
+                change = residual.max(inner_residual);
                 break;
             }
             if !change.is_finite() {
@@ -131,6 +136,23 @@ impl StaticProblem<'_> {
             last_step = step;
         }
         Err(self.failure(&tangent.matrix, initial_shift, iterations, change))
+    }
+
+    /// Unbalanced force of a nonlinear structure, relative to the load; zero for a linear one.
+    ///
+    /// A structure that yields without limit under its load moves until an iteration adds less than the last digit of
+    /// its displacement. The springs then have no force, although nothing is in equilibrium.
+    fn yielding_residual(
+        &self,
+        relative_norm: &RelativeForceNorm,
+        load: &[f64],
+        state: &StaticState,
+    ) -> Result<f64> {
+        if self.assembled.is_linear {
+            return Ok(0.0);
+        }
+        let force = unbalanced_force(self.assembled, self.structure, load, state)?;
+        Ok(relative_norm.of(&force))
     }
 
     /// Shares the compliance of a linear structure on its initial springs with later searches.
