@@ -20,8 +20,10 @@ use crate::structure::{Structure, Tangent, nonlinear_state};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
 const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
-/// Unbalanced force of a nonlinear structure over the rounding of its stiffness, up to which it counts as rounding.
-const ROUNDING_FACTOR: f64 = 10.0;
+/// Largest unbalanced force within a nonlinear structure, relative to the load.
+///
+/// It is above the rounding of K u + f(u) at the largest accepted condition, about 2e-6.
+const INNER_FORCE_TOLERANCE: f64 = 1e-5;
 /// Condition beyond which rounding of K u exceeds the tolerance of the force balance.
 ///
 /// The value is from `tests/coupled/conditioning.rs`.
@@ -106,9 +108,7 @@ impl StaticProblem<'_> {
                 // If K u is only rounding, the springs may have no force without an equilibrium.
                 let residual = imbalance(assembled, load, &state.traction);
                 let inner_residual = self.yielding_residual(&relative_norm, load, &state)?;
-                let rounding = f64::EPSILON * compliance.factor.condition();
-                let inner_tolerance = FORCE_BALANCE_TOLERANCE.max(ROUNDING_FACTOR * rounding);
-                if residual <= FORCE_BALANCE_TOLERANCE && inner_residual <= inner_tolerance {
+                if residual <= FORCE_BALANCE_TOLERANCE && inner_residual <= INNER_FORCE_TOLERANCE {
                     self.share(stored_compliance, initial_shift);
                     state.substituted_friction =
                         solver.substituted_friction().or(state.substituted_friction);
