@@ -21,10 +21,12 @@ const ROW_COUNT: usize = 20;
 const TIME_STEP: f64 = 0.005;
 /// Shear modulus of small strains and strength, Pa.
 const SHEAR_MODULUS: f64 = 45.6e6;
-const STRENGTH: f64 = 40.0e3;
-const POISSON: f64 = 0.45;
+const SHEAR_STRENGTH: f64 = 40.0e3;
+const POISSON_RATIO: f64 = 0.45;
 /// kg/m³.
-const DENSITY: f64 = 1900.0;
+const CLAY_DENSITY: f64 = 1900.0;
+/// Damping ratio of the linear column at small strains.
+const SMALL_STRAIN_DAMPING: f64 = 0.005;
 
 /// The column of finite elements, with both sides tied as in a soil of infinite width.
 fn column(clay: &Iwan) -> Result<FemModel> {
@@ -47,10 +49,11 @@ fn column(clay: &Iwan) -> Result<FemModel> {
 }
 
 fn main() -> Result<()> {
-    let limit_strain = 200.0 * STRENGTH / SHEAR_MODULUS;
-    let clay = Iwan::hyperbolic(SHEAR_MODULUS, STRENGTH, limit_strain, POISSON, DENSITY)?;
-    let curves = StrainCurves::masing(clay.points())?;
-    let soil = Soil::new(SHEAR_MODULUS, POISSON, DENSITY)?;
+    let limit_strain = 200.0 * SHEAR_STRENGTH / SHEAR_MODULUS;
+    let clay =
+        Iwan::hyperbolic(SHEAR_MODULUS, SHEAR_STRENGTH, limit_strain, POISSON_RATIO, CLAY_DENSITY)?;
+    let curves = StrainCurves::masing(clay.points(), SMALL_STRAIN_DAMPING)?;
+    let soil = Soil::new(SHEAR_MODULUS, POISSON_RATIO, CLAY_DENSITY)?;
     let mut profile = SoilProfile::on_rigid_bedrock();
     for _ in 0..ROW_COUNT {
         profile = profile.with_layer(soil, COLUMN_HEIGHT / ROW_COUNT as f64)?;
@@ -99,7 +102,7 @@ fn main() -> Result<()> {
             1e-3 * linear_stress,
             1e-3 * stress_peak
         );
-        assert!(stress_peak <= 1.0001 * STRENGTH);
+        assert!(stress_peak <= 1.0001 * SHEAR_STRENGTH);
         assert!(simulation.state().energy_balance.residual() < 1e-9);
         loops.push((format!("El Centro × {factor}"), path));
     }

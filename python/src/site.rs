@@ -98,10 +98,12 @@ impl PyStrainCurves {
     ///
     /// ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
     /// backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
-    /// up to the strain γ and its stress τ, the damping ratio is (2/π)(2A/(γτ) − 1).
+    /// up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) − 1).
+    /// ``small_strain_damping``: what soils have besides Masing's loops, often 0.005 to 0.02; 0 by default.
     #[staticmethod]
-    fn masing(points: Pairs) -> PyResult<Self> {
-        StrainCurves::masing(&points.0).or_raise().map(Self)
+    #[pyo3(signature = (points, *, small_strain_damping=0.0))]
+    fn masing(points: Pairs, small_strain_damping: f64) -> PyResult<Self> {
+        StrainCurves::masing(&points.0, small_strain_damping).or_raise().map(Self)
     }
 
     /// The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);

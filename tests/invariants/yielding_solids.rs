@@ -13,7 +13,7 @@ const RUN_STEPS: usize = 60;
 /// Largest residual of the energy balance.
 const BALANCE_TOLERANCE: f64 = 1e-9;
 /// Largest decrease of a sum that never falls, relative to the largest energy.
-const ROUNDING: f64 = 1e-12;
+const DECREASE_TOLERANCE: f64 = 1e-12;
 
 /// A random scene, and whether its plastic strain is normal to the yield surface.
 struct YieldingScene {
@@ -127,14 +127,14 @@ fn random_scene(seed: u64) -> YieldingScene {
 
 /// Counts of what random scenes did.
 #[derive(Debug, Default)]
-struct SceneCounts {
+struct YieldingSceneCounts {
     refused: usize,
     failed: usize,
     yielded: usize,
 }
 
 /// Runs a scene and checks its energies in every step.
-fn check_scene(scene: YieldingScene, counts: &mut SceneCounts) {
+fn check_scene(scene: YieldingScene, counts: &mut YieldingSceneCounts) {
     let YieldingScene { simulation, is_associated, text } = scene;
     let mut simulation = match simulation {
         Ok(simulation) => simulation,
@@ -159,7 +159,7 @@ fn check_scene(scene: YieldingScene, counts: &mut SceneCounts) {
         let energy_balance = simulation.state().energy_balance;
         let residual = energy_balance.residual();
         assert!(residual < BALANCE_TOLERANCE, "{text}: residual {residual:.1e} in step {step}");
-        let rounding = ROUNDING * energy_balance.largest;
+        let rounding = DECREASE_TOLERANCE * energy_balance.largest;
         let heat = energy_balance.hysteresis - hysteresis;
         assert!(heat >= -rounding, "{text}: dissipation {heat:.1e} in step {step}");
         let lost_work = energy_balance.midstep_remainder - remainder;
@@ -183,7 +183,7 @@ fn check_scene(scene: YieldingScene, counts: &mut SceneCounts) {
 #[test]
 fn energies_of_yielding_solids_balance() {
     let scene_count = if heavy() { 500 } else { 40 };
-    let mut counts = SceneCounts::default();
+    let mut counts = YieldingSceneCounts::default();
     for seed in 0..scene_count {
         check_scene(random_scene(seed), &mut counts);
     }

@@ -115,8 +115,9 @@ mod tests {
     #[test]
     fn sums_in_a_pattern_are_new_sums() {
         let constant = Triplets::from_entries(3, [(0, 0, 2.0), (1, 1, 3.0), (2, 0, 0.1)]);
+        let constant = SparseMatrix::new("", &constant).unwrap();
         let changing = Triplets::from_entries(3, [(0, 0, 0.7), (1, 2, 0.3)]);
-        let [constant, changing] = [constant, changing].map(|m| SparseMatrix::new("", &m).unwrap());
+        let changing = SparseMatrix::new("", &changing).unwrap();
         let mut sum = SparseMatrix::sum("", 3, &[(1.0, &constant), (0.5, &changing)]).unwrap();
         let expected = SparseMatrix::sum("", 3, &[(1.0, &constant), (0.3, &changing)]).unwrap();
         let constant_values = constant.values_at(&sum).unwrap();

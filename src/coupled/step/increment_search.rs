@@ -96,8 +96,8 @@ impl IncrementSearch {
             let s = bracket.estimate();
             for i in 0..iterate.len() {
                 iterate[i] = self.start[i] + s * self.increment[i];
-                let [start, end] = [self.start_linear_force[i], self.end_linear_force[i]];
-                linear_force[i] = start + s * (end - start);
+                let start_force = self.start_linear_force[i];
+                linear_force[i] = start_force + s * (self.end_linear_force[i] - start_force);
             }
             evaluate(iterate, nonlinear_force)?;
             let work = work(nonlinear_force, linear_force, &self.increment);
@@ -127,9 +127,8 @@ struct Bracket {
 impl Bracket {
     /// Estimate of the root, by the secant of the works at the ends.
     fn estimate(&self) -> f64 {
-        let (low, low_work) = self.low;
-        let (high, high_work) = self.high;
-        low - low_work * (high - low) / (high_work - low_work)
+        let interval = self.high.0 - self.low.0;
+        self.low.0 - self.low.1 * interval / (self.high.1 - self.low.1)
     }
 
     /// Replaces an end by the estimate; the work of an end that stays twice counts half.

@@ -14,20 +14,21 @@ use basemat::{Result, Simulation};
 /// Height and width of the column, m.
 const COLUMN_HEIGHT: f64 = 20.0;
 const COLUMN_WIDTH: f64 = 1.0;
-/// Shear modulus, Pa, and strength, Pa, of the clay, and its strain at the strength over `STRENGTH / SHEAR_MODULUS`.
+/// Shear modulus, Pa, and strength, Pa, of the clay, and its strain at the strength over `SHEAR_STRENGTH / SHEAR_MODULUS`.
 const SHEAR_MODULUS: f64 = 45.6e6;
-const STRENGTH: f64 = 40.0e3;
+const SHEAR_STRENGTH: f64 = 40.0e3;
 const LIMIT_STRAIN_RATIO: f64 = 200.0;
 /// kg/m³. Poisson's ratio has no effect on shear waves.
-const DENSITY: f64 = 1900.0;
-const POISSON: f64 = 0.3;
+const CLAY_DENSITY: f64 = 1900.0;
+const POISSON_RATIO: f64 = 0.3;
 /// Duration of the motion, s.
-const DURATION: f64 = 8.0;
+const MOTION_DURATION: f64 = 8.0;
 
 /// Clay of the column.
 pub fn clay() -> Iwan {
-    let limit_strain = LIMIT_STRAIN_RATIO * STRENGTH / SHEAR_MODULUS;
-    Iwan::hyperbolic(SHEAR_MODULUS, STRENGTH, limit_strain, POISSON, DENSITY).unwrap()
+    let limit_strain = LIMIT_STRAIN_RATIO * SHEAR_STRENGTH / SHEAR_MODULUS;
+    Iwan::hyperbolic(SHEAR_MODULUS, SHEAR_STRENGTH, limit_strain, POISSON_RATIO, CLAY_DENSITY)
+        .unwrap()
 }
 
 /// Acceleration of the base, m/s².
@@ -60,7 +61,7 @@ pub fn scene(row_count: usize, time_step: f64, material: &SharedMaterial) -> Res
         .structure(column)
         .interface(Bonded)
         .gravity(0.0)
-        .motion(Record::from_fn(time_step, DURATION, base_acceleration)?)
+        .motion(Record::from_fn(time_step, MOTION_DURATION, base_acceleration)?)
         .on_fixed_base()
         .build()
 }
@@ -92,7 +93,7 @@ pub fn response(
     let top = model.row(model.mesh().node_at(0.0, COLUMN_HEIGHT)?, Direction::X)?;
     let foot = model.row(model.mesh().node_at(0.0, 0.0)?, Direction::X)?;
     let mut response = ColumnResponse::default();
-    let step_count = simulation.steps_for(DURATION);
+    let step_count = simulation.steps_for(MOTION_DURATION);
     for _ in 0..step_count {
         let state = simulation.step()?;
         let displacement = state.displacement();

@@ -249,17 +249,17 @@ fn arms_lengthen_a_cantilever() {
 #[test]
 fn a_column_with_tied_sides_is_a_shear_beam() {
     const ROW_COUNT: usize = 10;
-    const HEIGHT: f64 = 20.0;
+    const COLUMN_HEIGHT: f64 = 20.0;
     let soil = Material::new(104.0e6, 0.3, 2000.0).unwrap();
-    let layer = Layer::new(HEIGHT, ROW_COUNT, soil);
+    let layer = Layer::new(COLUMN_HEIGHT, ROW_COUNT, soil);
     let mesh = Mesh::layered_block(0.0..1.5, 1, &[layer]).unwrap();
     let mut column = FemModel::on_base(mesh).unwrap();
     for row in 1..=ROW_COUNT {
         column = column.with_tied_nodes(2 * row, &[2 * row + 1]).unwrap();
     }
     let shear_wave_speed = (40.0e6_f64 / 2000.0).sqrt();
-    let row_height = HEIGHT / ROW_COUNT as f64;
-    let wave_number = 0.5 * std::f64::consts::PI / HEIGHT;
+    let row_height = COLUMN_HEIGHT / ROW_COUNT as f64;
+    let wave_number = 0.5 * std::f64::consts::PI / COLUMN_HEIGHT;
     let cosine = (wave_number * row_height).cos();
     let exact = shear_wave_speed * (6.0 * (1.0 - cosine) / (2.0 + cosine)).sqrt() / row_height;
     // Rayleigh's quotient of the exact mode shape sin kz.

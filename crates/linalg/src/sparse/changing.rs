@@ -234,8 +234,8 @@ fn solve_by_lower(lower: &[f64], rhs: &mut [f64]) {
 impl ReusedFactor {
     /// Empty factors of matrices of this order, with the workspace of the factorization.
     fn new(factors: Factors, order: usize, workspace: MemBuffer) -> Self {
-        let solve_workspace = || MemBuffer::new(factors.scratch(1));
-        let [buffer, block_workspace] = [solve_workspace(), solve_workspace()];
+        let buffer = MemBuffer::new(factors.scratch(1));
+        let block_workspace = MemBuffer::new(factors.scratch(1));
         let factor = SparseFactor { order, factors, buffer };
         Self { factor, workspace, block_workspace, block_columns: 1 }
     }
@@ -317,7 +317,8 @@ mod tests {
                 assert_eq!(is_definite, new.is_positive_definite());
                 assert_eq!(is_definite, low > 0.0 && skew == 0.0);
                 let many: Vec<f64> = (0..7 * side * side).map(|i| (i as f64).sin()).collect();
-                let [mut a, mut b] = [many.clone(), many];
+                let mut a = many.clone();
+                let mut b = many;
                 changing.solve_many(&mut a);
                 new.solve_many(&mut b);
                 assert_eq!(a, b);

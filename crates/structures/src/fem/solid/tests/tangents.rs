@@ -98,7 +98,7 @@ fn tangents_of_iwans_model_are_derivatives() {
     for (seed, clay) in clays.iter().enumerate() {
         let shear = 0.4 * clay.strength();
         for initial_stress in [[0.0; 4], [-1.0e5 + shear, -1.0e5, -1.2e5, 0.5 * shear]] {
-            let [compared_count, _] = compare(clay, initial_stress, seed as u64);
+            let compared_count = compare(clay, initial_stress, seed as u64)[0];
             assert!(compared_count > 400, "{compared_count}");
         }
     }
