@@ -102,10 +102,10 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 pub struct WeightsGround {
     source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
-    /// Unions of cells to contact elements in plan; `None` if each cell is one element.
+    /// Relation of contact elements in plan to cells; `None` if each cell is one element.
     unions: Option<Unions>,
     options: HistoryOptions,
-    /// Makes the user's history; `None` for a history according to `options`.
+    /// Makes the caller's history; `None` for a history according to `options`.
     custom_history: Option<Box<MakeHistory>>,
     shared_kernels: SharedKernels,
     prepared: Option<PreparedHistory>,
@@ -119,11 +119,11 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
-/// Weights and history for one time step.
+/// Weights and history for a length of the time step.
 struct PreparedHistory {
     time_step: f64,
     weights: Arc<dyn ConvolutionWeights>,
-    chosen: ChosenHistory,
+    chosen_history: ChosenHistory,
 }
 
 /// Makes the history of convolution weights.
@@ -160,7 +160,7 @@ impl WeightsGround {
     /// Sets the options of the ground's history, or its method alone.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
+    /// [`Error::Input`](crate::Error::Input) for a tolerance outside 1e-12 to 1e-2.
     pub fn with_history(mut self, options: impl Into<HistoryOptions>) -> Result<Self> {
         self.options = options.into().checked()?;
         self.custom_history = None;
@@ -169,13 +169,15 @@ impl WeightsGround {
 
     /// Sets a history of your own.
     ///
-    /// `make` is called with the convolution weights once the time step is known.
+    /// `make_history` is called with the convolution weights once the time step is known.
     #[must_use]
     pub fn with_own_history(
         mut self,
-        make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+        make_history: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory>
+        + Send
+        + 'static,
     ) -> Self {
-        self.custom_history = Some(Box::new(make));
+        self.custom_history = Some(Box::new(make_history));
         self
     }
 
@@ -193,14 +195,14 @@ impl WeightsGround {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
-    /// Makes an empty history of `weights` for `steps` steps.
+    /// Makes an empty history of `weights` for `steps` steps; `None` if their number is unknown.
     fn empty_history(
         &self,
         weights: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<ChosenHistory> {
         match &self.custom_history {
-            Some(make) => Ok(ChosenHistory::supplied(make(Arc::clone(weights)))),
+            Some(make_history) => Ok(ChosenHistory::supplied(make_history(Arc::clone(weights)))),
             None => self.options.history(weights, steps),
         }
     }
@@ -221,13 +223,13 @@ impl Ground for WeightsGround {
             Some(prepared) if prepared.time_step == time_step => Arc::clone(&prepared.weights),
             _ => self.shared_kernels.kernel(&*self.source, &self.elements, time_step)?,
         };
-        let mut chosen = self.empty_history(&weights, steps)?;
+        let mut chosen_history = self.empty_history(&weights, steps)?;
         match steps {
-            Some(steps) => chosen.history.prepare(steps, observer)?,
+            Some(steps) => chosen_history.history.prepare(steps, observer)?,
             // The step compliance needs the first lag alone.
             None => weights.prepare(1, observer)?,
         }
-        self.prepared = Some(PreparedHistory { time_step, weights, chosen });
+        self.prepared = Some(PreparedHistory { time_step, weights, chosen_history });
         if let Some(unions) = &mut self.unions {
             unions.last_traction.fill(0.0);
         }
@@ -239,62 +241,67 @@ impl Ground for WeightsGround {
             return Err(NOT_PREPARED);
         };
         match &self.unions {
-            Some(unions) => {
-                unions.reduce(matrix, STEP_END_SPRING_RATIO, |cells| weights.step_compliance(cells))
-            }
+            Some(unions) => unions.reduce(matrix, STEP_END_SPRING_RATIO, |cell_matrix| {
+                weights.step_compliance(cell_matrix)
+            }),
             None => weights.step_compliance(matrix),
         }
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let Some(PreparedHistory { chosen, .. }) = &mut self.prepared else {
+        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared else {
             return Err(NOT_PREPARED);
         };
         match &mut self.unions {
-            Some(unions) => unions.gather(displacement, |cells| chosen.history.evaluate(cells)),
-            None => chosen.history.evaluate(displacement),
+            Some(unions) => unions.gather(displacement, |cell_displacement| {
+                chosen_history.history.evaluate(cell_displacement)
+            }),
+            None => chosen_history.history.evaluate(displacement),
         }
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        let Some(PreparedHistory { chosen, .. }) = &mut self.prepared else { return };
+        let Some(PreparedHistory { chosen_history, .. }) = &mut self.prepared else {
+            return;
+        };
         let cell_traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
-        chosen.history.push(cell_traction);
+        chosen_history.history.push(cell_traction);
     }
 
     fn description(&self) -> GroundDescription {
         let prepared = self.prepared.as_ref();
         GroundDescription {
             shear_wave_speed: self.source.shear_wave_speed(),
-            history: prepared.and_then(|prepared| prepared.chosen.choice()),
+            history: prepared.and_then(|prepared| prepared.chosen_history.choice()),
             ..Default::default()
         }
     }
 
     fn increment_error_bound(&self) -> f64 {
         let prepared = self.prepared.as_ref();
-        prepared.map_or(0.0, |prepared| prepared.chosen.history.increment_error_bound())
+        prepared.map_or(0.0, |prepared| prepared.chosen_history.history.increment_error_bound())
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let history_values = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
+        let history_values = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen_history.save()?;
         let last_traction = self.unions.as_ref().map_or(&[][..], |unions| &unions.last_traction);
         Ok([&history_values[..], last_traction].concat())
     }
 
-    /// Restores a history of the same kind; exponentials are fitted again if they had another horizon.
+    /// Restores a history of the same kind. One by sums of exponentials that was fitted for another number of steps, its
+    /// horizon, is first fitted again for that number.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
         let last_traction =
             self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last_traction);
         let history_length = values.len().saturating_sub(last_traction.len());
         let history_values = &values[..history_length];
-        if let Some(horizon) = prepared.chosen.restore(steps, history_values)? {
-            let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
-            if chosen.restore(steps, history_values)?.is_some() {
+        if let Some(horizon) = prepared.chosen_history.restore(steps, history_values)? {
+            let mut refitted_history = self.options.history(&prepared.weights, Some(horizon))?;
+            if refitted_history.restore(steps, history_values)?.is_some() {
                 return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
             }
-            prepared.chosen = chosen;
+            prepared.chosen_history = refitted_history;
         }
         last_traction.copy_from_slice(&values[history_length..]);
         Ok(())
@@ -303,9 +310,9 @@ impl Ground for WeightsGround {
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = &self.elements;
         match &self.unions {
-            Some(unions) => {
-                unions.reduce(matrix, 1.0, |cells| self.source.static_compliance(elements, cells))
-            }
+            Some(unions) => unions.reduce(matrix, 1.0, |cell_matrix| {
+                self.source.static_compliance(elements, cell_matrix)
+            }),
             None => self.source.static_compliance(elements, matrix),
         }
     }

@@ -8,7 +8,7 @@ use crate::{Triplets, weighted_dot};
 /// Memory per degree of freedom for a structure's sparse matrices, their factor and its states, bytes.
 const BYTES_PER_DOF: f64 = 400.0;
 
-/// Returns an error unless the matrices of this `order` fit into memory.
+/// Returns an error unless the memory suffices for matrices of this `order`, their number of rows.
 ///
 /// `quantity`: name of the counted rows or degrees of freedom.
 pub fn check_order(quantity: &'static str, order: usize) -> std::result::Result<(), MemoryError> {
@@ -67,10 +67,10 @@ impl SparseMatrix {
         }
         // Entries in the order of rows, and the index of the next entry of each row.
         let mut row_entries = vec![(0, 0.0); triplets.entries().len()];
-        let mut next_index = row_starts.clone();
+        let mut next_indices = row_starts.clone();
         for &(row, column, value) in triplets.entries() {
-            row_entries[next_index[row]] = (column, value);
-            next_index[row] += 1;
+            row_entries[next_indices[row]] = (column, value);
+            next_indices[row] += 1;
         }
         Ok(Self::by_rows(order, |row, entries| {
             entries.extend_from_slice(&row_entries[row_starts[row]..row_starts[row + 1]]);
@@ -231,7 +231,7 @@ pub struct Diagonals<'a> {
 }
 
 impl Matrix {
-    /// Whether all entries are zero.
+    /// Whether a sparse matrix stores no entry, or all entries of a diagonal are zero.
     pub fn is_empty(&self) -> bool {
         match self {
             Self::Sparse(matrix) => matrix.is_empty(),

@@ -1,7 +1,7 @@
 //! Newton's method on the semi-smooth equations r = P(r − ρ y).
 //!
-//! The present r and y determine the status of each element: open, closed or at its cap; sticking or slipping in a
-//! direction. The linear system of all statuses determines the next r.
+//! [`problem`](super::problem) explains the symbols. The current r and y determine the status of each element: open,
+//! closed or at its cap; sticking or slipping in a direction. The linear system of all statuses determines the next r.
 
 use std::mem::Discriminant;
 
@@ -10,20 +10,21 @@ use super::problem::{ConeProblem, InfiniteFriction, SolveOutcome};
 use super::status::{Normal, Status, Tangential};
 use super::system::System;
 
-/// Largest number of iterations; other methods follow.
+/// Largest number of iterations; then other methods are tried.
 const MAX_NEWTON_ITERATIONS: usize = 15;
-/// With many elements: factor by which an iteration must reduce the residual.
-const MIN_REDUCTION: f64 = 0.5;
-/// With many elements: largest number of iterations without this reduction.
+/// Largest ratio of the residual to an earlier one at which convergence is not slow.
+const MAX_RESIDUAL_RATIO: f64 = 0.5;
+/// With many elements: largest number of iterations with slow convergence.
 const MAX_SLOW_ITERATIONS: usize = 2;
-/// With many elements: residual below which factors of the same step solve, relative to the largest force.
-const NEAR_RESIDUAL: f64 = 1e-4;
+/// Largest residual, relative to the largest force, at which factors from an earlier iteration of the same time step are
+/// accurate enough to be used again.
+const FACTOR_REUSE_RESIDUAL: f64 = 1e-4;
 /// Largest number of iterations of a restart with partial steps.
 const MAX_RESTART_ITERATIONS: usize = 60;
-/// Smallest random fraction of a step.
+/// Smallest random fraction of a Newton step.
 const MIN_STEP_FRACTION: f64 = 0.2;
 
-/// The linear system of the statuses.
+/// The linear system that belongs to the statuses.
 enum StatusSystem {
     /// The system of W with stored entries.
     Dense(Box<System>),
@@ -31,13 +32,13 @@ enum StatusSystem {
     LowRank(Box<LowRankSystem>),
 }
 
-/// Newton's method: the present statuses, their system and scratch.
+/// Newton's method: the current statuses, their system and scratch.
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: StatusSystem,
     /// Kinds of the statuses in the previous iteration.
-    status_kinds: Vec<(Discriminant<Normal>, Discriminant<Tangential>)>,
-    /// Changes of force in the previous iteration, or with the smallest residual.
+    previous_kinds: Vec<(Discriminant<Normal>, Discriminant<Tangential>)>,
+    /// `force_change` of the previous iterate, or of the one with the smallest residual.
     stored_change: Vec<f64>,
 }
 
@@ -58,7 +59,7 @@ impl Newton {
         Self {
             statuses: vec![Status::CLOSED_STICKING; element_count],
             system,
-            status_kinds: Vec::with_capacity(element_count),
+            previous_kinds: Vec::with_capacity(element_count),
             stored_change: vec![0.0; 3 * element_count],
         }
     }
@@ -79,20 +80,24 @@ impl Newton {
         }
     }
 
-    /// Discards the results of previous steps that influence the choice of a system.
+    /// Discards what previous time steps left that would influence whether forces or displacements are the unknowns.
     pub(super) fn begin_step(&mut self) {
         if let StatusSystem::Dense(system) = &mut self.system {
             system.begin_step();
         }
     }
 
-    /// Iterates from the present r; `uses_trial` as in [`Newton::classify`].
-    pub(super) fn solve(&mut self, problem: &mut ConeProblem, uses_trial: bool) -> SolveOutcome {
+    /// Iterates from the current r; `uses_trial_pressure` as in [`Newton::classify`].
+    pub(super) fn solve(
+        &mut self,
+        problem: &mut ConeProblem,
+        uses_trial_pressure: bool,
+    ) -> SolveOutcome {
         for iteration in 0..MAX_NEWTON_ITERATIONS {
             if problem.is_solved() {
                 return SolveOutcome::new(iteration, true);
             }
-            self.classify(problem, uses_trial);
+            self.classify(problem, uses_trial_pressure);
             if !self.solve_for_statuses(problem) {
                 return SolveOutcome::new(iteration + 1, false);
             }
@@ -100,7 +105,8 @@ impl Newton {
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
 
-    /// Iterates from a solution whose bounds have changed a little, where possible with factors of the same step.
+    /// Iterates from a solution whose bounds have changed a little; close to the new one, factors of the same time step
+    /// are used again where possible.
     pub(super) fn solve_again(&mut self, problem: &mut ConeProblem) -> SolveOutcome {
         let mut previous_residual = f64::INFINITY;
         for iteration in 0..MAX_NEWTON_ITERATIONS {
@@ -109,9 +115,10 @@ impl Newton {
                 return SolveOutcome::new(iteration, true);
             }
             self.classify(problem, false);
-            let falls = residual <= MIN_REDUCTION * previous_residual;
-            let is_near = falls && residual <= NEAR_RESIDUAL * problem.largest_force();
-            if !self.solve_system(problem, is_near) {
+            let is_reduced = residual <= MAX_RESIDUAL_RATIO * previous_residual;
+            let reuses_factors =
+                is_reduced && residual <= FACTOR_REUSE_RESIDUAL * problem.largest_force();
+            if !self.solve_system(problem, reuses_factors) {
                 return SolveOutcome::new(iteration + 1, false);
             }
             previous_residual = residual;
@@ -119,14 +126,14 @@ impl Newton {
         SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
 
-    /// Iterates between the sweeps of many elements; ends early if the residual hardly falls.
+    /// Iterates between Gauss–Seidel sweeps over many elements; ends early if the residual hardly falls.
     ///
     /// It then restores the forces with the smallest residual. Iterations that start far from the solution let more and
     /// more elements slip, and one iteration takes longer than several sweeps.
     pub(super) fn solve_briefly(
         &mut self,
         problem: &mut ConeProblem,
-        uses_trial: bool,
+        uses_trial_pressure: bool,
     ) -> SolveOutcome {
         let mut smallest_residual = f64::INFINITY;
         let mut slow_iterations = 0;
@@ -138,8 +145,8 @@ impl Newton {
                 return SolveOutcome::new(iteration, true);
             }
             // False for NaN.
-            let falls = residual <= MIN_REDUCTION * smallest_residual;
-            if iteration > 0 && !falls {
+            let is_reduced = residual <= MAX_RESIDUAL_RATIO * smallest_residual;
+            if iteration > 0 && !is_reduced {
                 slow_iterations += 1;
             }
             if residual < smallest_residual {
@@ -150,10 +157,10 @@ impl Newton {
                 problem.force_change.copy_from_slice(&self.stored_change);
                 return SolveOutcome::new(iteration, false);
             }
-            self.classify(problem, uses_trial);
-            let is_near =
-                slow_iterations == 0 && residual <= NEAR_RESIDUAL * problem.largest_force();
-            if !self.solve_system(problem, is_near) {
+            self.classify(problem, uses_trial_pressure);
+            let reuses_factors =
+                slow_iterations == 0 && residual <= FACTOR_REUSE_RESIDUAL * problem.largest_force();
+            if !self.solve_system(problem, reuses_factors) {
                 problem.force_change.copy_from_slice(&self.stored_change);
                 return SolveOutcome::new(iteration + 1, false);
             }
@@ -161,20 +168,20 @@ impl Newton {
         }
     }
 
-    /// Randomised restarts: in turn from the change `start`, from zero forces, and with all elements sticking.
+    /// Randomised restarts: in turn from `initial_change`, from zero forces, and with all elements sticking.
     ///
-    /// Until the statuses stay the same, each element moves by a random fraction of each step, so that the iterates
-    /// do not cycle.
+    /// Until the statuses stay the same, each element's force changes by a random fraction of each Newton step, so that
+    /// the iterates do not cycle.
     pub(super) fn restart_randomly(
         &mut self,
         problem: &mut ConeProblem,
-        start: &[f64],
+        initial_change: &[f64],
         max_restarts: u64,
     ) -> SolveOutcome {
         let mut iterations = 0;
         for restart in 0..max_restarts {
             match restart % 3 {
-                0 => problem.force_change.copy_from_slice(start),
+                0 => problem.force_change.copy_from_slice(initial_change),
                 1 => (0..problem.component_count()).for_each(|i| problem.set_force(i, 0.0)),
                 _ => {
                     problem.reset_forces();
@@ -191,10 +198,10 @@ impl Newton {
         SolveOutcome::new(iterations, false)
     }
 
-    /// Iterates with random fractions of steps; the number of the restart seeds them.
+    /// Iterates with random fractions of Newton steps; the number of the restart seeds them.
     fn solve_with_random_steps(&mut self, problem: &mut ConeProblem, restart: u64) -> SolveOutcome {
         let mut random_state = restart.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-        self.status_kinds.clear();
+        self.previous_kinds.clear();
         for iteration in 0..MAX_RESTART_ITERATIONS {
             if problem.is_solved() {
                 return SolveOutcome::new(iteration, true);
@@ -202,9 +209,9 @@ impl Newton {
             self.stored_change.copy_from_slice(&problem.force_change);
             self.classify(problem, restart % 2 == 1);
             let kinds = self.statuses.iter().map(Status::kind);
-            let has_same_kinds = self.status_kinds.iter().copied().eq(kinds.clone());
-            self.status_kinds.clear();
-            self.status_kinds.extend(kinds);
+            let has_same_kinds = self.previous_kinds.iter().copied().eq(kinds.clone());
+            self.previous_kinds.clear();
+            self.previous_kinds.extend(kinds);
             if !self.solve_for_statuses(problem) {
                 return SolveOutcome::new(iteration + 1, false);
             }
@@ -229,10 +236,11 @@ impl Newton {
         SolveOutcome::new(MAX_RESTART_ITERATIONS, problem.is_solved())
     }
 
-    /// Sets the statuses by the trial forces of the present r and y.
+    /// Sets the statuses by the trial forces r − ρ y of the current r and y.
     ///
-    /// `uses_trial`: whether the radius is that of the projected trial p instead of the present p.
-    pub(super) fn classify(&mut self, problem: &ConeProblem, uses_trial: bool) {
+    /// `uses_trial_pressure`: whether the radius of the friction disc follows from the projected trial p, not from the
+    /// current p.
+    pub(super) fn classify(&mut self, problem: &ConeProblem, uses_trial_pressure: bool) {
         for (e, status) in self.statuses.iter_mut().enumerate() {
             let bounds = &problem.bounds[e];
             *status = if bounds.is_bonded {
@@ -240,7 +248,7 @@ impl Newton {
             } else if bounds.has_infinite_friction() {
                 status_with_infinite_friction(problem, e)
             } else {
-                status_with_finite_friction(problem, e, uses_trial)
+                status_with_finite_friction(problem, e, uses_trial_pressure)
             };
         }
     }
@@ -250,10 +258,12 @@ impl Newton {
         self.solve_system(problem, false)
     }
 
-    /// Solves the system of the statuses, with `accepts_recent` as in [`System::solve`].
-    fn solve_system(&mut self, problem: &mut ConeProblem, accepts_recent: bool) -> bool {
+    /// Solves the system of the statuses, with `accepts_recent_factors` as in [`System::solve`].
+    fn solve_system(&mut self, problem: &mut ConeProblem, accepts_recent_factors: bool) -> bool {
         match &mut self.system {
-            StatusSystem::Dense(system) => system.solve(problem, &self.statuses, accepts_recent),
+            StatusSystem::Dense(system) => {
+                system.solve(problem, &self.statuses, accepts_recent_factors)
+            }
             StatusSystem::LowRank(system) => system.solve(problem, &self.statuses),
         }
     }
@@ -280,8 +290,12 @@ fn status_with_infinite_friction(problem: &ConeProblem, e: usize) -> Status {
     }
 }
 
-/// Status of an element with finite friction by its trial force; `uses_trial` as in [`Newton::classify`].
-fn status_with_finite_friction(problem: &ConeProblem, e: usize, uses_trial: bool) -> Status {
+/// Status of an element with finite friction by its trial force; `uses_trial_pressure` as in [`Newton::classify`].
+fn status_with_finite_friction(
+    problem: &ConeProblem,
+    e: usize,
+    uses_trial_pressure: bool,
+) -> Status {
     let bounds = &problem.bounds[e];
     let trial = problem.trial_force(e);
     let normal = if trial[0] <= bounds.interval[0] {
@@ -291,7 +305,7 @@ fn status_with_finite_friction(problem: &ConeProblem, e: usize, uses_trial: bool
     } else {
         Normal::Closed
     };
-    let pressure = if uses_trial {
+    let pressure = if uses_trial_pressure {
         bounds.project_pressure(trial[0], problem.rho[e][0])
     } else {
         problem.force(e)

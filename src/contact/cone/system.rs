@@ -96,7 +96,7 @@ impl System {
         self.saved_cost = 0.0;
     }
 
-    /// Discards the results of previous steps that influence the choice of a system.
+    /// Discards what previous time steps left that would influence whether forces or displacements are the unknowns.
     pub(super) fn begin_step(&mut self) {
         self.is_recent = false;
         if !self.is_constant {
@@ -108,12 +108,12 @@ impl System {
 
     /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
     ///
-    /// `accepts_recent`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
+    /// `accepts_recent_factors`: whether factors of the same step, for statuses of the same kinds, solve nearly enough.
     pub(super) fn solve(
         &mut self,
         problem: &mut ConeProblem,
         statuses: &[Status],
-        accepts_recent: bool,
+        accepts_recent_factors: bool,
     ) -> bool {
         if statuses.iter().all(|status| *status == Status::CLOSED_STICKING) {
             return self.solve_sticking(problem);
@@ -123,7 +123,9 @@ impl System {
         let are_displacements = self.prefers_displacements(problem, statuses);
         let is_factored = self.unknowns.are_displacements == are_displacements
             && (has_no_slip && self.is_reusable && self.factored_statuses == statuses
-                || accepts_recent && self.is_recent && self.has_factors_of_same_kinds(statuses));
+                || accepts_recent_factors
+                    && self.is_recent
+                    && self.has_factors_of_same_kinds(statuses));
         if !is_factored {
             self.is_reusable = false;
             self.is_recent = false;

@@ -2,10 +2,10 @@
 
 use crate::motion::STANDARD_GRAVITY;
 
-/// Ground acceleration above which the number is probably in cm/s²: six times gravity in m/s².
-const MIN_ACCELERATION_IN_CM: f64 = 60.0;
-/// Ground acceleration below which an unusual number is probably in g.
-const MAX_ACCELERATION_IN_G: f64 = 1.0;
+/// Number (m/s²) above which a ground acceleration is probably meant in cm/s²: six times gravity.
+const MAX_NUMBER_IN_M_PER_S2: f64 = 60.0;
+/// Number below which an unusual ground acceleration is probably meant in g.
+const MAX_NUMBER_IN_G: f64 = 1.0;
 /// Densities of usual soils, kg/m³.
 const USUAL_SOIL_DENSITIES: [f64; 2] = [1200.0, 3500.0];
 /// Speeds of shear waves in usual soils, m/s.
@@ -26,9 +26,9 @@ pub(crate) fn point_count_text(count: usize) -> String {
     if count == 1 { "1 point".into() } else { format!("{count} points") }
 }
 
-/// Text of the change of the static shape if the elements are halved; empty without one.
-pub(crate) fn refinement_text(difference: Option<f64>) -> String {
-    match difference {
+/// Text of the relative change of a base's static deformed shape if its elements are halved; empty for `None`.
+pub(crate) fn refinement_text(relative_change: Option<f64>) -> String {
+    match relative_change {
         Some(change) => format!(" (twice as many: {:.1} % of its static shape)", 100.0 * change),
         None => String::new(),
     }
@@ -37,8 +37,8 @@ pub(crate) fn refinement_text(difference: Option<f64>) -> String {
 /// Unit in which the value of a ground acceleration would be usual.
 pub(crate) fn likely_motion_unit(acceleration: f64) -> &'static str {
     match acceleration {
-        strong if strong > MIN_ACCELERATION_IN_CM => "cm/s²",
-        weak if weak < MAX_ACCELERATION_IN_G => "g",
+        strong if strong > MAX_NUMBER_IN_M_PER_S2 => "cm/s²",
+        weak if weak < MAX_NUMBER_IN_G => "g",
         _ => "another unit, or scaled twice",
     }
 }

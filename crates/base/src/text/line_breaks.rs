@@ -17,9 +17,9 @@ pub fn wrapped(
     'words: for word in text.split_whitespace() {
         let mut line_index = lines.len() - 1;
         if !lines[line_index].is_empty() {
-            // The last line contains the beginning of a word that does not fit.
-            let is_narrow = width(&format!("{} {word}", lines[line_index])) <= max_width;
-            if is_narrow || lines.len() == max_lines {
+            // A word that does not fit starts the next line, or on the last allowed line is truncated.
+            let word_fits = width(&format!("{} {word}", lines[line_index])) <= max_width;
+            if word_fits || lines.len() == max_lines {
                 lines[line_index].push(' ');
             } else {
                 lines.push(String::new());
@@ -48,7 +48,7 @@ pub fn wrapped(
     lines
 }
 
-/// Lines of a text with a limited number of characters, without control characters.
+/// Lines of a text, each of at most `max_characters` characters, without control characters.
 pub fn broken_lines(text: &str, max_characters: usize) -> Vec<String> {
     let printable_text =
         text.replace(|character: char| character.is_control() && !character.is_whitespace(), "");

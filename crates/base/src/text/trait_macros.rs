@@ -46,12 +46,12 @@ macro_rules! short_debug {
 /// Implements former names of associated constants, as deprecated: `former_constants! { Type { OLD: usize = NEW, "note"; } }`.
 #[macro_export]
 macro_rules! former_constants {
-    ($name:ty { $($old:ident: $type:ty = $new:ident, $note:literal;)+ }) => {
+    ($name:ty { $($former_name:ident: $type:ty = $name_now:ident, $note:literal;)+ }) => {
         impl $name {
             $(
-                #[doc = concat!("Former name of `", stringify!($new), "`.")]
+                #[doc = concat!("Former name of `", stringify!($name_now), "`.")]
                 #[deprecated(since = "0.5.0", note = $note)]
-                pub const $old: $type = Self::$new;
+                pub const $former_name: $type = Self::$name_now;
             )+
         }
     };

@@ -18,9 +18,9 @@ use crate::linalg::matrix::SparseMatrix;
 /// use basemat::Result;
 ///
 /// /// A block that carries a mass on a hardening spring: 1 MN/m and 10 GN/m³.
-/// struct Tuned(RigidBlock);
+/// struct TunedMass(RigidBlock);
 ///
-/// impl Structure for Tuned {
+/// impl Structure for TunedMass {
 ///     fn dofs(&self) -> usize {
 ///         self.0.dofs() + 1
 ///     }
@@ -43,7 +43,7 @@ use crate::linalg::matrix::SparseMatrix;
 ///     }
 /// }
 ///
-/// impl NonlinearForce for Tuned {
+/// impl NonlinearForce for TunedMass {
 ///     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
 ///         let hardening = 1.0e10 * (u[3] - u[0]).powi(3);
 ///         force[3] += hardening;
@@ -60,14 +60,14 @@ use crate::linalg::matrix::SparseMatrix;
 ///     }
 /// }
 ///
-/// let tuned = Tuned(RigidBlock::new(4.0, 6.0, 2000.0)?);
+/// let tuned = TunedMass(RigidBlock::new(4.0, 6.0, 2000.0)?);
 /// let mut force = [0.0; 4];
 /// tuned.force(&[0.0, 0.0, 0.0, 0.01], &mut force)?;
 /// assert!((force[3] - 1.0e4).abs() < 1.0e-8 && force[0] == -force[3]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub trait NonlinearForce {
-    /// Adds f(u) (n, N per metre of thickness) to `force`.
+    /// Adds f(u) (n values, N per metre of thickness) to `force`.
     ///
     /// # Errors
     /// Any error ends the step with `StepError::Part`, and nothing of the step is committed;
@@ -78,9 +78,10 @@ pub trait NonlinearForce {
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`.
     ///
-    /// The sparsity pattern never grows after the first call: entries that become zero are still written. Entries in the same
-    /// order at every call are found fastest. The tangent need not be symmetric: the time integration then factors by LU
-    /// instead of Cholesky, which takes longer.
+    /// Write at every call all entries that can ever be nonzero, also those that are zero now: when the sparsity pattern
+    /// grows, memory is allocated and the order of elimination is found again. Entries in the same order at every call
+    /// are found fastest. The tangent need not be symmetric: the time integration then factors by LU instead of Cholesky,
+    /// which takes longer.
     ///
     /// # Errors
     /// As for [`force`](NonlinearForce::force).
@@ -88,8 +89,8 @@ pub trait NonlinearForce {
 
     /// Whether the tangent is symmetric at every displacement. Default: yes.
     ///
-    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In plan `build` refuses it, since
-    /// contact there needs a symmetric compliance of the structure.
+    /// Sand whose dilation angle is below its friction angle has an unsymmetric tangent. In three dimensions, with
+    /// contact in plan, `build` refuses it, since that contact needs a symmetric compliance of the structure.
     fn has_symmetric_tangent(&self) -> bool {
         true
     }
@@ -105,9 +106,9 @@ pub trait NonlinearForce {
     /// Work of f inside a step that is neither stored nor dissipated. Default: `None`.
     ///
     /// The step leads from the committed displacement to `end`, with f evaluated at `midstep`. The work is
-    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy), from a formula of its own. In the
-    /// energy balance it counts as `midstep_remainder`, so that the residual checks force and energies. With `None` the
-    /// definition takes the place of the formula, and the work counts as algorithmic dissipation.
+    /// f(midstep)·(end − start) less the changes of [`energy`](NonlinearForce::energy); compute it by an
+    /// independent formula. In the energy balance it counts as `midstep_remainder`, so that the residual checks force
+    /// and energies. With `None` this difference itself is taken, and the work counts as algorithmic dissipation.
     fn remainder(&self, _midstep: &[f64], _end: &[f64]) -> Option<f64> {
         None
     }

@@ -32,10 +32,10 @@ impl LeadRubber {
     /// Default ratio of the initial stiffness to the stiffness after yield.
     pub const STIFFNESS_RATIO: f64 = 10.0;
 
-    /// Bearings by the dimensions of their rubber and lead cores.
+    /// Bearing by the dimensions of its rubber and lead cores.
     ///
     /// `shear_modulus` G of the rubber: Pa. `rubber_area` A: m². `rubber_thickness` t: total, m. `lead_area` of
-    /// the cores: m². Areas are per metre of thickness.
+    /// the cores: m². Areas are per metre of the structure's thickness, out of the plane.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless all are positive.
@@ -53,9 +53,9 @@ impl LeadRubber {
         Self::from_strength(rubber_stiffness, lead_area * Self::LEAD_YIELD_STRESS)
     }
 
-    /// Bearings with stiffness after yield K₂ (N/m) and characteristic strength Q (N).
+    /// Bearing with stiffness after yield K₂ (N/m) and characteristic strength Q (N).
     ///
-    /// Both per metre of thickness.
+    /// Both per metre of the structure's thickness.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless both are positive.
@@ -72,8 +72,8 @@ impl LeadRubber {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite and above 1.
     pub fn with_stiffness_ratio(mut self, ratio: f64) -> Result<Self> {
-        let needed = "finite and above 1";
-        require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, needed)?;
+        let requirement = "finite and above 1";
+        require("ratio of stiffnesses", ratio, ratio.is_finite() && ratio > 1.0, requirement)?;
         let lead_stiffness = (ratio - 1.0) * self.slider.parallel;
         self.slider.series = positive("first stiffness of the bearing", lead_stiffness)?;
         Ok(self)

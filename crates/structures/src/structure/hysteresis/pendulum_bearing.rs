@@ -5,7 +5,7 @@ use super::coupled_slider::CoupledSlider;
 use crate::error::Result;
 use crate::structure::InternalEnergy;
 
-/// Friction pendulum that supports the structure, with friction by the vertical force on it.
+/// Friction pendulum that supports the structure, with friction in proportion to the vertical force on it.
 ///
 /// [`FrictionPendulum::with_vertical_stiffness`](crate::structure::FrictionPendulum::with_vertical_stiffness) makes it;
 /// [`WithSprings::pendulum`](crate::structure::WithSprings::pendulum) attaches it. Its deformations d_x, d_y, d_z are
@@ -67,10 +67,10 @@ impl PendulumBearing {
     pub fn force(&self, deformation: [f64; 3]) -> [f64; 3] {
         let horizontal_deformation = horizontal(deformation);
         let vertical_force = self.vertical_force(deformation);
-        let friction = self.slider.response(horizontal_deformation).force;
+        let friction_force = self.slider.response(horizontal_deformation).force;
         [
-            friction[0] + vertical_force * horizontal_deformation[0] / self.radius,
-            friction[1] + vertical_force * horizontal_deformation[1] / self.radius,
+            friction_force[0] + vertical_force * horizontal_deformation[0] / self.radius,
+            friction_force[1] + vertical_force * horizontal_deformation[1] / self.radius,
             -vertical_force,
         ]
     }
