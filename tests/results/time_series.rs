@@ -173,8 +173,8 @@ fn thinned_histories_are_every_seventh_state() {
     for (k, &shear) in time_series.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
-    // Time, 13 scalars, 2 probes, 12 terms of the energy balance and its largest energy.
-    assert_eq!(all.bytes(), 8 * (1 + 13 + 2 + 13) * (STEP_COUNT + 1));
+    // Time, 13 scalars, 2 probes, 13 terms of the energy balance and its largest energy.
+    assert_eq!(all.bytes(), 8 * (1 + 13 + 2 + 14) * (STEP_COUNT + 1));
     assert!(time_series.bytes() < all.bytes());
     assert_eq!(time_series.contact_frames().count(), 21);
     let frames: Vec<_> = time_series.motion_frames().collect();

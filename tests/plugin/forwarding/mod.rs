@@ -194,6 +194,7 @@ fn boxed_elements_forward_all_methods() {
         part.damping(&[], &mut matrix);
         assert_eq!(matrix, [10.0 * MARKER_VALUE]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
+        assert!(part.inelastic().is_none());
         assert_eq!(part.compression(), Some(MARKER_VALUE));
         assert_eq!(part.density(), Some(MARKER_VALUE));
         assert!(part.with_nodes(&[6]).is_some() && part.with_nodes(&[5]).is_none());

@@ -4,7 +4,7 @@ use basemat::Result;
 use basemat::bem::ContactElement;
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
-use basemat::fem::{Direction, Element, ElementFace, MassKind};
+use basemat::fem::{Direction, Element, ElementFace, InelasticForce, MassKind};
 use basemat::motion::{FreeField, Record, RecordFormat};
 
 use super::recording_part::{MARKER_VALUE, RecordingPart, refusal};
@@ -97,6 +97,11 @@ impl Element for RecordingPart {
     fn in_static_state(&self, _: &[[f64; 3]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
         self.0.add("in_static_state");
         Some(Box::new(RecordingPart(self.0.clone())))
+    }
+
+    fn inelastic(&self) -> Option<&dyn InelasticForce> {
+        self.0.add("inelastic");
+        None
     }
 
     fn compression(&self) -> Option<f64> {

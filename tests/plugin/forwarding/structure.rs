@@ -129,6 +129,21 @@ impl NonlinearForce for RecordingStructure {
         Some(InternalEnergy { stored: displacement[0], dissipated: MARKER_VALUE })
     }
 
+    fn remainder(&self, midstep: &[f64], end: &[f64]) -> Option<f64> {
+        self.log.add("remainder");
+        Some(midstep[0] + end[1])
+    }
+
+    fn describe_state(&self, _: &[f64], dofs: &[usize]) -> Option<String> {
+        self.log.add("describe_state");
+        Some(format!("state at {dofs:?}"))
+    }
+
+    fn has_symmetric_tangent(&self) -> bool {
+        self.log.add("has_symmetric_tangent");
+        false
+    }
+
     fn commit(&mut self, _: &[f64]) {
         self.log.add("commit");
     }
@@ -180,6 +195,10 @@ fn call_methods(mut structure: impl Structure, dof: usize, damping: f64) {
     assert_eq!(tangent_entry, 4.0 * MARKER_VALUE);
     let energy = InternalEnergy { stored: 0.5, dissipated: MARKER_VALUE };
     assert_eq!(force.energy(&[0.5; 4]), Some(energy));
+    assert_eq!(force.remainder(&[0.5; 4], &[0.25; 4]), Some(0.75));
+    let state = force.describe_state(&[0.5; 4], &[1]).unwrap();
+    assert!(state.ends_with("state at [1]"), "{state}");
+    assert!(!force.has_symmetric_tangent());
     let variables = force.save().unwrap();
     assert!(variables.contains(&MARKER_VALUE));
     let force = structure.nonlinear_mut().unwrap();

@@ -221,7 +221,7 @@ fn a_diaphragm_ties_its_plane_only() {
     }
     assert_eq!(
         text(tower().with_rigid_diaphragm(3, &[2, 7])),
-        "rigid link: the nodes of a diaphragm must lie at one height"
+        "rigid link: the nodes of a diaphragm or a tie must lie at one height"
     );
     let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
     let plane = FemModel::on_base(plane).unwrap();
