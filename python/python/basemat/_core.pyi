@@ -2741,12 +2741,13 @@ class StrainCurves:
         ratios, ``dampings``.
         """
     @staticmethod
-    def masing(points: ArrayLike) -> StrainCurves:
+    def masing(points: ArrayLike, *, small_strain_damping: float = 0.0) -> StrainCurves:
         """Soil whose stress–strain loops follow Masing's rules on a backbone: the equivalent-linear approximation of `Iwan`.
 
         ``points``: array of shape (n, 2) of shear strain (engineering) and shear stress (Pa), such as ``Iwan.points``. The
         backbone is straight from the origin and between points, and constant beyond the last one. With the area A under it
-        up to the strain γ and its stress τ, the damping ratio is (2/π)(2A/(γτ) − 1).
+        up to the strain γ and its stress τ, the damping ratio is ``small_strain_damping`` + (2/π)(2A/(γτ) − 1).
+        ``small_strain_damping``: what soils have besides Masing's loops, often 0.005 to 0.02; 0 by default.
         """
     def iwan(self, shear_modulus: float, strength: float, poisson: float, density: float) -> Iwan:
         """The `Iwan` soil that yields along these curves up to a ``strength`` (Pa), with the ``shear_modulus`` G_max (Pa);
