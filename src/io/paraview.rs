@@ -1,6 +1,6 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, up to two per frame.
 //!
-//! The first grid of a frame is the structure. For a [`FemModel`](crate::structure::FemModel) its cells are the
+//! The first grid of a frame is the structure. For a [`FemModel`] its cells are the
 //! elements in their order: lines, triangles, quadrilaterals, bricks with eight corners, other solids as convex sets of
 //! points. Points have the vectors `displacement` (m, change from the static state, relative to the free field),
 //! `static_displacement` (m) and `velocity` (m/s, total). Apply *Warp By Vector* to see the structure move, to the sum
