@@ -145,9 +145,7 @@ impl Simulation {
         without_rigid_foundations(self.structure.as_ref())
     }
 
-    /// Returns the structure by value and drops the simulation.
-    ///
-    /// On a fixed base it is a structure with the stiffness of rigid foundations as well.
+    /// Returns the structure by value, on a fixed base within one that has rigid foundations.
     pub fn into_structure(self) -> Box<dyn Structure> {
         self.structure
     }

@@ -96,6 +96,7 @@ impl<S> WithYieldingSprings<S> {
     }
 
     /// The same without a remainder.
+    #[must_use]
     pub fn without_remainder(self) -> Self {
         Self { has_remainder: false, ..self }
     }
