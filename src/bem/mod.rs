@@ -97,9 +97,8 @@ use crate::soil::Soil;
 /// Parts without stiffness (dashpots, waves, creep) use the exact displacement under a constant traction.
 ///
 /// A run warns of an elastic part with s₁ = τ/k:
-/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). For this check `build` first prepares a ground
-/// of your own without waves for a step 64 times shorter, and may commit a traction. It then prepares the ground for the
-/// run.
+/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). For this check `build` prepares a ground of
+/// your own without waves for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
 ///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]

@@ -19,67 +19,53 @@ const ELASTIC_COMPLIANCE_RATIO: f64 = 0.8;
 /// The bed's ratio of step compliances is then below 0.63, so that the bed never counts as first order.
 const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 
-/// Response of a user's ground in a trial step, which may belong to an elastic part of first order.
+/// Whether an elastic part of the ground applies each traction at the end of its step.
 ///
-/// A ground of first order applies each traction at the end of its step: without waves and dashpots, its displacement
-/// there is s₁ = C τ.
-pub(crate) struct TrialResponse {
-    /// For each component of the contact, the sum of the displacements at the end of a first step, m.
-    ///
-    /// Zero for a component whose tractions act in mid-step.
-    displacements: Vec<f64>,
-}
-
-impl TrialResponse {
-    /// Prepares the ground for a trial step; it must be prepared again afterwards.
-    ///
-    /// `None` for a ground that is not of first order: grounds of the crate and with waves, which need no trial, and
-    /// grounds whose tractions act in mid-step. Also `None` for a ground that is not defined for the trial step.
-    pub(crate) fn of(
-        ground: &mut (dyn Ground + 'static),
-        description: &GroundDescription,
-        time_step: f64,
-        layout: ContactLayout,
-    ) -> Option<Self> {
-        if is_crate_ground(ground) || description.shear_wave_speed.is_some() {
-            return None;
-        }
-        // A ground may return an error for steps other than the run's.
-        ground.prepare(time_step / TRIAL_STEP_DIVISOR, Some(2), &mut unobserved).ok()?;
-        let mut displacements = uniform_response(ground, layout).ok()?;
-        ground.commit(&vec![1.0; layout.len()]);
-        let mut history = vec![0.0; layout.len()];
-        ground.history(&mut history).ok()?;
-        let past_displacements = component_sums(&history, layout);
-        for (displacement, past) in displacements.iter_mut().zip(past_displacements) {
-            let acts_at_end = past > PAST_DISPLACEMENT_RATIO * *displacement;
-            if !acts_at_end {
-                *displacement = 0.0;
-            }
-        }
-        displacements
-            .iter()
-            .any(|displacement| *displacement > 0.0)
-            .then_some(Self { displacements })
+/// Its displacement at the end of the step is then s₁ = C τ. Grounds of the crate and grounds with waves return `false`
+/// without a trial. The ground must be prepared again after this function.
+///
+/// # Errors
+/// If the ground cannot be prepared for the time step.
+pub(crate) fn is_first_order(
+    ground: &mut (dyn Ground + 'static),
+    description: &GroundDescription,
+    time_step: f64,
+    layout: ContactLayout,
+) -> Result<bool> {
+    if is_crate_ground(ground) || description.shear_wave_speed.is_some() {
+        return Ok(false);
     }
-
-    /// Whether the ground, prepared for its time step, has an elastic part of first order.
-    ///
-    /// # Errors
-    /// If the ground has no step compliance.
-    pub(crate) fn is_first_order(
-        &self,
-        ground: &dyn Ground,
-        layout: ContactLayout,
-    ) -> Result<bool> {
-        let step_displacements = uniform_response(ground, layout)?;
-        let mut pairs = step_displacements.iter().zip(&self.displacements);
-        Ok(pairs.any(|(step, trial)| *step > 0.0 && *trial >= ELASTIC_COMPLIANCE_RATIO * step))
+    let step_response = uniform_response(ground, time_step, layout)?;
+    // A ground may return an error for steps other than the run's.
+    let Ok(trial_response) = uniform_response(ground, time_step / TRIAL_STEP_DIVISOR, layout)
+    else {
+        return Ok(false);
+    };
+    let is_elastic: Vec<bool> = step_response
+        .iter()
+        .zip(&trial_response)
+        .map(|(step, trial)| *step > 0.0 && *trial >= ELASTIC_COMPLIANCE_RATIO * step)
+        .collect();
+    if !is_elastic.contains(&true) {
+        return Ok(false);
     }
+    ground.commit(&vec![1.0; layout.len()]);
+    let mut history = vec![0.0; layout.len()];
+    if ground.history(&mut history).is_err() {
+        return Ok(false);
+    }
+    let past_response = component_sums(&history, layout);
+    Ok((0..layout.components())
+        .any(|k| is_elastic[k] && past_response[k] > PAST_DISPLACEMENT_RATIO * trial_response[k]))
 }
 
 /// Sum over the elements of each displacement component (m) at the end of a first step with tractions of 1 Pa.
-fn uniform_response(ground: &dyn Ground, layout: ContactLayout) -> Result<Vec<f64>> {
+fn uniform_response(
+    ground: &mut dyn Ground,
+    time_step: f64,
+    layout: ContactLayout,
+) -> Result<Vec<f64>> {
+    ground.prepare(time_step, Some(2), &mut unobserved)?;
     if let Some(diagonal) = ground.diagonal_compliance()? {
         same_length(
             "diagonal step compliance of the ground",

@@ -6,14 +6,14 @@ use crate::bem::{Ground, GroundDescription, fill_free_field};
 use crate::contact::ContactSearch;
 use crate::coupled::base::fixed_base::on_fixed_base;
 use crate::coupled::builder::SimulationBuilder;
-use crate::coupled::ground_order::TrialResponse;
+use crate::coupled::ground_order::is_first_order;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::step_compliance::step_compliance;
 use crate::error::{
     Error, Result, all_finite, finite, memory, not_negative, positive, require, require_part,
     same_length,
 };
-use crate::geometry::{ContactLayout, Patch, check_count};
+use crate::geometry::{Patch, check_count};
 use crate::interface::{
     Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
@@ -46,14 +46,24 @@ pub(crate) struct Parts {
 impl Parts {
     /// Checks each part separately, and prepares the ground for time stepping.
     pub(crate) fn new(mut builder: SimulationBuilder) -> Result<Self> {
-        check_settings(&mut builder)?;
-        let time_step = builder.time_step;
-        let (mut structure, mut ground) = take_structure_and_ground(&mut builder)?;
+        let time_step = positive("time step", builder.time_step)?;
+        positive("square of the time step", time_step * time_step)?;
+        not_negative("gravity", builder.gravity)?;
+        builder.serviceability = builder.serviceability.checked()?;
+        let limit = builder.rotation_limit;
+        require("rotation limit", limit, limit > 0.0, "above zero (infinite: none)")?;
+        let needed = "give one to the builder with `structure`";
+        let missing_structure = Error::Scene { quantity: "structure", needed };
+        let mut structure = builder.structure.take().ok_or(missing_structure)?;
+        check_nonlinear_force(structure.as_mut())?;
+        let needed = "give one to the builder with `ground`";
+        let missing_ground = Error::Scene { quantity: "ground", needed };
+        let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
-        let layout = elements.layout();
+        let components = elements.layout().components();
         // For some grounds, whether they are a bed is determined only by the preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
-            check_count(elements.len(), layout.components())?;
+            check_count(elements.len(), components)?;
         }
         if builder.has_fixed_base {
             builder.laws = vec![Box::new(Bonded)];
@@ -64,7 +74,24 @@ impl Parts {
         let is_valid_stage =
             builder.has_fixed_base || !(elements.has_walls() && builder.starts_unloaded());
         require_part("gravity stage", is_valid_stage, needed)?;
-        check_interface(&mut builder, layout)?;
+        let layout = elements.layout();
+        let element_count = elements.len();
+        // The laws may rely on gravity only if there is pressure at the start.
+        let initial_gravity = if builder.has_static_loads() { builder.gravity } else { 0.0 };
+        check_laws(
+            &builder.laws,
+            builder.search,
+            &ContactScene { gravity: initial_gravity, time_step },
+            element_count,
+        )?;
+        if LawForm::of(layout) == LawForm::Limits {
+            check_limits(&builder)?;
+        }
+        builder.safety_friction_coefficients = safety_friction_coefficients(
+            &builder.laws,
+            builder.safety_friction_coefficients,
+            element_count,
+        )?;
         let dofs = structure.dofs();
         check_response_memory(dofs, layout.len())?;
         check_probes(&builder.probes, dofs)?;
@@ -73,22 +100,18 @@ impl Parts {
         coefficients.check()?;
         let center = elements.center();
         let moment_x = finite("moment center", builder.moment_center.unwrap_or(center[0]))?;
+        let moment_center = [moment_x, center[1]];
         // These checks precede the preparation of the ground, which can take long.
         let description = ground.description();
         let motion = builder.motion.as_ref();
         let initial_free_field =
             free_field_at_start(ground.as_ref(), &description, motion, &elements)?;
-        let trial_response = if builder.has_fixed_base {
-            None
-        } else {
-            TrialResponse::of(ground.as_mut(), &description, time_step, layout)
-        };
+        let is_first_order_ground = !builder.has_fixed_base
+            && is_first_order(ground.as_mut(), &description, time_step, layout)?;
         let expected_steps = Some(builder.expected_steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, expected_steps, &mut builder.observer)?;
         let step_compliance =
             Arc::new(step_compliance(ground.as_ref(), structure.as_ref(), &elements)?);
-        let is_first_order_ground = trial_response
-            .map_or(Ok(false), |trial| trial.is_first_order(ground.as_ref(), layout))?;
         Ok(Self {
             structure,
             ground,
@@ -99,46 +122,9 @@ impl Parts {
             step_compliance,
             is_first_order_ground,
             initial_free_field,
-            moment_center: [moment_x, center[1]],
+            moment_center,
         })
     }
-}
-
-/// Checks time step, gravity, serviceability limits and rotation limit.
-fn check_settings(builder: &mut SimulationBuilder) -> Result<()> {
-    let time_step = positive("time step", builder.time_step)?;
-    positive("square of the time step", time_step * time_step)?;
-    not_negative("gravity", builder.gravity)?;
-    builder.serviceability = builder.serviceability.checked()?;
-    let limit = builder.rotation_limit;
-    require("rotation limit", limit, limit > 0.0, "above zero (infinite: none)")?;
-    Ok(())
-}
-
-/// Moves structure and ground out of the builder; an error if one is missing.
-fn take_structure_and_ground(
-    builder: &mut SimulationBuilder,
-) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
-    let needed = "give one to the builder with `structure`";
-    let missing_structure = Error::Scene { quantity: "structure", needed };
-    let mut structure = builder.structure.take().ok_or(missing_structure)?;
-    check_nonlinear_force(structure.as_mut())?;
-    let needed = "give one to the builder with `ground`";
-    let missing_ground = Error::Scene { quantity: "ground", needed };
-    let ground = builder.ground.take().ok_or(missing_ground)?;
-    Ok((structure, ground))
-}
-
-/// Checks laws and contact search for all contact elements, and reads the friction coefficients.
-fn check_interface(builder: &mut SimulationBuilder, layout: ContactLayout) -> Result<()> {
-    // The laws may rely on gravity only if there is pressure at the start.
-    let initial_gravity = if builder.has_static_loads() { builder.gravity } else { 0.0 };
-    let scene = ContactScene { gravity: initial_gravity, time_step: builder.time_step };
-    check_laws(&builder.laws, builder.search, &scene, layout.elements())?;
-    if LawForm::of(layout) == LawForm::Limits {
-        check_limits(builder)?;
-    }
-    set_safety_friction_coefficients(builder, layout.elements())
 }
 
 /// Free-field displacement at t = 0.
@@ -225,26 +211,28 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     })
 }
 
-/// Sets the friction coefficients for the factor of safety against sliding.
+/// Friction coefficients for the factor of safety against sliding.
 ///
 /// The builder's coefficients replace the coefficients of the laws. The list has one coefficient for all elements, or one for
 /// each. It is empty if the builder has none and a law has none.
-fn set_safety_friction_coefficients(
-    builder: &mut SimulationBuilder,
+fn safety_friction_coefficients(
+    laws: &[Box<dyn InterfaceLaw>],
+    builder_coefficients: Vec<f64>,
     element_count: usize,
-) -> Result<()> {
-    let coefficients = &mut builder.safety_friction_coefficients;
-    if coefficients.is_empty() {
+) -> Result<Vec<f64>> {
+    let coefficients = if builder_coefficients.is_empty() {
         let law_coefficients: Option<_> =
-            builder.laws.iter().map(InterfaceLaw::friction_coefficient).collect();
-        *coefficients = law_coefficients.unwrap_or_default();
-    }
+            laws.iter().map(InterfaceLaw::friction_coefficient).collect();
+        law_coefficients.unwrap_or_default()
+    } else {
+        builder_coefficients
+    };
     if coefficients.len() > 1 {
         same_length("list of friction coefficients", coefficients.len(), element_count)?;
     }
-    for &value in &*coefficients {
+    for &value in &coefficients {
         // Infinity is a valid coefficient.
         require("friction coefficient", value, value >= 0.0, "zero or more")?;
     }
-    Ok(())
+    Ok(coefficients)
 }
