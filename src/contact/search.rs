@@ -292,7 +292,7 @@ impl ModeSearch {
             let mut is_admissible = self.update_next_modes(input, modes)?;
             let mut motion = self.move_tangents(input, modes, &mut linearisation)?;
             if is_admissible && motion == LineMotion::Shifted {
-                motion = self.correct(input, modes, motion, &mut linearisation)?;
+                motion = self.correct(input, modes, &mut linearisation)?;
                 is_admissible = self.update_next_modes(input, modes)?;
             }
             if motion != LineMotion::None {

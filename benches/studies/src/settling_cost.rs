@@ -38,10 +38,10 @@ const SHORT_RANGE: f64 = 0.1;
 /// Samples of the record before its strong part.
 const WEAK_SAMPLES: usize = 70;
 const STEP_COUNT: usize = 1500;
-/// Each time is the smallest of as many runs, in turns with those of the other laws.
+/// Each time is the smallest of this many runs. The runs of the laws alternate.
 const REPETITION_COUNT: usize = 7;
 
-/// CellCase below the block.
+/// Cells below the block.
 #[derive(Debug, Clone, Copy)]
 enum CellCase {
     /// In the plane.

@@ -125,20 +125,21 @@ impl ModeSearch {
 
     /// Corrects the last trial until its pressures are on the curves, while lines only shift.
     ///
-    /// `motion`: of the lines after the trial; returns their last motion.
+    /// Returns the last motion of the lines, which have shifted after the trial.
     pub(super) fn correct(
         &mut self,
         input: &ContactInput<'_>,
         modes: &[Mode],
-        mut motion: LineMotion,
         linearisation: &mut Linearisation,
     ) -> Result<LineMotion, LawError> {
-        while motion == LineMotion::Shifted {
+        loop {
             self.trials += 1;
             self.solver.correct(input, modes);
-            motion = self.move_tangents(input, modes, linearisation)?;
+            let motion = self.move_tangents(input, modes, linearisation)?;
+            if motion != LineMotion::Shifted {
+                return Ok(motion);
+            }
         }
-        Ok(motion)
     }
 
     /// Solution of an element in a mode, with its line in place of the curve; `gap_offset`: its gap when closed, m.

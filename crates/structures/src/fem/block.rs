@@ -1,9 +1,10 @@
 //! Rectangular meshes of eight-node quadrilaterals between given lines.
 
+use super::layer::check_grid_lines;
 use super::mesh::Mesh;
 use super::quad8::Quad8;
 use super::solid::SharedMaterial;
-use crate::error::{Result, at_least, finite, memory, positive};
+use crate::error::{Result, at_least, memory};
 
 /// Bytes of an eight-node quadrilateral in a mesh, of its three nodes, and of its entry of the map of elements.
 const BYTES_PER_ELEMENT: f64 = 900.0;
@@ -43,12 +44,7 @@ impl Mesh {
     ) -> Result<Self> {
         for lines in [x, y] {
             at_least("grid lines of the block", lines.len(), 2)?;
-            for &line in lines {
-                finite("grid line of the block", line)?;
-            }
-            for pair in lines.windows(2) {
-                positive("distance between grid lines", pair[1] - pair[0])?;
-            }
+            check_grid_lines(lines, "distance between grid lines")?;
         }
         let element_count = (x.len() - 1) as f64 * (y.len() - 1) as f64;
         memory::check("elements of the block", element_count, BYTES_PER_ELEMENT * element_count)?;

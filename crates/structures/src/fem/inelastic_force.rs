@@ -67,8 +67,8 @@ pub trait InelasticForce: Send + Sync {
     /// Work of the force inside a step that is neither stored nor dissipated, J (in the plane per metre).
     ///
     /// It is f(`midstep`)·(`end` − `start`) less the changes of [`energy`](InelasticForce::energy) from `start`, the
-    /// committed displacement, to `end`; `displacements` are start, midstep and end. Compute it from a formula of its own where there is one: the energy balance of
-    /// a run then checks force and energies.
+    /// committed displacement, to `end`; `displacements` are start, midstep and end. Compute it from a separate formula
+    /// where there is one: the energy balance of a run then checks force and energies.
     ///
     /// # Errors
     /// As for [`force`](InelasticForce::force).

@@ -72,12 +72,7 @@ impl Mesh {
     pub fn graded_block(grid: &[f64], layers: &[Layer]) -> Result<Self> {
         at_least("grid lines of the block", grid.len(), 2)?;
         at_least("layers of the block", layers.len(), 1)?;
-        for &line in grid {
-            finite("grid line of the block", line)?;
-        }
-        for pair in grid.windows(2) {
-            positive("width of a column", pair[1] - pair[0])?;
-        }
+        check_grid_lines(grid, "width of a column")?;
         check_memory(grid.len() - 1, layers)?;
         let mut mesh = Self::new();
         add_row(&mut mesh, grid, 0.0)?;
@@ -98,6 +93,17 @@ impl Mesh {
         }
         Ok(mesh)
     }
+}
+
+/// Returns an error unless grid lines are finite and ascend; `distance_name` names their distance in it.
+pub(super) fn check_grid_lines(lines: &[f64], distance_name: &'static str) -> Result<()> {
+    for &line in lines {
+        finite("grid line of the block", line)?;
+    }
+    for pair in lines.windows(2) {
+        positive(distance_name, pair[1] - pair[0])?;
+    }
+    Ok(())
 }
 
 /// Bytes of a quadrilateral in a mesh, of a node, and of an entry of the map of elements.

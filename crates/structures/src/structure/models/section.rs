@@ -103,7 +103,8 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) when a number is not finite, when no node lies at `height`, when no
-    /// element lies above it, or when an element crosses it; [`Error::Scene`](crate::Error::Scene) for a mesh in the
+    /// element lies above it, or when an element crosses it; [`Error::Part`](crate::Error::Part) when an element above
+    /// it has internal variables; [`Error::Scene`](crate::Error::Scene) for a mesh in the
     /// plane, for which [`section`](FemModel::section) exists.
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
         require_part(
