@@ -17,6 +17,7 @@
 extern crate basemat_base;
 
 mod block;
+mod block_lu;
 mod complex;
 mod condition;
 mod dense;
