@@ -26,10 +26,9 @@ impl PlacedBase {
         check_count(element_count, ground_layout.components())?;
         self.layout = ContactLayout::new(ground_layout.components(), element_count);
         let mut rows = vec![SparseVector::new(); self.layout.len()];
-        if let Rows::Sparse(ground_rows) = self.rows {
-            for (i, row) in ground_rows.into_iter().enumerate() {
-                let [component, e] = ground_layout.origin(i);
-                rows[self.layout.place(component, e)] = row;
+        if let Rows::Sparse(ground_rows) = &self.rows {
+            for (i, row) in ground_rows.iter().enumerate() {
+                rows[self.contact_index(i)].clone_from(row);
             }
         }
         for joint in &self.joints {
@@ -82,6 +81,12 @@ impl PlacedBase {
         gaps
     }
 
+    /// Index in a contact vector of an entry of the ground's elements.
+    fn contact_index(&self, ground_index: usize) -> usize {
+        let [component, element] = self.elements.layout().origin(ground_index);
+        self.layout.place(component, element)
+    }
+
     /// Copies the entries of the ground's elements out of a contact vector.
     pub(crate) fn copy_ground_part(&self, contact: &[f64], ground: &mut [f64]) {
         if self.joints.is_empty() {
@@ -123,8 +128,7 @@ impl PlacedBase {
         let ground_layout = self.elements.layout();
         let mut ground = vec![0.0; ground_layout.square()];
         for (i, row) in ground.chunks_exact_mut(ground_layout.len()).enumerate() {
-            let [component, e] = ground_layout.origin(i);
-            let first = self.layout.place(component, e) * self.layout.len();
+            let first = self.contact_index(i) * self.layout.len();
             self.copy_ground_part(&whole[first..first + self.layout.len()], row);
         }
         Cow::Owned(ground)
@@ -138,8 +142,7 @@ impl PlacedBase {
         let mut whole = vec![0.0; self.layout.square()];
         let ground_layout = self.elements.layout();
         for (i, row) in ground.chunks_exact(ground_layout.len()).enumerate() {
-            let [component, e] = ground_layout.origin(i);
-            let first = self.layout.place(component, e) * self.layout.len();
+            let first = self.contact_index(i) * self.layout.len();
             self.set_ground_part(row, &mut whole[first..first + self.layout.len()]);
         }
         whole

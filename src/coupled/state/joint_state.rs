@@ -3,6 +3,7 @@
 use super::transition::Transition;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::joint_line::PlacedJoint;
+use crate::geometry::{ContactElement, far_ends, middle};
 use crate::interface::{ContactState, Mode};
 
 /// Contact, forces and motion of one joint.
@@ -87,15 +88,14 @@ impl JointState {
         let areas = &base.areas()[joint.elements.clone()];
         let elements = joint.line.elements();
         let length: f64 = areas.iter().sum();
-        let middle = 0.5 * (elements[0].span()[0] + elements[elements.len() - 1].span()[1]);
+        let joint_middle = middle(far_ends(elements.iter().map(ContactElement::span)));
         let mut sums = Self::default();
         for ((element, area), (state, mode)) in
             elements.iter().zip(areas).zip(self.contact.iter().zip(&self.modes))
         {
-            let [start, end] = element.span();
             sums.normal_force += area * state.pressure;
             sums.shear_force += area * state.shear;
-            sums.moment -= area * state.pressure * (0.5 * (start + end) - middle);
+            sums.moment -= area * state.pressure * (middle(element.span()) - joint_middle);
             sums.mean_slip += area * state.slip / length;
             sums.largest_gap = sums.largest_gap.max(state.gap);
             if !mode.is_closed() {

@@ -238,13 +238,13 @@ impl State {
 
     /// Copies the modes of all elements, of the ground and then of the joints.
     pub(crate) fn copy_modes(&self, modes: &mut [Mode]) {
-        let (ground_modes, mut joint_modes) = modes.split_at_mut(self.modes.len());
-        ground_modes.copy_from_slice(&self.modes);
-        for joint in &self.joints {
-            let (modes, others) = joint_modes.split_at_mut(joint.modes.len());
-            modes.copy_from_slice(&joint.modes);
-            joint_modes = others;
-        }
+        let ground_count = self.modes.len();
+        modes[..ground_count].copy_from_slice(&self.modes);
+        let joint_modes = self.joints.iter().flat_map(|joint| &joint.modes);
+        modes[ground_count..]
+            .iter_mut()
+            .zip(joint_modes)
+            .for_each(|(copy, mode)| *copy = *mode);
     }
 
     /// Contact and mode of each element, of the ground and then of the joints.
