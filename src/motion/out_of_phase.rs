@@ -330,7 +330,7 @@ mod tests {
         }
     }
 
-    /// GOAL: W and V are continuous where the moments replace the samples, and V is the slope of W everywhere.
+    /// W and V are continuous where the moments replace the samples, and V is the slope of W everywhere.
     #[test]
     fn samples_and_moments_agree_at_their_boundary() {
         let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
