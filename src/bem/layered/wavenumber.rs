@@ -138,6 +138,7 @@ pub(crate) struct StripWorkspace {
 pub(super) struct IntegralBuffers {
     /// C at the points of the widest panels.
     pub(super) samples: Vec<(Panel, [SurfaceCompliance; PANEL_POINTS])>,
+    /// Integrals so far, block by block of pairs.
     sums: Vec<Sums>,
     /// Stack of panels to be sampled.
     pub(super) panel_stack: Vec<Panel>,
