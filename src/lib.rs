@@ -97,8 +97,8 @@
 //! | what | how |
 //! |---|---|
 //! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; in plan of the whole body: N, N·m, kg; tractions in Pa |
-//! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; kernels alone use z down |
-//! | rotations, moments | positive counter-clockwise; in plan vectors by the right-hand rule: `base_moment` and `base_rotation` about y, `moment_across` and `rotation_across` about x, `torque` and `twist` about z ([`coupled::State::moment_vector`]) |
+//! | axes | x to the right, y up, the soil at y ≤ 0; in plan x to the right, y away, z up; fundamental solutions and waves in the soil use z down |
+//! | rotations, moments | positive counter-clockwise; in plan they are vectors by the right-hand rule: `base_moment` and `base_rotation` about y, `moment_across` and `rotation_across` about x, `torque` and `twist` about z ([`coupled::State::moment_vector`]) |
 //! | settlement | positive downwards, of a foundation's centre since the static state |
 //! | pressure | positive in compression |
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
@@ -126,7 +126,7 @@
 //! | [`bem::layered`] | convolution weights of layered ground, impedances of strips on it |
 //! | [`bem::plan`] | mats in three dimensions: cells of a ground, impedances |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
-//! | [`history`] | the convolution with all past tractions, its kinds and their choice |
+//! | [`history`] | the convolution with all past tractions, its methods and the choice among them |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
 //!
@@ -142,7 +142,7 @@
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
-//! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground and in plan, on all processors |
+//! | `rayon` | [`sweep::Sweep`], and convolution weights of layered ground and of ground in plan, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
 //! | `npz` | [`results::TimeSeries`] as an archive of NumPy's arrays |
 //!
@@ -161,9 +161,9 @@
 //! | for a … of your own | implement | methods needed |
 //! |---|---|---|
 //! | structure | [`structure::Structure`] | 4 |
-//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with a memory |
+//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with internal variables |
 //! | finite element | [`fem::Element`] | 4 |
-//! | spring with a memory | [`structure::Hysteresis`] | 6 |
+//! | spring with internal variables | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |

@@ -10,7 +10,7 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::Model;
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::model::mechanism::unresisted;
+use crate::coupled::model::mechanism::unresisted_mechanism;
 use crate::coupled::model::operators::{Operators, StiffnessFactorization};
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
@@ -157,7 +157,8 @@ fn singularity_cause(
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let mechanism = sum.and_then(|sum| unresisted(structure, &sum, [&**damping, &**mass]));
+    let mechanism =
+        sum.and_then(|sum| unresisted_mechanism(structure, &sum, [&**damping, &**mass]));
     mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 

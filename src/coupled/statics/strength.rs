@@ -102,7 +102,7 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     }
 }
 
-/// Smaller one of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
+/// Smaller of a bond's tensile and shear strength on an element at rest, Pa; `None` without bonds.
 ///
 /// `pressure` is the mean pressure, Pa. A law without limits has no bond strength.
 pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64> {
@@ -121,7 +121,7 @@ pub(crate) fn compliance_at_rest(law: &dyn InterfaceLaw) -> [f64; 2] {
 
 /// Limits of a law on an element that has not moved.
 ///
-/// A law without limits has the default ones. The build has reported such a law before, where it is an error.
+/// A law without limits has the default limits. Where such a law is an error, the build has already returned it.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
     let under_pressure = ContactState { pressure, ..ContactState::default() };
     let start = PreviousContact::new(under_pressure, Mode::Stick, TRIAL_TIME_STEP);
