@@ -335,8 +335,8 @@ impl SimulationBuilder {
 
     /// Fixes the base: each foundation moves rigidly with its free field.
     ///
-    /// Design codes and fixed-base models assume this. Of the ground only the positions of the contact elements are used,
-    /// and of the interface law nothing. Base shear, moment and tractions then act on the support.
+    /// Design codes and fixed-base models assume this. Of the ground only the positions of the contact elements are
+    /// used, and of the interface law nothing. Base shear, moment and tractions then act on the support.
     /// [`interaction`](crate::analyses::interaction()) compares the run with the run on the ground.
     ///
     /// ```

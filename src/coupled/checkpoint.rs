@@ -168,8 +168,8 @@ impl Simulation {
 
     /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
     ///
-    /// Apart from the changes the function is [`Simulation::resume`]. Use it, for example, to continue with another friction or
-    /// another motion, which the label names.
+    /// Apart from the changes the function is [`Simulation::resume`]. Use it, for example, to continue with another
+    /// friction or another motion, which the label names.
     ///
     /// # Errors
     /// As for [`Simulation::resume`], for a difference outside the `changes`.

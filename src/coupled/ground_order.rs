@@ -21,8 +21,8 @@ const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 
 /// Whether an elastic part of the ground applies each traction at the end of its step.
 ///
-/// The displacement of the part at the end of a first step is then s₁ = C τ. Grounds of the crate and grounds with waves return `false`
-/// without a trial. The ground must be prepared again after this function.
+/// The displacement of the part at the end of a first step is then s₁ = C τ. Grounds of the crate and grounds with
+/// waves return `false` without a trial. The ground must be prepared again after this function.
 ///
 /// # Errors
 /// If the ground cannot be prepared for the time step.

@@ -16,10 +16,10 @@
 //! jump = gap₀ + (s_ff − y) + h + G¹ τ − B (u₀ + Δu)
 //! ```
 //!
-//! where v_y is the velocity of y, B computes element means of the base displacement from degrees of freedom (normal components down), A
-//! contains the element lengths, h is the convolution history of all earlier tractions, and `s_ff` the free field.
-//! K R = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus the tangential
-//! components. Eliminating Δu leaves one linear relation between jumps and tractions,
+//! where v_y is the velocity of y, B computes element means of the base displacement from degrees of freedom (normal
+//! components down), A contains the element lengths, h is the convolution history of all earlier tractions, and `s_ff`
+//! the free field. K R = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus
+//! the tangential components. Eliminating Δu leaves one linear relation between jumps and tractions,
 //!
 //! ```text
 //! jump = j_free + W τ,     W = G¹ + B K_eff⁻¹ Bᵀ A     (Delassus operator, 2Q × 2Q)
@@ -34,11 +34,11 @@
 //! 4. increment: the response Δu to τ; nothing is committed so far;
 //! 5. energy balance (`step/energy_accumulator.rs`), state (`step/advance.rs`); ground and structure commit the increment.
 //!
-//! For a linear structure W is computed once. For a nonlinear structure Newton's method repeats steps 2 and 3,
-//! with a new W whenever the tangent changes. Where a full step of the iteration does not reduce the out-of-balance
-//! force, a search along the increment shortens it (`step/increment_search.rs`). A step that does not converge returns
-//! [`StepError::Newton`] with the largest out-of-balance force and the state of the structure there. The simulation then
-//! stays at the last accepted step.
+//! For a linear structure W is computed once. For a nonlinear structure Newton's method repeats steps 2 and 3, with a
+//! new W whenever the tangent changes. Where a full step of the iteration does not reduce the out-of-balance force, a
+//! search along the increment shortens it (`step/increment_search.rs`). A step that does not converge returns
+//! [`StepError::Newton`] with the largest out-of-balance force and the state of the structure there. The simulation
+//! then stays at the last accepted step.
 //!
 //! # Mode search
 //!

@@ -61,8 +61,8 @@ impl Parts {
         let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
-        // A dense step compliance limits the number of elements. A ground that returns an error here is checked after its
-        // preparation.
+        // A dense step compliance limits the number of elements. A ground that returns an error here is checked after
+        // its preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
             check_count(elements.len(), components)?;
         }

@@ -23,8 +23,8 @@ const STEP_COMPLIANCE_NAME: &str = "step compliance of the ground";
 
 /// Step compliance of a ground, for tractions inside the outline.
 ///
-/// The result is a diagonal for a bed of independent springs under a base of few rigid bodies, otherwise a matrix. A ground
-/// that could generate energy is an error.
+/// The result is a diagonal for a bed of independent springs under a base of few rigid bodies, otherwise a matrix. A
+/// ground that could generate energy is an error.
 pub(crate) fn step_compliance(
     ground: &dyn Ground,
     structure: &dyn Structure,

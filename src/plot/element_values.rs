@@ -16,8 +16,8 @@ const SECTION_CLASSES: f64 = 10.0;
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
 /// its corners ([`FemModel::shell_resultants`](crate::structure::FemModel::shell_resultants)). `quantity` is the name
-/// and unit of the values, for the key. Every shell has the colour of its value, in classes on both sides of zero. Other
-/// elements are not drawn.
+/// and unit of the values, for the key. Every shell has the colour of its value, in classes on both sides of zero.
+/// Other elements are not drawn.
 ///
 /// ```
 /// use basemat::fem::{Material, Mesh, Shell};

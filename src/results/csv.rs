@@ -37,8 +37,8 @@ impl TimeSeries {
 
     /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
     ///
-    /// The text has a heading and a line for every frame and element. Elements count from 0, and each line has the ends of
-    /// its element.
+    /// The text has a heading and a line for every frame and element. Elements count from 0, and each line has the ends
+    /// of its element.
     ///
     /// ```
     /// # use basemat::bem::SpringGround;

@@ -55,8 +55,9 @@ impl DeformedShape {
     /// and 8 or 9 a quadrilateral with the corners first; other numbers a polygon.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) without points or for an empty cell,
-    /// [`Error::Index`](crate::Error::Index) for a cell with a point that does not exist, [`Error::Input`](crate::Error::Input) for a number that is not finite.
+    /// [`Error::Size`](crate::Error::Size) without points or for an empty cell, [`Error::Index`](crate::Error::Index)
+    /// for a cell with a point that does not exist, [`Error::Input`](crate::Error::Input) for a number that is not
+    /// finite.
     pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
         at_least("points of a deformed shape", points.len(), 1)?;
         for point in &points {

@@ -12,8 +12,8 @@ impl TimeSeries {
     /// which does not affect a spectrum. A floor's vibration should have ten steps or more in its period.
     ///
     /// # Errors
-    /// [`Error::Name`](crate::Error::Name) if no probe has this name; [`Error::Scene`](crate::Error::Scene) if the probe
-    /// contains displacements or velocities, or if not every step is kept; as for [`Record::new`].
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name; [`Error::Scene`](crate::Error::Scene) if the
+    /// probe contains displacements or velocities, or if not every step is kept; as for [`Record::new`].
     pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
         let index = self.probe_index(probe)?;
         let Probe { displacement, velocity, acceleration, .. } = &self.probes[index];

@@ -55,9 +55,10 @@
 //! # Memory
 //!
 //! Results that are not requested use no memory. Scalar time series take 28 numbers, in plan 39, and one per probe at
-//! every kept step (224 kB for 1000 steps in the plane). Contact and motion frames are off by default, see [`TimeSeries::bytes`]. All of
-//! them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores numbers per element and the
-//! slip events. Its peaks, envelopes and events cover all steps, even if the time series keep only some.
+//! every kept step (224 kB for 1000 steps in the plane). Contact and motion frames are off by default, see
+//! [`TimeSeries::bytes`]. All of them together keep to the [limit](crate::memory_limit) of memory. A [`Run`] stores
+//! numbers per element and the slip events. Its peaks, envelopes and events cover all steps, even if the time series
+//! keep only some.
 //!
 //! # Conventions
 //!

@@ -49,9 +49,9 @@ impl Recorder {
 
     /// Keeps scalars of each foundation too.
     ///
-    /// This is needed if there are several foundations or a moment center is set; otherwise the scalars of the whole base
-    /// are those of the foundation. They are kept at the steps of the other scalars. Each foundation takes as much memory as the whole base. See
-    /// [`TimeSeries::foundation_series`](super::TimeSeries::foundation_series).
+    /// This is needed if there are several foundations or a moment center is set; otherwise the scalars of the whole
+    /// base are those of the foundation. They are kept at the steps of the other scalars. Each foundation takes as much
+    /// memory as the whole base. See [`TimeSeries::foundation_series`](super::TimeSeries::foundation_series).
     #[must_use]
     pub fn foundations(self) -> Self {
         Self { foundations: true, ..self }

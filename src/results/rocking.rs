@@ -175,9 +175,9 @@ impl Rocking<'_> {
 
 /// Equivalent viscous damping ratio of one measured cycle of rotations (rad) and moments, ξ = E/(2π M θ).
 ///
-/// E is the area of the polygon of the measured points, positive if the points run clockwise in a diagram of moment over
-/// rotation. M and θ are half the ranges. Moments may have any unit. [`Rocking::equivalent_damping`] computes the damping
-/// of a simulated cycle.
+/// E is the area of the polygon of the measured points, positive if the points run clockwise in a diagram of moment
+/// over rotation. M and θ are half the ranges. Moments may have any unit. [`Rocking::equivalent_damping`] computes the
+/// damping of a simulated cycle.
 ///
 /// ```
 /// use basemat::results::equivalent_damping;

@@ -17,7 +17,8 @@ use crate::text::file::{make_folder_of, replace_file, write_error};
 ///
 /// While cases run, their rows are in the file with `.part` at the end of its name, as for
 /// [`Sweep::table_in`](super::Sweep::table_in). The file has a column for each result of any case, and a column
-/// `warnings` if any case has warnings. A result that a case does not have is NaN. Two processes must not append to the same file.
+/// `warnings` if any case has warnings. A result that a case does not have is NaN. Two processes must not append to the
+/// same file.
 ///
 /// ```
 /// use basemat::sweep::{Parameter, Sweep};

@@ -16,11 +16,11 @@ impl Sweep<'_> {
     /// A process that was killed and started again continues where it stopped; if the table is complete, it
     /// is only read.
     ///
-    /// While cases run, their rows are in a file whose name is `path` with `.part` at its end. When it has all rows, `path`
-    /// itself is written at once and the other file removed. Cases with a row in either file are not
-    /// run again, nor are failed cases. To run a case again, delete its row and the check sum in the first line of
-    /// `path`. After a change of the computation itself, delete both files. Two processes must not use the same
-    /// file. Progress ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
+    /// While cases run, their rows are in a file whose name is `path` with `.part` at its end. When it has all rows,
+    /// `path` itself is written at once and the other file removed. Cases with a row in either file are not run again,
+    /// nor are failed cases. To run a case again, delete its row and the check sum in the first line of `path`. After a
+    /// change of the computation itself, delete both files. Two processes must not use the same file. Progress
+    /// ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
     /// As for [`Sweep::table`]; [`Error::File`](crate::Error::File) if the file of rows cannot be opened.

@@ -22,10 +22,10 @@ use crate::structure::nonlinear_state;
 
 /// Static state under the weight and the loads at t = 0; without gravity the state without forces.
 ///
-/// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance of
-/// the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
-/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on its
-/// ground is an error in every gravity stage, since it would overturn during the run.
+/// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance
+/// of the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
+/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on
+/// its ground is an error in every gravity stage, since it would overturn during the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,

@@ -56,8 +56,8 @@ impl FixedBaseResults {
         shifted_stiffness: Option<&'a ShiftedStiffnessFactor>,
     ) -> Option<&'a SparseMatrix> {
         let stiffness = shifted_stiffness?.positive_definite()?;
-        // For a condensed structure the factor is that of the condensed stiffness. The remaining part of K, which has been
-        // factored with a fixed base, is positive definite too.
+        // For a condensed structure the factor is that of the condensed stiffness. The remaining part of K, which has
+        // been factored with a fixed base, is positive definite too.
         Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 

@@ -16,10 +16,10 @@ const MIN_WEIGHT_INCREMENT: f64 = 1.0 / 64.0;
 
 /// Follows the static state while the weight grows, after a search under the whole weight has failed.
 ///
-/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium. The
-/// path starts from the state and contact without weight. If it ends before the whole weight, the error is
-/// [`StabilityError::Toppling`]. The function returns the failed search's `error` if this error has a known cause, if no
-/// part of the weight has an equilibrium, and for a structure that is condensed or has no P–Δ.
+/// Under the whole weight a structure with P–Δ tilts before the soil resists, and a search may pass the equilibrium.
+/// The path starts from the state and contact without weight. If it ends before the whole weight, the error is
+/// [`StabilityError::Toppling`]. The function returns the failed search's `error` if this error has a known cause, if
+/// no part of the weight has an equilibrium, and for a structure that is condensed or has no P–Δ.
 pub(super) fn state_under_growing_weight(
     problem: &StaticProblem<'_>,
     laws: &[Box<dyn InterfaceLaw>],

@@ -52,9 +52,9 @@ pub(super) fn settle(
 
 /// Error for state variables that change at rest by more than rounding.
 ///
-/// The state variables of an element with almost no pressure may be rounding themselves. The change is therefore relative
-/// to the larger of two numbers: the variable, and the largest change of the same variable in any element since
-/// `initial_values`.
+/// The state variables of an element with almost no pressure may be rounding themselves. The change is therefore
+/// relative to the larger of two numbers: the variable, and the largest change of the same variable in any element
+/// since `initial_values`.
 fn check_settled(initial_values: &[f64], start: &PreviousContacts, values: &[f64]) -> Result<()> {
     let ends = start.state_variable_ends();
     let count_of = |element: usize| ends[element] - if element > 0 { ends[element - 1] } else { 0 };

@@ -105,9 +105,10 @@ impl StepResponses {
 
     /// Weakest response: the smallest of the largest displacements of some outputs.
     ///
-    /// The response is at most about 1, which is that of a row of unit energy norm to the force of the same row. The row of a section force has
-    /// a large norm because of the stiffness at the section, and small responses to distant tractions. Directions that the
-    /// modes do not contain cause errors relative to the norms. These errors are larger relative to a small response.
+    /// The response is at most about 1, which is that of a row of unit energy norm to the force of the same row. The
+    /// row of a section force has a large norm because of the stiffness at the section, and small responses to distant
+    /// tractions. Directions that the modes do not contain cause errors relative to the norms. These errors are larger
+    /// relative to a small response.
     pub(crate) fn weakest_response(&self, outputs: Range<usize>) -> f64 {
         let mut max_values = vec![0.0_f64; outputs.len()];
         for responses in self.displacements.chunks_exact(self.output_count.max(1)) {

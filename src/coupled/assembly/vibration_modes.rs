@@ -40,7 +40,8 @@ pub(crate) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let max_eigenvalue = largest(&values);
     let rounding = ZERO_EIGENVALUE_RATIO * max_eigenvalue;
     let rigid_count = values.iter().filter(|value| value.abs() <= rounding).count();
-    // An eigenvalue below the rounding belongs to a rigid motion. More such eigenvalues than rigid motions are an error.
+    // An eigenvalue below the rounding belongs to a rigid motion. More such eigenvalues than rigid motions are an
+    // error.
     let nonzero_values = values.iter().map(|v| v.abs()).filter(|v| *v > rounding);
     let min_eigenvalue = nonzero_values.fold(max_eigenvalue, f64::min);
     let mut parts = Partition::new(order);

@@ -97,8 +97,8 @@ impl ZeroMeanShape {
         let Compliance { factor, traction_responses, delassus } = compliance.as_ref()?;
         let mut spring_matrix = factored_spring_matrix(&moduli, delassus, ground.compliance)?;
         let mut traction = vec![0.0; layout.len()];
-        // The initial vector has entries of mixed signs and magnitudes. The iteration ends some per cent above the smallest
-        // ratio.
+        // The initial vector has entries of mixed signs and magnitudes. The iteration ends some per cent above the
+        // smallest ratio.
         let mut shape: Vec<f64> = (0..dofs).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut stiffness_ratio = f64::INFINITY;
         for _ in 0..MAX_POWER_ITERATIONS {
@@ -149,8 +149,8 @@ fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize
 
 /// Factored matrix 1 + MEAN_SPRING_FACTOR · modulus · D, with the structure's part D of the Delassus operator.
 ///
-/// The right-hand sides are the element means without springs, times MEAN_SPRING_FACTOR · modulus. The solutions are the
-/// tractions of springs that fix the element means.
+/// The right-hand sides are the element means without springs, times MEAN_SPRING_FACTOR · modulus. The solutions are
+/// the tractions of springs that fix the element means.
 fn factored_spring_matrix(
     moduli: &[f64],
     delassus: &[f64],

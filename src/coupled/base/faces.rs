@@ -193,8 +193,8 @@ impl<'a> DividedFaces<'a> {
 
     /// Integration points for the elements of a mat.
     ///
-    /// They are the Gauss points of the mat's faces. An element that contains fewer than four of these has the 2 × 2 Gauss
-    /// points of the element instead.
+    /// They are the Gauss points of the mat's faces. An element that contains fewer than four of these has the 2 × 2
+    /// Gauss points of the element instead.
     fn integration_points(&self, mat: &PlacedFoundation, patch: &Patch) -> Vec<BasePoint> {
         let mut weights_by_element = vec![Vec::new(); mat.elements.len()];
         for piece in self.pieces.iter().filter(|piece| mat.nodes.contains(&piece[0])) {

@@ -289,8 +289,8 @@ impl PlacedBase {
 
     /// Rotations of a foundation, rad.
     ///
-    /// In the plane the only rotation is that of the chord, counter-clockwise. In plan the rotations are about y, about x
-    /// and about the vertical, by the right-hand rule.
+    /// In the plane the only rotation is that of the chord, counter-clockwise. In plan the rotations are about y, about
+    /// x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.value(u))
     }

@@ -61,7 +61,8 @@ pub enum Mistake {
     /// A structure with an unusually long period: probably a stiffness in another unit.
     #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
     LongPeriod {
-        /// Period on a fixed base, s: Rayleigh's quotient of the deflection under a horizontal force equal to the weight.
+        /// Period on a fixed base, s: Rayleigh's quotient of the deflection under a horizontal force equal to the
+        /// weight.
         period: f64,
     },
     /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.

@@ -190,16 +190,17 @@ quantities! {
     /// Resistance of the interface over the base shear: φN/|H|.
     ///
     /// Infinite without shear, NaN in flight and for a base with walls. NaN throughout if an element's law has no
-    /// friction coefficient and [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It is
-    /// computed from the actual tractions: on a base that may slide it reaches one during sliding, and never falls below.
-    /// On a bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
+    /// friction coefficient and [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It
+    /// is computed from the actual tractions: on a base that may slide it reaches one during sliding, and never falls
+    /// below. On a bonded base it may fall below one, and shows the missing resistance. Of several foundations the
+    /// smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
         |base| base.smallest_safety(|checks| checks.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
-    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with walls. On a
-    /// base that may open it reaches one when the base stands on its edge, and never falls below. Of several foundations
-    /// the smallest.
+    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with walls.
+    /// On a base that may open it reaches one when the base stands on its edge, and never falls below. Of several
+    /// foundations the smallest.
     ///
     /// In plan over the left or the right edge: N times the distance of the edge from the middle of the outline;
     /// on a round or many-sided outline, of each edge that faces x more than y. Pressure acts at the middle of the

@@ -113,9 +113,9 @@ energies! {
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
     ///
-    /// It is the work of the total tractions on minus the change of the jump, without the elastic part of this change. It
-    /// decreases only by the work of the weight of soil that follows a wall ([`EarthPressure`](crate::interface::EarthPressure)), and for no
-    /// other law of the crate.
+    /// It is the work of the total tractions on minus the change of the jump, without the elastic part of this change.
+    /// It decreases only by the work of the weight of soil that follows a wall
+    /// ([`EarthPressure`](crate::interface::EarthPressure)), and for no other law of the crate.
     Contact contact, Lost, "friction and impact";
     /// Elastic energy stored in compliant interfaces, as a change against the static state.
     ///

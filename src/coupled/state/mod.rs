@@ -109,7 +109,8 @@ pub struct State {
     pub normal_force: f64,
     /// Length of open elements over the length of the base; in plan area over area.
     pub uplifted_fraction: f64,
-    /// Slip averaged over the length of the base, in plan over its area, m; positive if the structure has moved to the right.
+    /// Slip averaged over the length of the base, in plan over its area, m; positive if the structure has moved to the
+    /// right.
     pub mean_slip: f64,
     /// Rotation of the base's chord, counter-clockwise, rad; with several foundations the largest.
     ///

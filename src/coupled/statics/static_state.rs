@@ -24,7 +24,8 @@ pub(crate) struct StaticState {
     pub(crate) force: Vec<f64>,
     /// Energies of the nonlinear force, if the structure returns them.
     pub(crate) energy: Option<InternalEnergy>,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
+    /// replaced.
     pub(crate) substituted_friction: Option<f64>,
 }
 

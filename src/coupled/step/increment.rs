@@ -39,7 +39,8 @@ pub(crate) struct Increment {
     pub(crate) trials: usize,
     /// Last method of the mode search.
     pub(crate) method: SearchMethod,
-    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
+    /// replaced.
     pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state; empty for a linear structure.
     pub(crate) nonlinear_force: Vec<f64>,

@@ -69,8 +69,9 @@ impl IncrementSearch {
 
     /// Moves `iterate` and `linear_force` back to where the out-of-balance force does no work on the increment.
     ///
-    /// The arguments have the values at the end of the increment. `evaluate` writes the nonlinear force at its first argument
-    /// to its second argument. Its last call is for the result. Nothing changes unless the increment has passed such a point.
+    /// The arguments have the values at the end of the increment. `evaluate` writes the nonlinear force at its first
+    /// argument to its second argument. Its last call is for the result. Nothing changes unless the increment has
+    /// passed such a point.
     pub(super) fn search(
         &mut self,
         iterate: &mut [f64],
