@@ -104,7 +104,7 @@
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
 //! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right); in plan Q more (along y) |
-//! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
+//! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes contain changes since the static state, relative to the free field's translation, except where they are called absolute |
 //! | velocities, accelerations | total |
 //! | time | step n ends at t = nΔt; tractions belong to the whole step |
 //!
@@ -137,7 +137,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `embedded` | `bem::embedded`: the ground of structures with walls below the surface, in the plane; impedances |
-//! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
+//! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the scheme of Patel & Spyrakos and its stability; `fundamental::FullPlane` |
 //! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape`; `sweep`: files |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
@@ -183,7 +183,7 @@
 //!
 //! `containment` is the problem of Patel & Spyrakos; `shear_building`, `square_block` (in three dimensions) and some
 //! 25 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
-//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) says what each prints.
+//! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) states what each prints.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -101,13 +101,13 @@ impl FixedBaseMode {
         let modal_stiffness = dot(mode, &mode_forces);
         let circular_frequency = squared_frequency.sqrt();
         // A unit amplitude has the base shear ω² φᵀM r.
-        let amplitude = BASE_SHEAR_RATIO * STANDARD_GRAVITY * total_mass
+        let deflection_amplitude = BASE_SHEAR_RATIO * STANDARD_GRAVITY * total_mass
             / (squared_frequency * participation.abs());
         Ok(Some(Self {
             period: TAU / circular_frequency,
             damping: damping.form(mode, mode) / (2.0 * circular_frequency),
-            amplitude: scaled(&mode_forces, 1.0 / (modal_stiffness * amplitude)),
-            forces: scaled(&mode_forces, amplitude),
+            amplitude: scaled(&mode_forces, 1.0 / (modal_stiffness * deflection_amplitude)),
+            forces: scaled(&mode_forces, deflection_amplitude),
         }))
     }
 }

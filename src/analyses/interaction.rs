@@ -67,11 +67,12 @@ pub struct Interaction {
 /// `scene` must return a builder of the same scene at each call; both runs last `duration` (s). The second run uses
 /// [`SimulationBuilder::on_fixed_base`], with the same model, loads and motion.
 ///
-/// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes. A nonlinear
-/// structure has its initial tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
-/// released. T̃ and β₀ are the period and the damping ratio of the free vibration that follows, computed with Midpoint
-/// steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the design motion (ASCE 7,
-/// table 19.3-2). Springs in series give a period for comparison: T̃/T = √(1 + k/k_x + k h²/k_θ).
+/// T and β belong to the mode with the largest participating mass along an axis, with fixed contact nodes. For a
+/// nonlinear structure they follow from its initial tangent. For T̃ and β₀ the structure is bonded to its ground,
+/// deflected in this mode and released. T̃ and β₀ are the period and the damping ratio of the free vibration that
+/// follows, computed with Midpoint steps of T/40 or shorter. The soil is linear: use its moduli at the strains of the
+/// design motion (ASCE 7, table 19.3-2). Springs in series give a period for comparison: T̃/T = √(1 + k/k_x + k
+/// h²/k_θ).
 ///
 /// ```
 /// use basemat::analyses::interaction;

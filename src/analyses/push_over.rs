@@ -270,9 +270,14 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> PushOverAnalysis<'a, S> {
     }
 
     /// Ends the curve at its limit: with the last point below it, if that point is new.
-    fn end_at_limit(&mut self, last_point: Option<PushPoint>, carried: f64, failed: f64) {
+    fn end_at_limit(
+        &mut self,
+        last_point: Option<PushPoint>,
+        carried_force: f64,
+        failed_force: f64,
+    ) {
         self.curve.points.extend(last_point);
-        self.curve.limit = Some([carried, failed]);
+        self.curve.limit = Some([carried_force, failed_force]);
     }
 
     /// Adds the state under a force to the curve.

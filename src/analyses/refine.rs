@@ -83,13 +83,13 @@ pub struct Refinement {
 /// L. F. Richardson, 1911; orders observed from three settings as in P. J. Roache, *Verification and Validation in
 /// Computational Science and Engineering*, 1998, § 5.
 ///
-/// `scene` builds and runs with a number of elements and a time step (s), and returns results: a peak, some peaks,
-/// or a time series at the times of the coarsest setting. Twice the number of elements must halve their
+/// `scene` builds and runs a simulation with a number of elements and a time step (s), and returns results: a peak,
+/// some peaks, or a time series at the times of the coarsest setting. Twice the number of elements must halve their
 /// length: in plan, use the number of cells along the shorter side, as in
-/// [`ElasticGround::under`](crate::bem::ElasticGround::under). With few cells and
-/// long steps the errors of mesh and step may compensate each other: refine both. The error is the root of the sum of
-/// squares relative to the extrapolated results, so use separate calls for results of different units. Time series
-/// converge evenly; peaks, and quantities that depend on the instant of an impact, less so.
+/// [`ElasticGround::under`](crate::bem::ElasticGround::under). With few cells and long steps the errors of mesh and
+/// step may compensate each other: refine both. The error is the root of the sum of squares relative to the
+/// extrapolated results, so use separate calls for results of different units. Time series converge evenly; peaks, and
+/// quantities that depend on the instant of an impact, less evenly.
 ///
 /// The last run, twice the elements with half the step, checks the estimate ([`Refinement::mismatch`]). An
 /// estimate that passes the check may still be too low if the base slides or opens: by a factor of 2.4 for one of

@@ -76,9 +76,9 @@ pub struct Sensitivity {
 
 /// Compares a scene's peaks with the peaks of three similar runs, its twins.
 ///
-/// The twins have a time step shorter by 1 %, three quarters of the elements, and half of the elements. `scene`
-/// builds and runs for a duration with a number of elements (in plan: of cells along the shorter side) and a time
-/// step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
+/// The twins have a time step shorter by 1 %, three quarters of the elements, and half of the elements. `scene` builds
+/// a simulation and runs it for a duration, with a number of elements (in plan: of cells along the shorter side) and a
+/// time step (s), and returns peaks by name, as for [`refine_each`](super::refine_each).
 ///
 /// If a peak converges, its twins differ from it by about its error. A body that rocks and twists on its corners
 /// may move chaotically: a negligible change decides on which corner it lands. Its peaks then belong to one motion out

@@ -163,7 +163,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets gravity g (m/s²), which gives the structure its weight.
+    /// Sets gravity g (m/s²), which determines the structure's weight.
     ///
     /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state under the
     /// weight and the loads at t = 0, as [`GravityStage`] defines. Without gravity there is no static state. The base
@@ -281,7 +281,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets limits of slip, gap, uplifted fraction and rotation.
+    /// Sets limits of slip, gap, uplifted fraction, rotation and settlement.
     ///
     /// Each [`Run`](crate::results::Run) is compared with the limits, which change no other result. Default: no limits.
     #[must_use]

@@ -8,18 +8,19 @@
 //! Let y be the mean translation of the free field under a connected part of the structure, R the influence vectors of
 //! the part, and R y + u the displacement. Only u, relative to the ground, is stored, so that a large displacement of
 //! the ground causes no loss of digits. Let τ be the contact tractions of the step as **changes** against the static
-//! state, and s the soil's displacement due to them. A [`TimeScheme`] gives the coefficients of a* and v* (total) and
-//! u* as functions of the increment R Δy + Δu:
+//! state, and s the soil's displacement due to them. A [`TimeScheme`] defines the total acceleration a*, the total
+//! velocity v* and u* as functions of the increment R Δy + Δu:
 //!
 //! ```text
 //! M a* + C (v* − R v_y) + K u* + f(u*) = p(t*) − Bᵀ A τ
 //! jump = gap₀ + (s_ff − y) + h + G¹ τ − B (u₀ + Δu)
 //! ```
 //!
-//! where v_y is the velocity of y, B computes element means of the base displacement from degrees of freedom (normal
-//! components down), A contains the element lengths, h is the convolution history of all earlier tractions, and `s_ff`
-//! the free field. K R = 0, and B R is a unit translation. The normal components of the jump are gaps; slip is minus
-//! the tangential components. Eliminating Δu leaves one linear relation between jumps and tractions,
+//! where v_y is the velocity of y, f the nonlinear force, p the load, B computes element means of the base displacement
+//! from degrees of freedom (normal components down), A contains the element lengths, h is the convolution history of
+//! all earlier tractions, and `s_ff` the free field. K R = 0, and B R is a unit translation. The normal components of
+//! the jump are gaps; slip is minus the tangential components. Eliminating Δu leaves one linear relation between jumps
+//! and tractions,
 //!
 //! ```text
 //! jump = j_free + W τ,     W = G¹ + B K_eff⁻¹ Bᵀ A     (Delassus operator, 2Q × 2Q)

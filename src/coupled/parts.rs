@@ -27,7 +27,7 @@ pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// The ground, prepared for time stepping.
     pub(crate) ground: Box<dyn Ground>,
-    /// Soil of the ground, as described before its preparation.
+    /// Description of the ground, from before its preparation.
     pub(crate) description: GroundDescription,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,

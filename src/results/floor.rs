@@ -96,20 +96,20 @@ pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<Spe
     }
     Ok(spectrum
         .iter()
-        .map(|centre| broadened_ordinate(spectrum, centre, fraction))
+        .map(|center| broadened_ordinate(spectrum, center, fraction))
         .collect())
 }
 
 /// The largest values of a spectrum in a band around one of its ordinates.
 fn broadened_ordinate(
     spectrum: &[SpectralOrdinate],
-    centre: &SpectralOrdinate,
+    center: &SpectralOrdinate,
     fraction: f64,
 ) -> SpectralOrdinate {
-    let min_period = centre.period * (1.0 - fraction);
-    let max_period = centre.period * (1.0 + fraction);
+    let min_period = center.period * (1.0 - fraction);
+    let max_period = center.period * (1.0 + fraction);
     let mut band_maximum = SpectralOrdinate {
-        period: centre.period,
+        period: center.period,
         displacement: 0.0,
         pseudo_velocity: 0.0,
         pseudo_acceleration: 0.0,

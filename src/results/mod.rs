@@ -62,8 +62,8 @@
 //!
 //! # Conventions
 //!
-//! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs to the end of
-//! its step. The base moment is the total moment, static part included.
+//! Forces act on the soil, per metre of thickness (in plan in total), as in [`crate::coupled::State`]. A value belongs
+//! to the end of its step. The base moment is the total moment, static part included.
 
 mod columns;
 mod comparison;

@@ -185,6 +185,6 @@ pub(crate) fn state_under_loads(
         dense_multiply_add(ground.compliance, -1.0, &traction, &mut jump_offset);
     }
     let problem = StaticProblem { jump_offset: &jump_offset, ..problem };
-    let placed_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
-    state_under_load(&problem, laws, placed_state, [weight, load])
+    let weight_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
+    state_under_load(&problem, laws, weight_state, [weight, load])
 }

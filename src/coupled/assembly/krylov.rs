@@ -33,7 +33,7 @@ use crate::structure::proportional_factors;
 const SHIFT_RATIO: f64 = 4.0;
 /// Number of forces from which vibration modes and static responses replace shifts.
 const MANY_FORCES_THRESHOLD: usize = 100;
-/// Smallest fraction of a direction outside the space for which it is added.
+/// A direction is added if at least this fraction of it is outside the space.
 pub(super) const MIN_NEW_FRACTION: f64 = 1e-2;
 /// Smallest fraction of a direction outside the space, relative to the root of the tolerance.
 ///

@@ -21,7 +21,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
 const FREQUENCY_LIMIT_GROWTH: f64 = std::f64::consts::SQRT_2;
 /// Largest number of vibration modes; more would take longer than the full structure.
 const MAX_VIBRATION_MODES: usize = 600;
-/// Residual of vibration modes, relative to the root of the tolerance: responses depend on its square.
+/// Residual of vibration modes, relative to the root of the tolerance: errors of responses depend on its square.
 const MODE_RESIDUAL_FACTOR: f64 = 0.1;
 /// Rounding of the vectors' orthogonality after one pass, relative to the square of the tolerance.
 const ORTHOGONALITY_ROUNDING_FACTOR: f64 = 1e-4;
@@ -44,7 +44,7 @@ const WEAK_PROBE_FACTOR: f64 = 10.0;
 const MIN_PROBE_FACTOR: f64 = 1e-2;
 /// Number of steps over which forces grow in the comparison of responses, with binomial weights.
 const FORCE_GROWTH_STEPS: usize = 32;
-/// Length of omitted directions, relative to the root of the tolerance: errors depend on its square.
+/// Length of omitted directions, relative to the root of the tolerance: errors of responses depend on its square.
 const OMITTED_LENGTH_FACTOR: f64 = 0.5;
 
 /// Adds the static responses to the forces of `block`, and returns the index of the first one.

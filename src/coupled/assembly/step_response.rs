@@ -264,7 +264,8 @@ fn mode_states(
 
 /// A step of one mode under a unit force.
 ///
-/// The rows have the weights of the old displacement, velocity and acceleration and of 1 in the new ones.
+/// The rows are the new displacement, velocity and acceleration. The columns are the weights of the old displacement,
+/// velocity and acceleration in them, and the response to the unit force.
 #[derive(Clone, Copy)]
 struct ModeStep([[f64; 4]; 3]);
 

@@ -20,7 +20,7 @@ use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends,
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the one before.
+/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
 /// Fraction of a foundation's length that may extend beyond the elements: its effect on the response is small.
 const MAX_UNCOVERED_FRACTION: f64 = 0.1;

@@ -112,7 +112,7 @@ impl Load {
         Self::new(row, move |time| force * record.at(time).acceleration)
     }
 
-    /// `forces` at `times` (s, ascending), linear between them and zero outside.
+    /// `forces` at `times` (s, ascending), linear between these times and zero before and after them.
     ///
     /// # Errors
     /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers

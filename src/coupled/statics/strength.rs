@@ -36,16 +36,16 @@ pub(crate) struct InterfaceStrength {
 impl InterfaceStrength {
     /// Strength of an element under this mean pressure (Pa).
     ///
-    /// `frictionless` omits friction and cohesion from limits.
+    /// `is_frictionless` omits friction and cohesion from limits.
     pub(crate) fn at_pressure(
         law: &dyn InterfaceLaw,
         pressure: f64,
         form: LawForm,
-        frictionless: bool,
+        is_frictionless: bool,
     ) -> Self {
         match form {
             LawForm::Modes => Self::from_modes(law, pressure),
-            LawForm::Limits => Self::from_limits(law, pressure, frictionless),
+            LawForm::Limits => Self::from_limits(law, pressure, is_frictionless),
         }
     }
 
@@ -66,10 +66,10 @@ impl InterfaceStrength {
         }
     }
 
-    fn from_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
+    fn from_limits(law: &dyn InterfaceLaw, pressure: f64, is_frictionless: bool) -> Self {
         let limits = limits_at_rest(law, pressure.max(0.0));
-        let limits = if frictionless { limits.frictionless() } else { limits };
-        let friction_coefficient = law.friction_coefficient().filter(|_| !frictionless);
+        let limits = if is_frictionless { limits.frictionless() } else { limits };
+        let friction_coefficient = law.friction_coefficient().filter(|_| !is_frictionless);
         let attraction_friction = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
         let cohesion = limits.shear_strength + attraction_friction * limits.attraction;
         let sliding_ratio = limits.friction + cohesion / pressure.max(f64::MIN_POSITIVE);
