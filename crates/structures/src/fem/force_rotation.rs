@@ -9,7 +9,7 @@
 //! |---|---|
 //! | f | forces K u at the nodes in the static state |
 //! | R | displacements of the nodes in rigid rotations by 1 rad, one column for each axis |
-//! | G | mean rotations of the element by its displacements, one row for each axis; G R = 1 |
+//! | G | matrix from the element's displacements to its mean rotations, one row for each axis; G R = 1 |
 //! | T | change of the forces in these rotations: f rotates, the element's weight does not |
 //! | A | T − K_G R, with the element's geometric stiffness K_G |
 //!
@@ -24,6 +24,7 @@ use super::vector::cross;
 
 /// Forces below this fraction of the element's largest force are rounding.
 const FORCE_ROUNDING_RATIO: f64 = 1e-12;
+
 /// Static state in which the forces of an element are computed.
 pub(super) struct ElementStaticState<'a> {
     /// Displacements of the element's degrees of freedom, m and rad.
@@ -72,8 +73,8 @@ impl ForceRotation {
 
 /// Geometric stiffness of the static forces of `element` that rotate with it.
 ///
-/// `None` if the element's own geometric stiffness contains all its forces, or if the forces cannot rotate with the
-/// element: it does not have all displacements, all its nodes coincide, or the forces are not in equilibrium.
+/// `None` if [`Element::geometric_stiffness`] contains all its forces, or if the forces cannot rotate with the element:
+/// it does not have all displacements, all its nodes coincide, or the forces are not in equilibrium.
 pub(super) fn force_rotation(
     element: &dyn Element,
     coordinates: &[[f64; 3]],

@@ -139,10 +139,10 @@ impl Mesh {
             "x, y or rotation in the plane"
         };
         require_part("direction of the element", has_mesh_directions, needed)?;
-        let is_in_its_space = !(self.has_depth && element.is_plane());
+        let is_in_matching_space = !(self.has_depth && element.is_plane());
         require_part(
             "element of the plane",
-            is_in_its_space,
+            is_in_matching_space,
             "must be in a mesh in the plane, but this one is in space",
         )?;
         for &node in nodes {

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::linalg::{Partition, SparseMatrix, dot};
-use crate::structure::{BaseNode, HeldBase, stiffest};
+use crate::structure::{BaseNode, SpringSupportedBase, max_diagonal_stiffness};
 
 /// A part counts as at rest in a motion if its norm is below this fraction of the motion's norm.
 const RESTING_PART_FRACTION: f64 = 1e-8;
@@ -32,10 +32,11 @@ pub(super) fn rigid_momenta(
         contact_nodes.iter().map(|node| node.x).sum::<f64>() / node_count,
         contact_nodes.iter().map(|node| node.y).sum::<f64>() / node_count,
     ];
-    let supported = HeldBase::new(contact_nodes, stiffness, stiffest(stiffness));
+    let supported =
+        SpringSupportedBase::new(contact_nodes, stiffness, max_diagonal_stiffness(stiffness));
     let mut factor = supported.factor()?;
-    let mut base_forces = supported.pulls();
-    base_forces.extend(supported.turns(contact_nodes.iter(), center));
+    let mut base_forces = supported.translation_forces();
+    base_forces.extend(supported.rotation_forces(contact_nodes.iter(), center));
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();

@@ -19,7 +19,7 @@ pub(super) struct AxialForce {
     pub(super) compression: f64,
     /// Compression at the first end less the compression at the second end, N.
     pub(super) end_difference: f64,
-    /// Whether the user prescribed the force; the static state then does not change it.
+    /// Whether the user prescribed the force; the static state then does not change this force.
     pub(super) is_prescribed: bool,
 }
 
@@ -143,7 +143,7 @@ impl Bending {
     }
 }
 
-/// Deflection at s = x/L by unit deflections and rotations of the ends; t = 1 − s.
+/// Deflections at s = x/L due to unit deflections and rotations of the ends; t = 1 − s.
 fn deflection(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + shear_ratio);
@@ -155,7 +155,7 @@ fn deflection(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     ]
 }
 
-/// Slope of the deflection at s = x/L; t = 1 − s.
+/// Slopes of these deflections at s = x/L; t = 1 − s.
 fn slope(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (length * (1.0 + shear_ratio));
@@ -167,15 +167,15 @@ fn slope(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     ]
 }
 
-/// Rotation of the section at s = x/L, the slope less the shear strain (Friedman & Kosmatka 1993); t = 1 − s.
+/// Rotations of the section at s = x/L: the slopes less the shear strains (Friedman & Kosmatka 1993); t = 1 − s.
 fn rotation(shear_ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + shear_ratio);
-    let by_deflection = 6.0 * scale * s * t / length;
+    let deflection_term = 6.0 * scale * s * t / length;
     [
-        -by_deflection,
+        -deflection_term,
         scale * t * (t - 2.0 * s + shear_ratio),
-        by_deflection,
+        deflection_term,
         scale * s * (s - 2.0 * t + shear_ratio),
     ]
 }

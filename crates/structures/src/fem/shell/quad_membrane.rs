@@ -58,9 +58,9 @@ impl QuadMembrane<'_> {
         matrix
     }
 
-    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners by u, v, ω of the nodes.
+    /// Strains `[ε_xx, ε_yy, γ_xy]` at the corners due to u, v, ω of the nodes.
     ///
-    /// They are computed with the bending modes at 2 × 2 points and extrapolated bilinearly.
+    /// The strains, with those of the bending modes, are computed at 2 × 2 points and extrapolated bilinearly.
     pub(super) fn corner_strains(&self, displacement: &[f64; NODAL_DOF_COUNT]) -> [[f64; 3]; 4] {
         let mut full_displacement = [0.0; FULL_DOF_COUNT];
         full_displacement[..NODAL_DOF_COUNT].copy_from_slice(displacement);
@@ -81,7 +81,7 @@ impl QuadMembrane<'_> {
         })
     }
 
-    /// Strains at a point by each degree of freedom, and the Jacobian determinant.
+    /// Strains at a point due to each unit degree of freedom, and the Jacobian determinant.
     ///
     /// Each entry holds `[ε_xx, ε_yy, γ_xy, ω − ½(v,x − u,y)]`.
     fn strains(
@@ -100,7 +100,7 @@ impl QuadMembrane<'_> {
             let second_node = (first_node + 1) % 4;
             let start = self.points[first_node];
             let end = self.points[second_node];
-            // Displacement of the middle of the side by a unit difference of the rotations of its ends.
+            // Displacement of the middle of the side due to a unit difference between the rotations of its ends.
             let bulge_vector = [(end[1] - start[1]) / 8.0, (start[0] - end[0]) / 8.0];
             let bulge_strains = strain_columns(jacobian.global_derivatives(bulge));
             for k in 0..4 {
@@ -110,7 +110,7 @@ impl QuadMembrane<'_> {
                 columns[3 * first_node + 2][k] -= strain;
             }
         }
-        // Derivatives of 1 − ξ² and 1 − η² by the Jacobian at the centre, scaled so that their integrals vanish.
+        // Derivatives of 1 − ξ² and 1 − η² from the Jacobian at the centre, scaled so that their integrals vanish.
         let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
         let xi_mode = strain_columns(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
         let eta_mode = strain_columns(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
@@ -139,7 +139,7 @@ impl QuadMembrane<'_> {
     }
 }
 
-/// Strains by a displacement u, and by a displacement v, with derivatives (∂/∂x, ∂/∂y).
+/// Strains due to a displacement u, and due to a displacement v, with derivatives (∂/∂x, ∂/∂y).
 fn strain_columns([dx, dy]: [f64; 2]) -> [[f64; 4]; 2] {
     [[dx, 0.0, dy, 0.5 * dy], [0.0, dy, dx, -0.5 * dx]]
 }

@@ -65,11 +65,12 @@ const VARIABLE_COUNT: usize = 9;
 /// Part of the elasticity that the tangent has at the tip of the cone.
 ///
 /// The stress at the tip does not change with the strain. A tangent of zeros would make the stiffness matrix singular
-/// where all points around a node are at the tip. This part leaves a condition that double precision resolves, and slows
-/// Newton's method where only some points are at the tip by less than an iteration. Stress and energies do not depend on it.
+/// where all points around a node are at the tip. With this part the condition number of the matrix is small enough for
+/// double precision. Where only some points are at the tip, Newton's method needs less than one iteration more. Stress
+/// and energies do not depend on it.
 pub(super) const APEX_TANGENT_FRACTION: f64 = 1e-4;
 
-/// Yield function of a stress on the cone over the terms of its strength: what rounding leaves there.
+/// Largest yield function that rounding gives for a stress on the cone, relative to the terms of the strength.
 const YIELD_FUNCTION_ROUNDING: f64 = 1e-9;
 
 /// Internal variables of a point.
@@ -179,7 +180,7 @@ impl DruckerPrager {
     }
 }
 
-/// Internal variables of a point, by their names.
+/// Internal variables of a point, as named fields.
 fn read(variables: &[f64]) -> Result<ConeVariables> {
     let quantity = "internal variables of Drucker-Prager's law";
     same_length(quantity, variables.len(), VARIABLE_COUNT)?;

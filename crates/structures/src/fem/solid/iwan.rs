@@ -26,11 +26,11 @@ use crate::fem::internal_energy::InternalEnergy;
 /// follows the backbone, and unloads and reloads by Masing's rules. The strength is the stress of the last point; it
 /// does not depend on the mean stress, which stays elastic. The table of laws in [`SolidMaterial`] has the formulas.
 ///
-/// An **initial stress** takes the components as far as shear from zero to this stress does: in proportion to their
-/// shear moduli until they yield. The strength stays that of the backbone.
+/// An **initial stress** loads the components as shear from zero to this stress would: in proportion to their shear
+/// moduli until they yield. The strength is still that of the backbone.
 ///
-/// The internal variables are the initial stress with its stored energy, the energy dissipated so far, and of each
-/// component the strain at which it has no stress.
+/// The internal variables are the initial stress with its stored energy, the energy dissipated so far, and, for each
+/// component, the strain at which the component has no stress.
 ///
 /// ```
 /// use basemat::fem::{Iwan, SolidMaterial};
@@ -168,7 +168,7 @@ impl Iwan {
         self.points.last().map_or(0.0, |point| point[1])
     }
 
-    /// Radius √2 τ_n of the surface that no stress leaves, Pa.
+    /// Radius √2 τ_n of the surface that bounds all deviators of the stress, Pa.
     fn strength_radius(&self) -> f64 {
         std::f64::consts::SQRT_2 * self.strength()
     }
@@ -178,17 +178,17 @@ impl Iwan {
         check_strain(strain, self.shear_modulus.max(self.bulk_modulus))
     }
 
-    /// Internal variables of a point, by their names.
+    /// Internal variables of a point, as named fields.
     fn read<'a>(&self, variables: &'a [f64]) -> Result<IwanVariables<'a>> {
         let quantity = "internal variables of Iwan's model";
         same_length(quantity, variables.len(), self.variable_count())?;
-        let (common, of_components) = variables.split_at(COMMON_VARIABLE_COUNT);
+        let (common_variables, component_variables) = variables.split_at(COMMON_VARIABLE_COUNT);
         Ok(IwanVariables {
-            rest_deviator: [common[0], common[1], common[2]],
-            rest_mean_stress: common[3],
-            rest_energy: common[4],
-            dissipated: common[5],
-            stress_free_strains: of_components.as_chunks().0,
+            rest_deviator: [common_variables[0], common_variables[1], common_variables[2]],
+            rest_mean_stress: common_variables[3],
+            rest_energy: common_variables[4],
+            dissipated: common_variables[5],
+            stress_free_strains: component_variables.as_chunks().0,
         })
     }
 
@@ -245,17 +245,17 @@ impl SolidMaterial for Iwan {
         let strain_norm = virgin_strain_norm(&self.components, norm.min(strength_radius));
         let mean_stress = trace(initial_stress) / 3.0;
         let mut rest_energy = 0.5 * mean_stress * mean_stress / self.bulk_modulus;
-        let (common, of_components) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
-        let stress_free_strains = of_components.as_chunks_mut().0;
+        let (common_variables, component_variables) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
+        let stress_free_strains = component_variables.as_chunks_mut().0;
         for (component, stress_free_strain) in self.components.iter().zip(stress_free_strains) {
             let elastic_norm = strain_norm.min(component.yield_strain_norm());
             rest_energy += component.shear_modulus * elastic_norm * elastic_norm;
             *stress_free_strain = scaled(direction, -elastic_norm);
         }
-        common[..3].copy_from_slice(&deviator);
-        common[3] = mean_stress;
-        common[4] = rest_energy;
-        common[5] = 0.0;
+        common_variables[..3].copy_from_slice(&deviator);
+        common_variables[3] = mean_stress;
+        common_variables[4] = rest_energy;
+        common_variables[5] = 0.0;
         Ok(())
     }
 
@@ -319,7 +319,8 @@ impl SolidMaterial for Iwan {
         Ok(InternalEnergy { stored, dissipated })
     }
 
-    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components, and what the mean stress adds off the middle.
+    /// Σ [(s_m − s_1) : Δe + |Δs|²/(4 G_j)] over the components, and a term of the mean stress if `midstep` is not the
+    /// middle of `start` and `end`.
     fn remainder(&self, path: &StrainPath, variables: &[f64]) -> Result<f64> {
         let variables = self.read(variables)?;
         for strain in [path.start, path.midstep, path.end] {
@@ -351,13 +352,13 @@ impl SolidMaterial for Iwan {
             return;
         }
         let strain_deviator = strain_deviator(strain);
-        let (common, of_components) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
-        let stress_free_strains = of_components.as_chunks_mut().0;
+        let (common_variables, component_variables) = variables.split_at_mut(COMMON_VARIABLE_COUNT);
+        let stress_free_strains = component_variables.as_chunks_mut().0;
         for (component, stress_free_strain) in self.components.iter().zip(stress_free_strains) {
             let trial = component.trial_stress(strain_deviator, *stress_free_strain);
             let squared_norm = contraction(trial, trial);
             if component.yields(squared_norm) {
-                common[5] += component.dissipation(squared_norm);
+                common_variables[5] += component.dissipation(squared_norm);
                 let elastic_factor =
                     0.5 * component.return_factor(squared_norm) / component.shear_modulus;
                 *stress_free_strain = difference(strain_deviator, scaled(trial, elastic_factor));

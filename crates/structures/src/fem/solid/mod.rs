@@ -87,7 +87,7 @@ pub struct SolidState {
 /// remainder:  (σ_m − σ_1) : Δε + ½ Δσ : C⁻¹ : Δσ, ≥ 0 for ψ = φ
 /// ```
 ///
-/// Stored energy counts from the initial state, and so below zero where an initial stress is relieved.
+/// Stored energy is relative to the initial state. It is therefore negative where an initial stress is relieved.
 ///
 /// # A law of your own
 ///
@@ -200,7 +200,8 @@ pub trait SolidMaterial: Any + Debug + Send + Sync {
     /// Work of the midstep stress that is neither stored nor dissipated, J/m³.
     ///
     /// It is σ(`midstep`):(`end` − `start`) less the changes of [`energy`](SolidMaterial::energy). The default
-    /// evaluates this definition. With a formula of its own, the energy balance of a run checks stress and energies.
+    /// evaluates this definition. If a material computes the remainder from a separate formula, the energy balance of a
+    /// run checks the stress and the energies.
     ///
     /// # Errors
     /// As for [`stress`](SolidMaterial::stress).
@@ -216,8 +217,8 @@ pub trait SolidMaterial: Any + Debug + Send + Sync {
 
     /// Overwrites `variables` by those after a step that ended with `strain`.
     ///
-    /// `variables` must stay finite. A material that cannot follow the step keeps them, and returns an error from the
-    /// next [`stress`](SolidMaterial::stress).
+    /// `variables` must stay finite. For a step that it cannot follow, a material does not change `variables`, and
+    /// returns an error from the next [`stress`](SolidMaterial::stress).
     fn commit(&self, strain: [f64; 4], variables: &mut [f64]);
 
     /// Plastic strain and mobilised strength at a strain. Default: zeros.
