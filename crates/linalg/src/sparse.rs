@@ -119,8 +119,8 @@ impl SparseFactor {
                 Spec::default(),
             )
             .map_err(|LltError::NonPositivePivot { index }| {
-                let forward = symbolic.perm().map(|order| order.arrays().0);
-                forward.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
+                let row_permutation = symbolic.perm().map(|order| order.arrays().0);
+                row_permutation.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
             })?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         Ok(Self { order: matrix.nrows(), factors: Factors::Cholesky { symbolic, values }, buffer })
@@ -330,7 +330,7 @@ pub fn indefinite_row(
     if is_diagonal {
         return None;
     }
-    let scaled_matrix = SparseMatrix::by_rows(matrix.order(), |row, entries| {
+    let scaled_matrix = SparseMatrix::from_rows(matrix.order(), |row, entries| {
         let off_diagonal =
             matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
         entries.extend(off_diagonal.map(|(column, value)| (column, value / scale(row, column))));

@@ -87,24 +87,24 @@ impl RecordFormat for AlongLinesFormat {
 fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
     let mut header = HeaderLines::default();
     let mut header_format = None;
-    let mut title_may_come = true;
+    let mut may_be_title = true;
     let mut series = SeriesInLines::default();
     while let Some(line) = lines.next_indented()? {
         let text = line.trim_start();
         let is_skipped = lines.number <= format.header_lines;
         let is_comment = text.starts_with('#') && !has_spreadsheet_error(text);
         let fields = LineFields::split(text);
-        let is_title = title_may_come && !is_skipped && is_header(&fields);
+        let is_title = may_be_title && !is_skipped && is_header(&fields);
         let is_before_numbers = series.values.is_empty();
         if text.is_empty() || is_skipped || is_comment || is_title {
-            title_may_come &= text.is_empty() || is_skipped || is_comment;
+            may_be_title &= text.is_empty() || is_skipped || is_comment;
             if is_before_numbers {
                 header.add(text);
                 header_format = FortranFormat::find(text).or(header_format);
             }
             continue;
         }
-        title_may_come = false;
+        may_be_title = false;
         if is_before_numbers {
             series.begin(&line, format.layout, header_format, lines.number);
             if let Some(word) = first_word(&fields) {

@@ -128,8 +128,8 @@ pub(super) struct EqualStepColumn {
     pub(super) step: f64,
 }
 
-fn squared_difference(from: f64, to: f64) -> f64 {
-    (to - from) * (to - from)
+fn squared_difference(first: f64, second: f64) -> f64 {
+    (second - first) * (second - first)
 }
 
 #[cfg(test)]

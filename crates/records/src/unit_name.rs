@@ -64,8 +64,8 @@ impl FromStr for AccelerationUnit {
     /// # Errors
     /// [`Error::Name`] with the known units.
     fn from_str(text: &str) -> Result<Self> {
-        let known = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
-        Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known))
+        let known_units = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
+        Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known_units))
     }
 }
 

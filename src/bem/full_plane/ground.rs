@@ -265,7 +265,8 @@ impl Ground for FullPlaneGround {
     /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
+        let size =
+            ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).matrix_len();
         same_length("step compliance", matrix.len(), size)?;
         self.boundary.compliance(&prepared.contact_compliance.columns, matrix);
         Ok(())
@@ -307,7 +308,7 @@ impl Ground for FullPlaneGround {
     /// has the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).matrix_len();
         same_length("static compliance", matrix.len(), size)?;
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);

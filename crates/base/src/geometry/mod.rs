@@ -75,7 +75,7 @@ impl ContactLayout {
     }
 
     /// Number of entries of a square matrix for contact vectors.
-    pub const fn square(self) -> usize {
+    pub const fn matrix_len(self) -> usize {
         self.len() * self.len()
     }
 

@@ -1,4 +1,4 @@
-//! Square matrix whose products use its diagonal, its sparse entries or Fourier transforms, if these are cheaper.
+//! Square matrix whose products use its diagonal, its nonzero entries or Fourier transforms, if these are cheaper.
 
 use std::ops::Deref;
 
