@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout, far_ends, middle};
+use super::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout, enclosing_interval, middle};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
 /// Contact elements of a ground, checked for sizes, order and overlaps.
@@ -95,8 +95,9 @@ impl Patch {
 
     /// Middle `[x, y]` of the bounding box of all elements, m.
     pub fn center(&self) -> [f64; 2] {
-        [0, 1]
-            .map(|axis| middle(far_ends(self.elements.iter().map(|element| element.ends()[axis]))))
+        [0, 1].map(|axis| {
+            middle(enclosing_interval(self.elements.iter().map(|element| element.ends()[axis])))
+        })
     }
 }
 
