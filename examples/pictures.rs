@@ -21,13 +21,13 @@ const FRICTION_COEFFICIENT: f64 = 0.3;
 const PICTURE_FOLDER: &str = "target/pictures";
 
 /// A run of the tower, its time series, and the shape of its mesh for pictures.
-struct TowerRun {
+struct PictureData {
     run: Run,
     series: TimeSeries,
     shape: DeformedShape,
 }
 
-fn shake(law: impl InterfaceLaw + 'static) -> Result<TowerRun> {
+fn shake(law: impl InterfaceLaw + 'static) -> Result<PictureData> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
@@ -49,7 +49,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<TowerRun> {
     // Contact and structure are kept at every sixth step, for pictures over time.
     let mut series = Recorder::new().contact(6).motion(6).start(&simulation)?;
     let run = simulation.run(STEP_COUNT, |state| series.record(state))?;
-    Ok(TowerRun { run, series, shape })
+    Ok(PictureData { run, series, shape })
 }
 
 /// Saves a picture as SVG, and as PNG with twice the resolution for programs that do not read SVG.

@@ -261,10 +261,9 @@ const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, 
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let x_ends =
-            enclosing_interval(time_series.elements().iter().map(|element| element.ends()[0]));
-        let y_ends =
-            enclosing_interval(time_series.elements().iter().map(|element| element.ends()[1]));
+        let elements = time_series.elements();
+        let x_ends = enclosing_interval(elements.iter().map(|element| element.ends()[0]));
+        let y_ends = enclosing_interval(elements.iter().map(|element| element.ends()[1]));
         let longer_side = (x_ends[1] - x_ends[0]).max(y_ends[1] - y_ends[0]);
         Self { ends: [x_ends, y_ends], margin: FLOOR_MARGIN_RATIO * longer_side }
     }
