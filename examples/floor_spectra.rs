@@ -4,9 +4,9 @@
 //! cargo run --release --example floor_spectra
 //! ```
 //!
-//! The building's base is bonded, or may uplift and slide. An acceleration probe records the total acceleration of a floor. It is the ground motion of equipment on
-//! that floor, so its response spectrum is the floor spectrum. Peaks are broadened by 15 % for uncertain
-//! properties of soil and structure (U.S. NRC Regulatory Guide 1.122).
+//! The building's base is bonded, or may uplift and slide. An acceleration probe records the total acceleration of a
+//! floor. It is the ground motion of equipment on that floor, so its response spectrum is the floor spectrum. Peaks are
+//! broadened by 15 % for uncertain properties of soil and structure (U.S. NRC Regulatory Guide 1.122).
 
 use basemat::prelude::*;
 use basemat::results::{broadened, log_spaced};

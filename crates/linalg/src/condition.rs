@@ -1,8 +1,8 @@
 //! Condition numbers from factors.
 //!
 //! The matrix A is first scaled by the roots of its diagonal to S A S with sᵢ = |aᵢᵢ|^−½. The condition number of S A S
-//! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order n
-//! it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
+//! does not depend on units (a degree of freedom may be a length or an angle). For a positive definite matrix of order
+//! n it is at most n times the smallest condition number of any diagonal scaling (van der Sluis 1969). It bounds the
 //! error of a Cholesky solve, with and without scaling (Higham 2002, theorem 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};

@@ -127,8 +127,8 @@ impl<T: MatrixScalar> DenseFactor<T> {
 impl DenseFactor {
     /// Overwrites `rhs` with A⁻¹ rhs, faster than [`DenseFactor::solve`] for small matrices.
     ///
-    /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes ten
-    /// times as long.
+    /// It substitutes four columns at a time. For the small systems of a contact problem, faer's blocked solve takes
+    /// ten times as long.
     pub fn solve_small(&mut self, rhs: &mut [f64]) {
         self.permuted_side.clear();
         self.permuted_side.extend(self.row_permutation.iter().map(|&row| rhs[row]));

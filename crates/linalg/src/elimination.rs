@@ -146,8 +146,8 @@ impl EliminationOrder {
 
     /// This order, with the uncoupled parts of the matrix one after the other.
     ///
-    /// The mass matrix of bricks does not couple directions: if columns of different directions alternate, its factor has
-    /// no dense blocks.
+    /// The mass matrix of bricks does not couple directions: if columns of different directions alternate, its factor
+    /// has no dense blocks.
     fn sorted_by_parts(&self, pattern: Pattern<'_>) -> Self {
         let mut parts = Partition::new(self.rows.len());
         for column in 0..self.rows.len() {

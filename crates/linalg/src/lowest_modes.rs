@@ -7,8 +7,8 @@
 //! | H | Vᵀ M A V |
 //!
 //! Every new vector is orthogonalised with respect to all earlier vectors, twice unless a large residual is allowed
-//! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it has
-//! vectors.
+//! (Parlett 1998, § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it
+//! has vectors.
 
 use super::eigen::{Eigenpairs, symmetric_modes};
 use super::orthonormal::{MinRemainder, OrthonormalRows};

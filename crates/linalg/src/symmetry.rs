@@ -54,7 +54,8 @@ impl SparseMatrix {
 
     /// Index of the mirrored entry of each stored entry; `usize::MAX` if it is not stored.
     pub(super) fn mirrored_indices(&self) -> impl Iterator<Item = usize> {
-        // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search there.
+        // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search
+        // there.
         let mut search_starts = self.row_starts.clone();
         self.entries().map(move |(row, column, _)| {
             let end = self.row_starts[column + 1];

@@ -1,7 +1,7 @@
 //! Reader of text files with the values of one series along the lines, several on each.
 //!
-//! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees and
-//! scripts read and print it.
+//! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees
+//! and scripts read and print it.
 
 use std::io::Read;
 
@@ -155,7 +155,7 @@ struct ShortLine {
 }
 
 impl SeriesInLines {
-    /// Decides from the first line of values whether the lines have a Fortran format.
+    /// Determines from the first line of values whether the lines have a Fortran format.
     ///
     /// `format`: format that the caller states. `header_format`: format that the header names; it applies if the line
     /// matches it.
@@ -201,7 +201,7 @@ impl SeriesInLines {
         Ok(())
     }
 
-    /// Values of a line in the columns of a format; numbers of cards must rise.
+    /// Values of a line in the columns of a format; the numbers of successive cards must increase.
     fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
         let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
         if let Some(card_number) = card.card_number {
@@ -242,7 +242,7 @@ impl SeriesInLines {
     }
 }
 
-/// Whether the format decides the value of a number, which has no decimal point.
+/// Whether a field is a nonzero number without a decimal point, so that its value depends on the format.
 fn lacks_point(field: &str) -> bool {
     let is_nonzero = field.contains(|character: char| matches!(character, '1'..='9'));
     has_implied_point(field) && is_nonzero

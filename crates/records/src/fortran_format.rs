@@ -165,8 +165,8 @@ impl FortranFormat {
 
     /// The fields of a line of the file, without white space at its end.
     ///
-    /// `None` if the line does not match these columns: if it is longer or not ASCII, if a number contains white space, or
-    /// if its decimals show that a number continues after the end of its column.
+    /// `None` if the line does not match these columns: if it is longer or not ASCII, if a number contains white space,
+    /// or if its decimals show that a number continues after the end of its column.
     pub(super) fn fields(self, line: &str) -> Option<Vec<&str>> {
         if !line.is_ascii() || line.len() > self.repeat * self.width {
             return None;

@@ -20,8 +20,8 @@ use crate::text::decimal::finite;
 /// One file has all components of a station, one after the other.
 ///
 /// Samples are in mm/s² times the unit of the readings (`Raw readings in units of 1.00 mm/s/s`). The header states
-/// interval, number of points and duration in words and in numbers, which must agree, and the peak of each
-/// component. [`Record::read_all`](super::Record::read_all) returns all components. Velocity and displacement are skipped.
+/// interval, number of points and duration in words and in numbers, which must agree, and the peak of each component.
+/// [`Record::read_all`](super::Record::read_all) returns all components. Velocity and displacement are skipped.
 ///
 /// ```no_run
 /// use basemat::motion::{GeoNetFormat, Record};

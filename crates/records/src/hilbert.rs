@@ -5,8 +5,8 @@
 //!
 //! (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
 //!
-//! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
-//! (1970), 585–586). The linear convolution is computed by Fourier transforms, which are so long that nothing wraps around.
+//! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58 (1970),
+//! 585–586). The linear convolution is computed by Fourier transforms, which are so long that nothing wraps around.
 
 use std::f64::consts::PI;
 

@@ -1,8 +1,8 @@
 //! Records of K-NET and KiK-net with commas.
 //!
 //! Layout: the CSV files of the National Research Institute for Earth Science and Disaster Resilience
-//! (kyoshin.bosai.go.jp), whose header has the keys of the ASCII files (`man/knetform_en.html`) behind `#`; the last line
-//! of the header names the columns, of which the first is the time of day.
+//! (kyoshin.bosai.go.jp), whose header has the keys of the ASCII files (`man/knetform_en.html`) behind `#`; the last
+//! line of the header names the columns, of which the first is the time of day.
 
 use super::clock::Clock;
 use super::column_title::check_acceleration;

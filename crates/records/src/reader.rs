@@ -42,9 +42,9 @@ use crate::error::{FileFault, Result};
 /// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
 ///
 /// [`equally_spaced`](Self::equally_spaced) reads files without a time column. All their lines must have equally many
-/// columns. Without titles the lines may be one series along the lines. To be read as columns, one column must then have
-/// counts, times or a constant, or the numbers must jump from line to line, or `samples` must be set. A file that was cut
-/// within its last number looks like a complete one: set `samples` if you know their number.
+/// columns. Without titles the lines may be one series along the lines. To be read as columns, one column must then
+/// have counts, times or a constant, or the numbers must jump from line to line, or `samples` must be set. A file that
+/// was cut within its last number looks like a complete one: set `samples` if you know their number.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};

@@ -52,8 +52,9 @@ impl Record {
     /// Record from its time step (s) and at least two samples of acceleration (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the time step is positive and all slopes, velocities and displacements are finite;
-    /// [`Error::NotFinite`](crate::Error::NotFinite) for a sample that is not finite; [`Error::Size`](crate::Error::Size) for fewer than two samples.
+    /// [`Error::Input`](crate::Error::Input) unless the time step is positive and all slopes, velocities and
+    /// displacements are finite; [`Error::NotFinite`](crate::Error::NotFinite) for a sample that is not finite;
+    /// [`Error::Size`](crate::Error::Size) for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
         at_least("samples of the record", acceleration.len(), 2)?;
@@ -84,8 +85,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// As for [`Record::new`]; [`Error::Input`](crate::Error::Input) for a duration that is not positive, [`Error::Memory`](crate::Error::Memory) for more
-    /// samples than fit into memory.
+    /// As for [`Record::new`]; [`Error::Input`](crate::Error::Input) for a duration that is not positive,
+    /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
     pub fn from_fn(
         time_step: f64,
         duration: f64,
@@ -148,7 +149,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the step is positive, [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
+    /// [`Error::Input`](crate::Error::Input) unless the step is positive, [`Error::Memory`](crate::Error::Memory) for
+    /// more samples than fit into memory.
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();

@@ -94,10 +94,10 @@ impl Record {
     ///
     /// The acceleration is linear between samples, for which the oscillator's motion is known exactly (Nigam &
     /// Jennings, "Calculation of response spectra from strong-motion earthquake records", Bull. Seism. Soc. Am. 59
-    /// (1969), 909–922). Peaks between samples are found to 2e-6. Peaks of the free vibration in the period after the last
-    /// sample count too. The spectrum of a floor's acceleration is a floor spectrum. [`Record::coarse_spectrum`] warns of
-    /// periods that are too short for the record's time step. The observer's parts are samples of the record, counted
-    /// again for every period.
+    /// (1969), 909–922). Peaks between samples are found to 2e-6. Peaks of the free vibration in the period after the
+    /// last sample count too. The spectrum of a floor's acceleration is a floor spectrum. [`Record::coarse_spectrum`]
+    /// warns of periods that are too short for the record's time step. The observer's parts are samples of the record,
+    /// counted again for every period.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();

@@ -86,8 +86,8 @@ pub struct Footing {
 impl Footing {
     /// Footing of these elements of a patch.
     ///
-    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: reference point of the
-    /// base moment.
+    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: reference point of
+    /// the base moment.
     pub fn new(
         patch: &Patch,
         elements: Range<usize>,

@@ -18,8 +18,10 @@ pub(super) struct RotationAxis {
     pub(super) direction: Direction,
     pub(super) vector: [f64; 3],
 }
+/// Rotations of a mesh in the plane.
 pub(super) const PLANE_ROTATION_AXES: &[RotationAxis] =
     &[RotationAxis { direction: Direction::Rotation, vector: [0.0, 0.0, 1.0] }];
+/// Rotations of a mesh in space.
 pub(super) const SPACE_ROTATION_AXES: &[RotationAxis] = &[
     RotationAxis { direction: Direction::RotationX, vector: [1.0, 0.0, 0.0] },
     RotationAxis { direction: Direction::RotationY, vector: [0.0, 1.0, 0.0] },
@@ -65,7 +67,7 @@ impl ElementDof {
 }
 
 impl ElementNodes {
-    /// Nodes of an element that has all displacements; `None` for another one.
+    /// Nodes of an element that has all displacements; `None` for other elements.
     pub(super) fn new(
         element: &dyn Element,
         coordinates: &[[f64; 3]],
@@ -109,8 +111,8 @@ impl ElementNodes {
 
     /// Change of nodal forces that rotate by 1 rad about an axis.
     ///
-    /// Moments change by half of their rotation: they belong to rotation vectors, whose moments are semitangential
-    /// (Argyris 1979).
+    /// Moments change by half of the change in a rotation: they are conjugate to rotation vectors, and therefore
+    /// semitangential (Argyris 1979).
     pub(super) fn force_changes(&self, axis: [f64; 3], dof_forces: &[f64]) -> Vec<f64> {
         let nodal_forces = self.nodal_forces(dof_forces);
         let mut changes = Vec::with_capacity(dof_forces.len());

@@ -129,14 +129,18 @@ fn added_forces(
     let axes = if state.is_in_space { SPACE_ROTATION_AXES } else { PLANE_ROTATION_AXES };
     let mut columns = Vec::with_capacity(axes.len());
     for (axis, rigid_rotation) in axes.iter().zip(rigid_rotations) {
-        // Forces of the weight keep their direction; moments of distributed weight follow the element.
+        // The rotation changes the weight by `rotated_weight` − `inclined_weight`. This is zero for the nodal forces of
+        // the weight, which keep their direction, but not for the moments of distributed weight, which depend on the
+        // element's inclination.
         let rotated_forces = nodes.force_changes(axis.vector, forces);
         let rotated_weight = nodes.force_changes(axis.vector, &weight);
-        let dead_weight = nodes.dead_load(&mass, state.gravity, cross(axis.vector, up));
+        let inclined_weight = nodes.dead_load(&mass, state.gravity, cross(axis.vector, up));
         let element_forces = matrix_vector_product(&geometric_stiffness, rigid_rotation);
         let mut column = Vec::with_capacity(order);
         for k in 0..order {
-            column.push(rotated_forces[k] - rotated_weight[k] + dead_weight[k] - element_forces[k]);
+            column.push(
+                rotated_forces[k] - rotated_weight[k] + inclined_weight[k] - element_forces[k],
+            );
         }
         columns.push(column);
     }

@@ -42,10 +42,13 @@ impl SolidMaterial for HiddenElastic {
 /// Variables: plastic strain (0 to 3), plastic arc length (4), dissipated energy (5), initial stress (6 to 9).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hardening {
+    /// Shear modulus, Pa.
     pub(crate) shear: f64,
+    /// Bulk modulus, Pa.
     pub(crate) bulk: f64,
     /// Norm of the deviator at first yield, Pa.
     pub(crate) strength: f64,
+    /// Growth of the yield surface's radius with the plastic arc length, Pa.
     pub(crate) plastic_modulus: f64,
 }
 

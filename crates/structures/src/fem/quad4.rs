@@ -119,7 +119,7 @@ impl Quad4 {
         elasticity: &[[f64; 3]; 3],
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
-        let centre_jacobian = Jacobian::at([0.0; 2], coordinates);
+        let center_jacobian = Jacobian::at([0.0; 2], coordinates);
         let weighted_points = gauss_points().into_iter().map(|point| (point, 1.0));
         let mut full_stiffness = integrate_stiffness(elasticity, weighted_points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
@@ -127,11 +127,11 @@ impl Quad4 {
             strains[..DOF_COUNT].copy_from_slice(&node_strains(point, &jacobian));
             // Derivatives of the modes 1 − ξ² and 1 − η² from the Jacobian at the centre. They are scaled so that the
             // integral of their strains over the element vanishes: a constant stress does no work in these modes.
-            let scale = -2.0 * centre_jacobian.determinant / jacobian.determinant;
+            let scale = -2.0 * center_jacobian.determinant / jacobian.determinant;
             let xi_mode_strains =
-                plane_strains(centre_jacobian.global_derivatives([scale * point[0], 0.0]));
+                plane_strains(center_jacobian.global_derivatives([scale * point[0], 0.0]));
             let eta_mode_strains =
-                plane_strains(centre_jacobian.global_derivatives([0.0, scale * point[1]]));
+                plane_strains(center_jacobian.global_derivatives([0.0, scale * point[1]]));
             strains[DOF_COUNT..DOF_COUNT + 2].copy_from_slice(&xi_mode_strains);
             strains[DOF_COUNT + 2..].copy_from_slice(&eta_mode_strains);
             (strains, jacobian.determinant)

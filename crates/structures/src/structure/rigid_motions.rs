@@ -17,9 +17,9 @@ pub(super) fn check_rows(contact_nodes: &[BaseNode], n: usize) -> Result<()> {
 
 /// Momenta M r of the rigid motions r of every part that stiffness connects.
 ///
-/// Motions are to the right, upwards and rotations, and orthonormal with respect to M. A motion without strain follows
-/// from the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N gives
-/// the nodes' displacements and t their prescribed values.
+/// The motions are translations and rotations, orthonormal with respect to M. A motion without strain follows from the
+/// motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes'
+/// displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
     contact_nodes: &[BaseNode],
     stiffness: &SparseMatrix,

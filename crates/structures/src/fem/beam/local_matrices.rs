@@ -72,25 +72,28 @@ pub(super) type BendingMatrix = [[f64; 4]; 4];
 /// Its matrices are the parts of the beam's matrices for deflections and rotations in this plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bending {
-    /// Bending stiffness E I, N m².
-    pub(super) stiffness: f64,
+    /// Flexural rigidity E I, N m².
+    pub(super) flexural_rigidity: f64,
     /// Shear stiffness G A_s, N; `None` without shear deformation.
     pub(super) shear_stiffness: Option<f64>,
     /// Rotary inertia ρ I of the section per length, kg m.
     pub(super) section_inertia: f64,
+    /// Whether the consistent mass includes the rotary inertia of the section, and the lumped mass half of it at each
+    /// end.
     pub(super) has_rotary_inertia: bool,
 }
 
 impl Bending {
     /// Ratio of shear to bending flexibility, `Φ = 12 EI/(G A_s L²)`.
     fn shear_ratio(&self, length: f64) -> f64 {
-        self.shear_stiffness.map_or(0.0, |k| 12.0 * self.stiffness / (k * length * length))
+        self.shear_stiffness
+            .map_or(0.0, |k| 12.0 * self.flexural_rigidity / (k * length * length))
     }
 
     /// Stiffness matrix of a beam of this `length` (m).
     pub(super) fn stiffness(&self, length: f64) -> BendingMatrix {
         let shear_ratio = self.shear_ratio(length);
-        let k = self.stiffness / (length.powi(3) * (1.0 + shear_ratio));
+        let k = self.flexural_rigidity / (length.powi(3) * (1.0 + shear_ratio));
         let shear = 12.0 * k;
         let coupling = 6.0 * k * length;
         let near_end = (4.0 + shear_ratio) * k * length * length;

@@ -66,7 +66,7 @@ impl Beam {
             nodes,
             axial_stiffness: positive("axial stiffness of the beam", young_modulus * area)?,
             bending: Bending {
-                stiffness: positive("bending stiffness", young_modulus * second_moment)?,
+                flexural_rigidity: positive("bending stiffness", young_modulus * second_moment)?,
                 shear_stiffness: None,
                 section_inertia: not_negative("inertia of the section", density * second_moment)?,
                 has_rotary_inertia: false,

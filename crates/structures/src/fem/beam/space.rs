@@ -115,10 +115,10 @@ impl SpaceBeam {
         let shear_stiffness =
             section.shear_areas.map(|areas| material.shear_modulus() * areas[axis]);
         shear_stiffness.map(|k| positive("shear stiffness of the beam", k)).transpose()?;
-        let stiffness = material.young_modulus() * second_moment;
+        let flexural_rigidity = material.young_modulus() * second_moment;
         let section_inertia = material.density() * second_moment;
         Ok(Bending {
-            stiffness: positive("bending stiffness of the beam", stiffness)?,
+            flexural_rigidity: positive("bending stiffness of the beam", flexural_rigidity)?,
             shear_stiffness,
             section_inertia: finite("inertia of the section", section_inertia)?,
             has_rotary_inertia: false,

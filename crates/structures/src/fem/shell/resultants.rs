@@ -53,12 +53,13 @@ impl ShellResultants {
 
     /// The same forces and moments in other axes.
     ///
-    /// The new e1 is the part of `tangent` in the plane of the element. The new n is the normal on the side of `outward_direction`,
-    /// so that the signs of moments and shear forces do not depend on the order of an element's nodes. Both vectors may
-    /// have any length.
+    /// The new e1 is the part of `tangent` in the plane of the element. The new n is the normal on the side of
+    /// `outward_direction`, so that the signs of moments and shear forces do not depend on the order of an element's
+    /// nodes. Both vectors may have any length.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) if `tangent` is normal to the element or `outward_direction` lies in its plane.
+    /// [`Error::Input`](crate::Error::Input) if `tangent` is normal to the element, or if `outward_direction` lies in
+    /// its plane.
     pub fn in_axes(&self, tangent: [f64; 3], outward_direction: [f64; 3]) -> Result<Self> {
         let [e1, e2, normal] = self.axes;
         let outward_cosine = dot(normal, unit_vector(outward_direction));

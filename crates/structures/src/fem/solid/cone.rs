@@ -1,7 +1,7 @@
 //! Drucker–Prager's cone, and the return of elastic trial stresses to it.
 //!
-//! Elastic–perfectly plastic with a cone as yield surface (Drucker & Prager 1952, Q. Appl. Math. 10, 157–165), matched to
-//! Mohr–Coulomb's law in plane strain. Symbols:
+//! Elastic–perfectly plastic with a cone as yield surface (Drucker & Prager 1952, Q. Appl. Math. 10, 157–165), matched
+//! to Mohr–Coulomb's law in plane strain. Symbols:
 //!
 //! | symbol | quantity |
 //! |---|---|

@@ -1,5 +1,4 @@
 //! Drucker–Prager's law: drained sand, and soil with cohesion and friction.
-//!
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,12 +12,12 @@ use crate::fem::material::Material;
 /// Sand or other drained soil: yields on Drucker–Prager's cone, matched to Mohr–Coulomb in plane strain.
 ///
 /// Elastic–perfectly plastic with cohesion c, friction angle φ and dilation angle ψ ≤ φ. A smaller ψ than φ makes the
-/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip, where the tangent is 10⁻⁴ of the elasticity
-/// in place of zero, so that stiffness matrices stay regular. With φ = 0 it is von Mises' law with the
-/// shear strength c. The table of laws in [`SolidMaterial`] has the formulas.
+/// tangent unsymmetric. Stress beyond the tip of the cone returns to the tip, where the tangent is 10⁻⁴ of the
+/// elasticity in place of zero, so that stiffness matrices stay regular. With φ = 0 it is von Mises' law with the shear
+/// strength c. The table of laws in [`SolidMaterial`] has the formulas.
 ///
-/// An **initial stress** lies within the cone. Stress at rest with σ_h = K₀ σ_v and K₀ = 1 − sin φ (Jaky) lies outside of
-/// it for c = 0 and φ above about 36°.
+/// An **initial stress** lies within the cone. Stress at rest with σ_h = K₀ σ_v and K₀ = 1 − sin φ (Jaky) lies outside
+/// of it for c = 0 and φ above about 36°.
 ///
 /// The internal variables are the plastic strain, the energy dissipated so far and the initial stress.
 ///

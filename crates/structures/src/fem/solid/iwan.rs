@@ -95,8 +95,8 @@ impl Iwan {
     ///
     /// `points`: shear strain γ (engineering, 0.01 is 1 %) and shear stress τ (Pa) in simple shear, without the origin.
     /// The backbone is straight between points and constant beyond the last one. `poisson`: Poisson's ratio ν of small
-    /// strains; the bulk modulus is K = 2 G (1 + ν)/(3 (1 − 2ν)) with G = τ/γ of the first point. `density`: kg/m³; 0 is
-    /// allowed.
+    /// strains; the bulk modulus is K = 2 G (1 + ν)/(3 (1 − 2ν)) with G = τ/γ of the first point. `density`: kg/m³; 0
+    /// is allowed.
     ///
     /// ```
     /// use basemat::fem::Iwan;
@@ -132,12 +132,13 @@ impl Iwan {
     /// Soil with a hyperbolic backbone from shear modulus and strength.
     ///
     /// `shear_modulus`: G of small strains, Pa. `strength`: τ_s, Pa. `limit_strain`: γ_n at which the strength is
-    /// reached; 200 τ_s/G is usual. `poisson` and `density` (kg/m³) are those of [`Iwan::new`]. The backbone is
-    /// τ = G γ/(1 + G γ/τ_m) with 1/τ_m = 1/τ_s − 1/(γ_n G), at 12 strains in a geometric series from 0.02 τ_s/G to γ_n. Up
+    /// reached; 200 τ_s/G is usual. `poisson` and `density` (kg/m³) are those of [`Iwan::new`]. The backbone is τ = G
+    /// γ/(1 + G γ/τ_m) with 1/τ_m = 1/τ_s − 1/(γ_n G), at 12 strains in a geometric series from 0.02 τ_s/G to γ_n. Up
     /// to the first of them it is straight with the slope G.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless G and τ_s are positive and γ_n ≥ 5 τ_s/G, and those of [`Iwan::new`].
+    /// [`Error::Input`](crate::Error::Input) unless G and τ_s are positive and γ_n ≥ 5 τ_s/G, and those of
+    /// [`Iwan::new`].
     pub fn hyperbolic(
         shear_modulus: f64,
         strength: f64,
@@ -368,8 +369,8 @@ impl SolidMaterial for Iwan {
 
     /// The plastic strain is the part of the strain deviator that stays when all stress unloads with G.
     ///
-    /// It is Σ G_j e_j^p/G with the plastic strain e_j^p of each component since the initial state. The mobilised strength
-    /// is |s|/(√2 τ_n).
+    /// It is Σ G_j e_j^p/G with the plastic strain e_j^p of each component since the initial state. The mobilised
+    /// strength is |s|/(√2 τ_n).
     fn state(&self, strain: [f64; 4], variables: &[f64]) -> SolidState {
         let Ok(variables) = self.read(variables) else { return SolidState::default() };
         let strain_deviator = strain_deviator(strain);

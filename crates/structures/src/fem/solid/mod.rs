@@ -6,7 +6,8 @@
 //! | Iwan's model: clay without drainage | `iwan.rs`; `iwan_backbone.rs`: its components from a backbone |
 //! | Drucker–Prager: drained sand | `drucker_prager.rs`; `cone.rs`: return of stresses to the cone |
 //!
-//! Formulas, units and sources stand in the documentation of [`SolidMaterial`]. `tensor.rs` has the algebra of deviators.
+//! Formulas, units and sources stand in the documentation of [`SolidMaterial`]. `tensor.rs` has the algebra of
+//! deviators.
 
 mod cone;
 mod drucker_prager;
@@ -63,8 +64,8 @@ pub struct SolidState {
 /// | [`Iwan`] | clay without drainage; any modulus-reduction curve | \|s_j\| = r_j of parallel components; \|s\| = √2 τ_n in all | symmetric |
 /// | [`DruckerPrager`] | drained sand; soil with friction and cohesion | √J₂ + α I₁ = k | symmetric for ψ = φ |
 ///
-/// All have the elasticity C : ε = 2 G e + K tr ε 1, with the deviator e of the strain, and evaluate the plastic strain at
-/// the end of the path (backward Euler). |s| = √(s : s), I₁ = tr σ, √J₂ = |s|/√2.
+/// All have the elasticity C : ε = 2 G e + K tr ε 1, with the deviator e of the strain, and evaluate the plastic strain
+/// at the end of the path (backward Euler). |s| = √(s : s), I₁ = tr σ, √J₂ = |s|/√2.
 ///
 /// **Iwan** (Iwan 1967; Besseling 1958): from the points (γ_j, τ_j) of the backbone in simple shear, with slopes k_j,
 ///

@@ -40,8 +40,10 @@ struct ReactionAxis {
     axis: usize,
     direction: Direction,
 }
+/// Rotations of a mesh in the plane.
 const PLANE_ROTATIONS: &[ReactionAxis] =
     &[ReactionAxis { axis: 2, direction: Direction::Rotation }];
+/// Rotations of a mesh in space.
 const SPACE_ROTATIONS: &[ReactionAxis] = &[
     ReactionAxis { axis: 0, direction: Direction::RotationX },
     ReactionAxis { axis: 1, direction: Direction::RotationY },

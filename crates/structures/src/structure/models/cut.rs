@@ -13,9 +13,9 @@ pub(super) struct SectionCut<'a> {
     reference: [f64; 2],
     /// Whether each node belongs to the part below, which includes the nodes at the height of the section.
     is_below: Vec<bool>,
-    /// Stiffness matrices of the elements above, times −1; their sum counts.
+    /// Stiffness matrices of the elements above, times −1; resultants use their sum.
     stiffness: Vec<Triplets>,
-    /// Damping matrices of the elements above, times −1; their sum counts.
+    /// Damping matrices of the elements above, times −1; resultants use their sum.
     damping: Vec<Triplets>,
     /// Mass matrix of the elements above, times −1.
     mass: Vec<Triplets>,

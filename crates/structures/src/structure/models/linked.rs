@@ -60,8 +60,9 @@ impl FemModel {
 
     /// Gives the nodes `followers` the displacements of `leader`; their rotations remain free.
     ///
-    /// Both sides of a soil column are tied at each height, so that it deforms as a soil of infinite width in vertically
-    /// propagating waves. A tie resists the rotation of the structure as a whole, as the soil beside the column does.
+    /// Both sides of a soil column are tied at each height, so that it deforms as a soil of infinite width in
+    /// vertically propagating waves. A tie resists the rotation of the structure as a whole, as the soil beside the
+    /// column does.
     ///
     /// ```
     /// use basemat::fem::{Direction, Layer, Material, Mesh};

@@ -36,8 +36,8 @@ pub struct PlanStorey {
 impl PlanStorey {
     /// Storey with a homogeneous rectangular floor above the middle of the mat.
     ///
-    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as the field. The
-    /// storey has no eccentricities and no dashpots.
+    /// `height` in m, `mass` of the floor in kg, sides of the floor along x and y in m, `stiffness` as in the field
+    /// [`stiffness`](PlanStorey::stiffness). The storey has no eccentricities and no dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
         let y_inertia = mass * length * length / 12.0;
         let x_inertia = mass * width * width / 12.0;
@@ -136,9 +136,9 @@ impl StoreyBuilding {
     /// Replaces the stiffness of `storey` (0: the lowest) by `law` in one `direction`.
     ///
     /// Directions: [`ALONG`](StoreyBuilding::DIRECTION_ALONG), [`ACROSS`](StoreyBuilding::DIRECTION_ACROSS) or
-    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's [`drift`](StoreyBuilding::drift) in
-    /// that direction. Laws along x and y act independently: along the diagonal, two sliders have √2 times the friction
-    /// of one. For bearings that slide or yield in any direction use
+    /// [`TWIST`](StoreyBuilding::DIRECTION_TWIST). The deformation of the law is the storey's
+    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: along the diagonal,
+    /// two sliders have √2 times the friction of one. For bearings that slide or yield in any direction use
     /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
