@@ -50,17 +50,18 @@ impl FixedBaseResults {
     }
 
     /// The stiffness, with or without a shift, if the static state's factor is positive definite.
-    pub(super) fn positive_definite<'a>(
+    pub(super) fn positive_definite_stiffness<'a>(
         &self,
         assembled: &'a Assembled,
         shifted_stiffness: Option<&'a ShiftedStiffnessFactor>,
     ) -> Option<&'a SparseMatrix> {
         let stiffness = shifted_stiffness?.positive_definite()?;
-        // The part of K outside the base, which is factored with a fixed base, is positive definite too.
+        // For a condensed structure the factor is that of the condensed stiffness. The remaining part of K, which has
+        // been factored with a fixed base, is positive definite too.
         Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 
-    /// Takes the input of reduced coordinates, with the static state's factor; `None` for other coordinates.
+    /// Input of reduced coordinates, with the static state's factor, moved out of `self`; `None` for other coordinates.
     pub(super) fn take_reduction_input(
         &mut self,
         assembled: &Assembled,

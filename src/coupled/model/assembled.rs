@@ -23,7 +23,7 @@ use crate::structure::{
     check_damping, check_mass, check_stiffness, max_diagonal_stiffness, proportional_factors,
 };
 
-/// Number of passes that refine the influence vectors.
+/// Number of passes of iterative refinement of the influence vectors.
 const INFLUENCE_REFINEMENT_COUNT: usize = 3;
 /// Largest ratio √(inertia/stiffness) (s) of the springs under the base.
 ///
@@ -89,7 +89,7 @@ impl Assembled {
         };
         let stiffness = assembled.stiffness_at_rest();
         check_attached(structure, stiffness, &assembled.mass, &assembled.base.dofs())?;
-        // Rounding determines the error of a mechanism, but a mechanism never has the wrong sign.
+        // Which error a mechanism causes depends on rounding, but a mechanism never causes `Indefinite`.
         let (influence, fixed_factor) =
             assembled.compute_influence().map_err(|error| match error {
                 Error::Indefinite { .. } => assembled.buckling(structure).unwrap_or(error),
@@ -268,11 +268,11 @@ impl Assembled {
         if self.is_linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
-        let translation_forces = springs.translation_forces().concat();
-        let mut solution = vec![0.0; translation_forces.len()];
+        let spring_forces = springs.translation_forces().concat();
+        let mut solution = vec![0.0; spring_forces.len()];
         for _ in 0..=INFLUENCE_REFINEMENT_COUNT {
             let mut residual = matrix.times(&solution);
-            residual.iter_mut().zip(&translation_forces).for_each(|(r, force)| *r = force - *r);
+            residual.iter_mut().zip(&spring_forces).for_each(|(r, force)| *r = force - *r);
             factor.solve_many(&mut residual);
             solution.iter_mut().zip(&residual).for_each(|(r, d)| *r += d);
         }

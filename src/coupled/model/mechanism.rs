@@ -5,15 +5,15 @@ use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{SpringSupportedBase, Structure, Triplets, dof_list_text};
 
-/// Regularising mass of mechanisms, relative to a mass as large as the stiffness.
+/// Largest regularising term on the diagonal, relative to the largest stiffness.
 const REGULARISING_MASS_RATIO: f64 = 1e-12;
-/// Largest work of a mechanism on the stiffness, relative to the work of its largest entries.
+/// Largest work of a mechanism on the stiffness, relative to the sum of the magnitudes of its terms.
 const MAX_MECHANISM_WORK_RATIO: f64 = 1e-12;
 /// Largest relative work of a mechanism where no factorization has failed.
 ///
 /// The sum of elements has a rounding of 3e-17. A column of a thousand beams, although not a mechanism, has 1e-12.
 const MAX_CERTAIN_MECHANISM_WORK_RATIO: f64 = f64::EPSILON;
-/// Smallest relative work of the softest displacement without a mechanism.
+/// Relative work of the softest displacement above which the structure has no mechanism.
 const FIRM_WORK_RATIO: f64 = 1e-6;
 /// Smallest displacement of a degree of freedom of a mechanism, relative to the largest.
 const MIN_MECHANISM_DISPLACEMENT_RATIO: f64 = 0.1;
@@ -67,7 +67,7 @@ impl StructureAtRest<'_> {
 }
 
 /// The mechanism without resistance by stiffness, damping and mass; `None` if there is none.
-pub(crate) fn unresisted(
+pub(crate) fn unresisted_mechanism(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
     mass_and_damping: [&SparseMatrix; 2],
@@ -214,8 +214,8 @@ impl RegularisedStiffness {
 
     /// Work of a displacement on the matrix, relative to the sum of the magnitudes of its terms.
     ///
-    /// A degree of freedom without entries contributes the work of a spring to the sum. Compared with its displacement,
-    /// all others are rounding.
+    /// A degree of freedom without entries contributes the work of a spring to the sum. If it moves, all other
+    /// displacements are only rounding.
     fn relative_work(&self, shape: &[f64]) -> f64 {
         let mut scale: f64 = self.empty_dofs.iter().map(|&i| self.spring * shape[i].powi(2)).sum();
         let mut work = 0.0_f64;

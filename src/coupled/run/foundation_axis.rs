@@ -3,7 +3,7 @@
 use crate::coupled::state::foundation::Foundation;
 use crate::geometry::{Patch, enclosing_interval, min_interval_count};
 
-/// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
+/// Ratios of base moment to base shear times width, and the number of elements that a foundation needs above each.
 ///
 /// Below the last ratio rocking is negligible.
 const ELEMENTS_FOR_ROCKING: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];

@@ -50,20 +50,20 @@ macro_rules! quantities {
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
         ///
         /// Quantities are named and signed as in [`State`]. Moments of a foundation are about the middle of its
-        /// elements, in plan of its outline. So the moments of one structure do not depend on the others.
+        /// elements, in plan of its outline. The moments of one foundation then do not depend on other foundations.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Summary {
-            /// Elements of the foundation, as indices of all.
+            /// Indices of the foundation's elements among all elements.
             pub elements: Range<usize>,
             /// Left and right end of the foundation, m; in plan of its outline.
             pub ends: [f64; 2],
             /// Front and back end of the foundation along y, m, in plan; zeros in the plane.
             #[cfg_attr(feature = "serde", serde(default))]
             pub depth: [f64; 2],
-            /// Normal force at the start, of weight and loads, N/m.
+            /// Normal force at the start, due to weight and loads, N/m (in plan N).
             pub static_normal_force: f64,
             $($(#[$doc])* pub $field: Extremes,)+
             /// Mean slip at the end, m.
@@ -153,7 +153,7 @@ quantities! {
     /// Total pressure on the soil, N/m.
     NormalForce normal_force, "normal force", "N/m", Scale::Unit, [Page],
         |base| base.whole_or(base.state.normal_force, |foundation| foundation.normal_force);
-    /// Length of open elements over the length of the base.
+    /// Length of open elements over the length of the base; in plan their area over its area.
     UpliftedFraction uplifted_fraction, "uplifted fraction", "", Scale::Percent, [Foundations, Comparison],
         |base| base.whole_or(base.state.uplifted_fraction, |foundation| foundation.uplifted_fraction);
     /// Slip averaged over the base, m; tangential motion of open elements counts.
@@ -189,17 +189,18 @@ quantities! {
         |base| base.state.free_field[1];
     /// Resistance of the interface over the base shear: φN/|H|.
     ///
-    /// Infinite without shear, NaN in flight and for a base with walls. NaN throughout if an element's law has no friction coefficient and
-    /// [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It is computed from
-    /// the actual tractions: on a base that may slide it reaches one during sliding, and never falls below. On a
-    /// bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
+    /// Infinite without shear, NaN in flight and for a base with walls. NaN throughout if an element's law has no
+    /// friction coefficient and [`safety_friction`](crate::coupled::SimulationBuilder::safety_friction) was not set. It
+    /// is computed from the actual tractions: on a base that may slide it reaches one during sliding, and never falls
+    /// below. On a bonded base it may fall below one, and shows the missing resistance. Of several foundations the
+    /// smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
         |base| base.smallest_safety(|checks| checks.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
-    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with
-    /// walls. On a base that may open it reaches one when the base stands on its edge, and never falls below. Of several foundations the
-    /// smallest.
+    /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with walls.
+    /// On a base that may open it reaches one when the base stands on its edge, and never falls below. Of several
+    /// foundations the smallest.
     ///
     /// In plan over the left or the right edge: N times the distance of the edge from the middle of the outline;
     /// on a round or many-sided outline, of each edge that faces x more than y. Pressure acts at the middle of the

@@ -6,7 +6,7 @@
 //! | r | displacements of the structure in that motion of its contact nodes |
 
 use crate::coupled::base::faces::hull;
-use crate::coupled::model::mechanism::{RegularisedStiffness, unresisted};
+use crate::coupled::model::mechanism::{RegularisedStiffness, unresisted_mechanism};
 use crate::coupled::model::signs::FIRM_SPRING_FACTOR;
 use crate::coupled::statics::buckling::{GroundedStructure, load_factor};
 use crate::coupled::statics::equilibrium::StaticProblem;
@@ -37,7 +37,7 @@ pub(crate) fn cause(
         .mechanism()
         .or_else(|| {
             if is_singular {
-                unresisted(structure, at_rest.stiffness, mass_and_damping)
+                unresisted_mechanism(structure, at_rest.stiffness, mass_and_damping)
             } else {
                 None
             }

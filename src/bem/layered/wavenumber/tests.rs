@@ -1,4 +1,4 @@
-//! Element compliances against a table, a closed form and finer tolerances.
+//! Tests of element compliances against a table, a closed form and finer tolerances.
 
 use super::*;
 use crate::bem::layered::passivity::assembled;
