@@ -34,7 +34,7 @@ const MAX_LIMITED_BASIS_SIZE: usize = 800;
 /// Fraction of a vector's length that must remain after its orthogonalisation: less is a rounding error.
 const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
-/// Limit at which a search for modes ends before it has found their number.
+/// Limit at which a search for modes ends, even if it has found fewer modes than requested.
 #[derive(Debug, Clone, Copy)]
 pub struct ModeLimit {
     /// The search ends at the first eigenvalue λ above this one, which is the last returned eigenvalue.
@@ -132,7 +132,7 @@ impl KrylovSpace<'_> {
         self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// Approximations of the lowest `count` modes in this space, up to the first mode above `limit`.
+    /// Approximations of the lowest `count` modes in this space, up to the first mode with λ above `max_eigenvalue`.
     fn approximations(&self, count: usize, max_eigenvalue: f64) -> Option<Approximations> {
         let m = self.columns.len();
         // H, with zeros for the rows that a column does not have.

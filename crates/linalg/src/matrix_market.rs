@@ -1,7 +1,7 @@
-//! Reads and writes Matrix Market files.
+//! Reading and writing of Matrix Market files.
 //!
-//! They support the part of the format of Boisvert, Pozo & Remington (NIST IR 5935, 1996) that structural matrices
-//! need: coordinate or array, real or integer, general or symmetric.
+//! The supported part of the format (Boisvert, Pozo & Remington, NIST IR 5935, 1996) is sufficient for structural
+//! matrices: coordinate or array, real or integer, general or symmetric.
 
 use std::io::{Read, Write};
 use std::path::Path;

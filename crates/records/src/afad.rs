@@ -96,7 +96,7 @@ impl AfadHeader {
 
 /// Reads all components of a file.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
-    let AfadHead { header, names, first_row } = read_head(lines)?;
+    let AfadPreamble { header, names, first_row } = read_preamble(lines)?;
     let time_step = header.time_step.filter(|&time_step| time_step > 0.0);
     let time_step = required(lines, time_step, "sampling interval (SAMPLING INTERVAL)")?;
     let expected_count =
@@ -134,7 +134,7 @@ fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
 }
 
 /// Contents of the lines up to the first line of numbers.
-struct AfadHead {
+struct AfadPreamble {
     header: AfadHeader,
     /// Names of the components.
     names: Vec<String>,
@@ -143,7 +143,7 @@ struct AfadHead {
 }
 
 /// Reads the lines up to the first line of numbers, this line included.
-fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
+fn read_preamble(lines: &mut Lines) -> LineResult<AfadPreamble> {
     let mut header = AfadHeader::default();
     let mut previous_line = String::new();
     while let Some(line) = lines.next()? {
@@ -159,7 +159,7 @@ fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
             for name in &names {
                 lines.with_line_number(check_acceleration(name, SAMPLE_UNIT))?;
             }
-            return Ok(AfadHead { header, names, first_row });
+            return Ok(AfadPreamble { header, names, first_row });
         }
         if !line.is_empty() {
             previous_line = line;

@@ -177,7 +177,7 @@ impl Record {
         Self::new(self.step, self.acceleration.iter().map(|a| a * factor).collect())
     }
 
-    /// Record scaled to a peak ground acceleration (m/s²), signs kept.
+    /// Record scaled to a peak ground acceleration (m/s²); the factor is positive.
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940().scaled_to_peak(5.0)?;

@@ -149,7 +149,7 @@ impl Record {
         let substeps_per_step = substep_ratio as usize;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
         let free_step_count = (period / self.time_step()).ceil() as usize;
-        let mut march = OscillatorMarch {
+        let mut response = OscillatorResponse {
             oscillator: Oscillator::new(
                 circular_frequency,
                 damping,
@@ -162,24 +162,24 @@ impl Record {
             max_acceleration: 0.0,
         };
         for (index, pair) in self.accelerations().windows(2).enumerate() {
-            march.step(pair[0], pair[1] - pair[0], &mut || report(index))?;
+            response.step(pair[0], pair[1] - pair[0], &mut || report(index))?;
         }
         for _ in 0..free_step_count {
-            march.step(0.0, 0.0, &mut || report(self.len()))?;
+            response.step(0.0, 0.0, &mut || report(self.len()))?;
         }
-        let displacement = march.max_displacement;
+        let displacement = response.max_displacement;
         Ok(SpectralOrdinate {
             period,
             displacement,
             pseudo_velocity: circular_frequency * displacement,
             pseudo_acceleration: circular_frequency * circular_frequency * displacement,
-            acceleration: march.max_acceleration,
+            acceleration: response.max_acceleration,
         })
     }
 }
 
 /// Motion of an oscillator through a record, and its largest responses so far.
-struct OscillatorMarch {
+struct OscillatorResponse {
     oscillator: Oscillator,
     /// Number of substeps in a time step of the record.
     substeps_per_step: usize,
@@ -192,7 +192,7 @@ struct OscillatorMarch {
     max_acceleration: f64,
 }
 
-impl OscillatorMarch {
+impl OscillatorResponse {
     /// Advances by one time step of the record.
     ///
     /// The ground's acceleration is `ground_acceleration` (m/s²) at the start of the step, and grows linearly by
