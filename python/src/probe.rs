@@ -35,8 +35,8 @@ impl PyProbe {
         with_unit(Probe::displacement(name, row.0), row.1, unit)
     }
 
-    /// Displacement (m) of the ``row`` with the translation of the free field, as the time series
-    /// ``name``; ``unit``: its label, "m" unless given.
+    /// Displacement (m) of the ``row`` including the translation of the free field, as the time series ``name``;
+    /// ``unit``: its label, "m" unless given.
     #[pyo3(signature = (name, row, *, unit=None))]
     #[staticmethod]
     fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {

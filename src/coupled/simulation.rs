@@ -20,7 +20,7 @@ use crate::interface::Mode;
 use crate::motion::FreeField;
 use crate::structure::{Probe, Structure};
 
-/// Rounding of a number of steps, relative to it, which must not add a step.
+/// Relative rounding error of a number of steps that must not add a step.
 const STEP_COUNT_TOLERANCE: f64 = 1e-12;
 
 /// A structure on a ground, ready for time steps.
@@ -145,7 +145,7 @@ impl Simulation {
         without_rigid_foundations(self.structure.as_ref())
     }
 
-    /// Returns the structure by value, on a fixed base within one that has rigid foundations.
+    /// Returns the structure by value; on a fixed base, inside a wrapper that adds rigid foundations to it.
     pub fn into_structure(self) -> Box<dyn Structure> {
         self.structure
     }

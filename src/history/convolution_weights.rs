@@ -107,7 +107,7 @@ pub trait ConvolutionWeights: Send + Sync {
     /// [`ConvolutionWeights::coefficients`].
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
-        same_length("step compliance", matrix.len(), classes.layout().square())?;
+        same_length("step compliance", matrix.len(), classes.layout().matrix_len())?;
         self.prepare(1, &mut unobserved)?;
         // Coefficients of each class, kind by kind; zero for kinds that the elements do not have.
         let mut class_coefficients = vec![[0.0; COMPLIANCES_PER_OFFSET]; classes.count()];

@@ -339,7 +339,7 @@ impl PairClasses {
         T: Copy + Default + Mul<f64, Output = T>,
     {
         let layout = self.layout();
-        let mut matrix = vec![T::default(); layout.square()];
+        let mut matrix = vec![T::default(); layout.matrix_len()];
         self.scatter(&mut matrix, pair_values);
         let mut scales = Vec::with_capacity(layout.len());
         for matrix_index in 0..layout.len() {

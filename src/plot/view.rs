@@ -52,7 +52,7 @@ impl StructureView {
         }
     }
 
-    /// Cells of a shape, the farthest from the viewer first: each hides those before it.
+    /// Cells of a shape, the farthest from the viewer first: each cell hides the cells before it.
     ///
     /// Distances are means of the corners at rest. A shape without faces keeps its order.
     pub(super) fn far_to_near(self, shape: &DeformedShape) -> Vec<&[usize]> {

@@ -131,8 +131,8 @@ pub(super) struct SpectrumSums {
 impl SpectrumSums {
     /// Adds the next frequency, ω in rad/s.
     pub(super) fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
-        let squared_gain = filter.square();
-        let power = product.square();
+        let squared_gain = filter.squared_modulus();
+        let power = product.squared_modulus();
         self.squared_gain += squared_gain;
         self.power += power;
         if squared_gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {

@@ -21,8 +21,9 @@ impl PyRun {
 
 #[pymethods]
 impl PyRun {
-    /// Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first. Its moments are
-    /// about its middle. Several foundations need ``foundations=True`` of `Simulation.run`.
+    /// Time series of the scalars of a ``foundation`` (from 0): dict of arrays of shape (steps + 1,), "time" first.
+    /// Moments are about the middle of the foundation. Several foundations need ``foundations=True`` of
+    /// `Simulation.run`.
     fn foundation_series(
         &self,
         #[pyo3(from_py_with = whole_numbers)] foundation: usize,
@@ -74,7 +75,7 @@ impl PyRun {
 
 /// Equivalent viscous damping ratio E/(2π M θ) of one measured cycle of moments over rotations.
 ///
-/// E is the area of the polygon with these corners, M and θ are half the ranges (Gajan and Kutter 2008). An
+/// E is the area of the polygon of the measured points, M and θ are half the ranges (Gajan and Kutter 2008). An
 /// `InputError` is raised if the points are not one closed cycle. `Run.equivalent_damping` computes the ratio from a
 /// run.
 ///

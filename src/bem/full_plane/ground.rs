@@ -265,7 +265,7 @@ impl Ground for FullPlaneGround {
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len());
-        same_length("step compliance", matrix.len(), contact_layout.square())?;
+        same_length("step compliance", matrix.len(), contact_layout.matrix_len())?;
         self.boundary.compliance(&prepared.contact_compliance.columns, matrix);
         Ok(())
     }
@@ -307,7 +307,7 @@ impl Ground for FullPlaneGround {
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
         let contact_layout = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len());
-        same_length("static compliance", matrix.len(), contact_layout.square())?;
+        same_length("static compliance", matrix.len(), contact_layout.matrix_len())?;
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }

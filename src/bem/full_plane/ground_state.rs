@@ -39,8 +39,8 @@ impl PreparedBoundary {
         let layout = boundary.layout();
         same_length("elements of the boundary kernel", kernel.segments().len(), segment_count)?;
         let order = layout.len();
-        let mut g = vec![0.0; layout.square()];
-        let mut h = vec![0.0; layout.square()];
+        let mut g = vec![0.0; layout.matrix_len()];
+        let mut h = vec![0.0; layout.matrix_len()];
         kernel.coefficients(0, &mut g, &mut h)?;
         let contact_compliance = boundary.contact_compliance(&g, &h)?;
         let mut has_traction = vec![has_incident_field; order];

@@ -59,7 +59,7 @@ impl<'a> BoundarySymbol<'a> {
         if segment_count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let matrix_length = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count).square();
+        let matrix_length = ContactLayout::new(COMPONENTS_IN_PLANE, segment_count).matrix_len();
         let mut symbol = Self {
             kernel,
             has_prescribed_displacement: vec![],

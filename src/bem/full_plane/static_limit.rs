@@ -63,8 +63,8 @@ pub(super) fn static_compliance(
     let slowness_squared = speeds.map(|c| 1.0 / (c * c));
     let lame_ratio = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
-    let mut g = vec![0.0; layout.square()];
-    let mut h = vec![0.0; layout.square()];
+    let mut g = vec![0.0; layout.matrix_len()];
+    let mut h = vec![0.0; layout.matrix_len()];
     SegmentPairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |view| {
         let end_values = view
             .ends

@@ -203,8 +203,8 @@ impl BoundaryKernel for TimeKernel {
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len());
-        same_length("displacement coefficients", g.len(), layout.square())?;
-        same_length("traction coefficients", h.len(), layout.square())?;
+        same_length("displacement coefficients", g.len(), layout.matrix_len())?;
+        same_length("traction coefficients", h.len(), layout.matrix_len())?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
         let traction_unit = unit * self.soil.shear_modulus();
         let free_term = if lag == 0 { 0.5 } else { 0.0 };

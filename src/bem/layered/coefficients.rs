@@ -200,7 +200,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             for (input, (value, factor)) in input.iter_mut().zip(row.iter().zip(&transform_factors))
             {
                 // The exponent of the transform has the opposite sign.
-                *input = (*value * *factor).conj().inner();
+                *input = (*value * *factor).conj().to_complex64();
             }
             // The values at both ends of the half circle are real.
             input[0].im = 0.0;

@@ -281,7 +281,7 @@ const PHI_SERIES_TERM_COUNT: u32 = 10;
 
 /// Difference 1 − e^(−x) for Re x ≥ 0, without cancellation.
 fn one_less_exponential(x: Complex) -> Complex {
-    if x.square() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
+    if x.squared_modulus() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
         return Complex::real(1.0) - (-x).exp();
     }
     let exponents = (2..=EXPONENTIAL_SERIES_DEGREE).rev().map(f64::from);
@@ -352,7 +352,7 @@ impl LayerWaves {
     fn transfer(&self, h: f64) -> Transfer {
         let pressure = self.alpha.scale(-h).exp();
         let x = self.root_difference.scale(-h);
-        if x.square() > PHI_SERIES_LIMIT_SQUARED {
+        if x.squared_modulus() > PHI_SERIES_LIMIT_SQUARED {
             let shear = self.beta.scale(-h).exp();
             return Transfer { pressure, shear, mixed: (pressure - shear) / self.root_difference };
         }

@@ -88,7 +88,7 @@ pub(crate) fn margin<const KINDS: usize>(
 
 /// Absolute mobility of an element, by class of the pair with itself and component; above zero.
 fn self_mobility<const KINDS: usize>(values: &[[Complex; KINDS]]) -> impl Fn(usize, usize) -> f64 {
-    |class, component| values[class][component].inner().norm().max(f64::MIN_POSITIVE)
+    |class, component| values[class][component].to_complex64().norm().max(f64::MIN_POSITIVE)
 }
 
 /// Real parts of the components.
@@ -101,8 +101,8 @@ pub(crate) fn assembled<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],
 ) -> Vec<Complex64> {
-    let mut matrix = vec![Complex64::default(); classes.layout().square()];
-    classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::inner));
+    let mut matrix = vec![Complex64::default(); classes.layout().matrix_len()];
+    classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::to_complex64));
     matrix
 }
 

@@ -97,7 +97,7 @@ impl Stages {
         for index in 0..2 {
             let continuous_value =
                 -z.ln() + Complex::new(0.0, std::f64::consts::TAU * index as f64);
-            let distances = roots.map(|root| (root - continuous_value).square());
+            let distances = roots.map(|root| (root - continuous_value).squared_modulus());
             let nearest =
                 (index..self.count()).min_by(|&a, &b| distances[a].total_cmp(&distances[b]));
             roots.swap(index, nearest.unwrap_or(index));
@@ -117,8 +117,11 @@ impl Stages {
         let root = (z * z + z.scale(10.0) - Complex::real(2.0)).sqrt();
         let first_root = middle + root;
         let second_root = middle - root;
-        let larger_root =
-            if first_root.square() >= second_root.square() { first_root } else { second_root };
+        let larger_root = if first_root.squared_modulus() >= second_root.squared_modulus() {
+            first_root
+        } else {
+            second_root
+        };
         [larger_root, one_less_z.scale(6.0) / larger_root, Complex::default()]
     }
 
@@ -138,7 +141,7 @@ impl Stages {
                 let x = roots[i];
                 let value = ((x + c2) * x + c1) * x + c0;
                 let derivative = (x.scale(3.0) + c2.scale(2.0)) * x + c1;
-                if value.square() == 0.0 {
+                if value.squared_modulus() == 0.0 {
                     continue;
                 }
                 let newton_term = derivative / value;
@@ -149,8 +152,8 @@ impl Stages {
                 let correction = (newton_term - repulsion).inverse();
                 if correction.is_finite() {
                     roots[i] = roots[i] - correction;
-                    max_relative_change =
-                        max_relative_change.max(correction.square() / roots[i].square());
+                    max_relative_change = max_relative_change
+                        .max(correction.squared_modulus() / roots[i].squared_modulus());
                 }
             }
             if max_relative_change < ROOT_TOLERANCE_SQUARED {
@@ -298,7 +301,7 @@ mod tests {
             let CirclePoint { z, one_less_z } = on_circle(0.0, theta);
             let smallest = stages
                 .nodes(z, one_less_z)
-                .min_by(|a, b| a.lambda.square().total_cmp(&b.lambda.square()))
+                .min_by(|a, b| a.lambda.squared_modulus().total_cmp(&b.lambda.squared_modulus()))
                 .unwrap();
             let error = (smallest.lambda - Complex::new(0.0, -theta)).abs();
             assert!(

@@ -39,7 +39,7 @@ pub(in crate::bem) fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let entry_count = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
+    let entry_count = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).matrix_len();
     same_length("static compliance", matrix.len(), entry_count)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pair_compliances(profile, &classes)?;

@@ -311,7 +311,7 @@ impl CellIntegrals {
         let mut largest_square = 0.0_f64;
         for sample in samples {
             for (value, static_value) in sample.iter().zip(dynamic.static_kernel) {
-                largest_square = largest_square.max((*value + static_value).square());
+                largest_square = largest_square.max((*value + static_value).squared_modulus());
             }
         }
         error * width * self.relative_form_magnitude(start) <= max_error

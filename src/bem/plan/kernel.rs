@@ -37,7 +37,7 @@ pub(in crate::bem) fn static_compliance(
     matrix: &mut [f64],
 ) -> Result<()> {
     let classes = plan.classes()?;
-    same_length("static compliance", matrix.len(), classes.layout().square())?;
+    same_length("static compliance", matrix.len(), classes.layout().matrix_len())?;
     let s = Complex::default();
     let mut progress = ProgressReporter::unobserved();
     let integrals = CellIntegrals::new(&plan.lattice, profile, [s], tolerance, &mut progress)?;

@@ -6,7 +6,9 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | S, B | static compliance of the soil, element means of the base displacement |
-//! | u₀, τ₀ | displacement and tractions after backfilling |
+//! | u₀, τ₀, g₀ | displacement, tractions and gaps after backfilling |
+//!
+//! The further loads act from this state. The offset of the jumps is therefore B u₀ − S τ₀ + g₀.
 
 use std::cell::RefCell;
 
@@ -36,8 +38,8 @@ pub(super) fn state(
     let assembled = Assembled::new(problem.structure, &floor_patch)?.0;
     let floor_indices: Vec<usize> = contact_indices(layout, floor.clone()).collect();
     let mut floor_compliance = Vec::with_capacity(floor_indices.len() * floor_indices.len());
-    for row in &floor_indices {
-        let row = &problem.ground_compliance[row * layout.len()..][..layout.len()];
+    for row_index in &floor_indices {
+        let row = &problem.ground_compliance[row_index * layout.len()..][..layout.len()];
         floor_compliance.extend(floor_indices.iter().map(|column| row[*column]));
     }
     let floor_compliance = CompressedMatrix::dense(floor_compliance);

@@ -1,7 +1,7 @@
 //! Build of a simulation, in the order of [`SimulationBuilder::build`].
 //!
-//! 1. `parts.rs`: the builder's parts, each checked alone;
-//! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
+//! 1. `parts.rs`: the builder's parts, each checked separately;
+//! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in degrees of freedom;
 //! 3. `at_rest.rs`, `static_stages.rs`: the static state under the weight, then under the loads at t = 0, by the search of
 //!    `statics/equilibrium.rs`; if the elements may be too few, `flexible_base.rs` compares this state with that on twice
 //!    the elements;
@@ -93,9 +93,9 @@ impl SimulationBuilder {
         let shifted_stiffness =
             shared_compliance.take().map(|compliance: Compliance| compliance.factor);
         let structure = parts.structure.as_ref();
-        let positive_definite =
-            fixed_base.positive_definite(&assembled, shifted_stiffness.as_deref());
-        assembled.check_damping(structure, positive_definite)?;
+        let positive_definite_stiffness =
+            fixed_base.positive_definite_stiffness(&assembled, shifted_stiffness.as_deref());
+        assembled.check_damping(structure, positive_definite_stiffness)?;
         let reduction = fixed_base.take_reduction_input(&assembled, shifted_stiffness);
         let is_connected_by_force = supports::parts_connected_by_force(
             structure,

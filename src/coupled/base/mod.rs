@@ -16,11 +16,11 @@ use crate::coupled::base::transformation::{
     Rows, SparseVector, Transformation, Weights, accumulate,
 };
 use crate::error::{Error, Result, at_least};
-use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends, span};
+use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, enclosing_interval, span};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the one before.
+/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
 /// Fraction of a foundation's length that may extend beyond the elements: its effect on the response is small.
 const MAX_UNCOVERED_FRACTION: f64 = 0.1;
@@ -96,8 +96,8 @@ impl PlacedBase {
     ) -> Self {
         let layout = elements.layout();
         let mut rows = vec![SparseVector::new(); layout.len()];
-        for (e, weights) in weights.into_iter().enumerate() {
-            let means = element_components(&nodes, &weights, &elements[e]);
+        for (e, element_weights) in weights.into_iter().enumerate() {
+            let means = element_components(&nodes, &element_weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
                 rows[layout.place(component, e)] = terms;
             }
@@ -191,30 +191,30 @@ impl PlacedBase {
         self.foundations.iter().map(|foundation| &foundation.corners[..])
     }
 
-    /// Foundations that extend too far beyond the ground's elements.
+    /// Lengths by which foundations extend too far beyond the ground's elements.
     ///
     /// An entry is the foundation's number, in plan the axis, and the overhang, m. An overhang is too long if it exceeds
     /// the longest side of the elements along the axis, or a tenth of the foundation.
-    pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
-        let mut uncovered = Vec::new();
+    pub(crate) fn long_overhangs(&self) -> Vec<(usize, Option<char>, f64)> {
+        let mut overhangs = Vec::new();
         for (foundation, (nodes, elements)) in self.foundations().enumerate() {
             for axis in self.layout().axes() {
                 let ends =
                     self.elements[elements.clone()].iter().map(|element| element.ends()[axis]);
                 let sides = ends.clone().map(|[low, high]| high - low);
                 let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
-                let edges = far_ends(ends);
+                let edges = enclosing_interval(ends);
                 let node_ends = span(nodes.iter().map(|node| node.place()[axis]));
                 let limit =
                     longest_side.min(MAX_UNCOVERED_FRACTION * (node_ends[1] - node_ends[0]));
                 let overhang = (edges[0] - node_ends[0]).max(node_ends[1] - edges[1]);
                 if overhang > limit {
-                    let axis = axis_name(self.elements.is_plan(), axis);
-                    uncovered.push((foundation, axis, overhang));
+                    let axis_letter = axis_name(self.elements.is_plan(), axis);
+                    overhangs.push((foundation, axis_letter, overhang));
                 }
             }
         }
-        uncovered
+        overhangs
     }
 
     /// The contact elements.
@@ -287,9 +287,10 @@ impl PlacedBase {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation's chord, counter-clockwise, rad.
+    /// Rotations of a foundation, rad.
     ///
-    /// In plan the rotations are about y, about x and about the vertical, by the right-hand rule.
+    /// In the plane the only rotation is that of the chord, counter-clockwise. In plan the rotations are about y, about
+    /// x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.value(u))
     }

@@ -128,7 +128,7 @@ impl Forcing {
 impl Forcing {
     /// Subtracts the effect of the free field's tractions in this step from the history.
     fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
-        // The buffer of the impulse holds −τ_ff.
+        // The buffer of the impulse now contains −τ_ff.
         for (negative, traction) in self.impulse.iter_mut().zip(&self.free_traction) {
             *negative = -traction;
         }
@@ -151,6 +151,7 @@ impl Forcing {
         let elements = scene.base.elements();
         // The build has checked that the motion is defined on the walls.
         if elements.has_walls() {
+            // The buffer of the tractions first contains the impulse at the start of the step.
             let impulse = &mut self.free_traction;
             fill_free_field(ground, motion, elements, state.time, &mut self.free_field, impulse);
         }

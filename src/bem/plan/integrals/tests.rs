@@ -200,7 +200,8 @@ fn assembled(
             let offset = offset(cells[receiver], cells[source]);
             for (i, row) in lattice.block(values, offset).into_iter().enumerate() {
                 for (j, value) in row.into_iter().enumerate() {
-                    matrix[(3 * receiver + i) * order + 3 * source + j] = (factor * value).inner();
+                    matrix[(3 * receiver + i) * order + 3 * source + j] =
+                        (factor * value).to_complex64();
                 }
             }
         }
