@@ -13,8 +13,8 @@ use crate::structure::Structure;
 /// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, integrated in time by a θ rule. θ = ½
 /// (the default, the [mid-step form](Ground#elastic-parts-in-the-mid-step-form)) conserves the springs' energy, and θ = 1
 /// damps the oscillations of a released bed without dashpots. If a base with a sideways speed lands on stiff tangential
-/// springs without dashpots, the sign of this speed then alternates from step to step. A user's ground can contain a bed as
-/// one of its parts: [`SpringGround::of_elements`].
+/// springs without dashpots, the sign of this speed then alternates from step to step. A user's ground can contain a
+/// bed as one of its parts: [`SpringGround::of_elements`].
 ///
 /// In plan under a base of up to ten rigid bodies, memory and time per step grow in proportion to the number of elements,
 /// from 64 elements on: a bed of 64 × 64 cells is usual. Under a flexible base, and in the plane, they grow as on elastic
@@ -117,8 +117,8 @@ impl SpringGround {
 
     /// Bed of any elements, with a spring and a dashpot for each component of a [contact vector](crate::bem).
     ///
-    /// `stiffness` (Pa/m) and `dashpot` (Pa·s/m) have 2Q components for Q elements, in plan 3Q. A user's ground with such a
-    /// bed as a part calls the bed's methods in its methods of the same name, and adds its other parts.
+    /// `stiffness` (Pa/m) and `dashpot` (Pa·s/m) have 2Q components for Q elements, in plan 3Q. A user's ground with
+    /// such a bed as a part calls the bed's methods in its methods of the same name, and adds its other parts.
     ///
     /// ```
     /// use basemat::bem::{Ground, SpringGround, Strip};

@@ -290,8 +290,8 @@ impl Ground for WeightsGround {
 
     /// Restores a history of the same kind.
     ///
-    /// The checkpoint of a history by exponentials may be from a fit for another horizon (number of steps). The exponentials
-    /// are then first fitted again for that horizon.
+    /// The checkpoint of a history by exponentials may be from a fit for another horizon (number of steps). The
+    /// exponentials are then first fitted again for that horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
         let last_traction =
