@@ -6,11 +6,10 @@
 //! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
 //! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
 //!
-//! A four-node element of length L and thickness t, integrated at its centre, has the strains ε_yy = g/t and
-//! γ = s/t, with the means of g and s over its two long sides. Its strain ε_xx is of the order of t/L relative to
-//! these strains. Its nodal forces equal the forces of the tractions D₂₂ g/t and μ s/t on L. The layer is therefore
-//! a law for the means of one contact element, without additional degrees of freedom. [PS] is the paper of Patel &
-//! Spyrakos.
+//! A four-node element of length L and thickness t, integrated at its centre, has the strains ε_yy = g/t and γ = s/t,
+//! with means g and s over its long sides. Its strain ε_xx is of the order of t/L relative to these strains. Its nodal
+//! forces equal the forces of the tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law for the means of one
+//! contact element, without additional degrees of freedom. [PS] is the paper of Patel & Spyrakos.
 
 use super::coulomb::check_friction;
 use super::{
@@ -82,20 +81,18 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// | slip | p = −k_n g | τ = ± friction · p |
 /// | debonding | p = −r k_n g | τ = r k_s × slip since it opened |
 ///
-/// with r = 0.001, so that an open element still carries a small tension. The shear traction of a step continues from
-/// the end of the previous step, so that inelastic slip remains. A layer of zero thickness is
-/// [`Coulomb`](super::Coulomb).
+/// with r = 0.001, so that an open element still carries a small tension. The shear traction continues from the previous
+/// step, so that inelastic slip remains. A layer of zero thickness is [`Coulomb`](super::Coulomb).
 ///
 /// The ratio r refers to the thickness of the layer. A layer a hundred times thinner carries a hundred times
 /// more tension while it is open, so r must be reduced with the thickness.
 ///
-/// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
-/// element vanishes with its pressure, as the friction limit does. An open element with r > 0 carries some
-/// shear until it lands, and then loses it. A few steps in a hundred thousand then have no solution, closed
-/// or open. Such a step returns a [`StepError::Contact`](crate::coupled::StepError::Contact), which states for up to
-/// eight elements that no solution exists. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no
-/// such steps. With the other options a closed element can carry shear up to its opening, or slide against its
-/// traction, and such steps are more frequent.
+/// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed element vanishes
+/// with its pressure, as the friction limit does. An open element with r > 0 carries some shear until it lands, and then
+/// loses it. A few steps in a hundred thousand then have no solution, closed or open. Such a step returns a
+/// [`StepError::Contact`](crate::coupled::StepError::Contact), which states for up to eight elements that no solution
+/// exists. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no such steps. With the other
+/// options a closed element can carry shear up to its opening, or slide against its traction: such steps are more frequent.
 ///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
@@ -143,15 +140,12 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements.
-    ///
-    /// `neighbour_height`: height of the adjacent elements, m.
+    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
     ///
     /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
     /// # Errors
-    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient
-    /// that is NaN or negative.
+    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient that is NaN or negative.
     pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
         let shear_modulus = soil.shear_modulus();
@@ -167,16 +161,12 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite and above zero, and `friction` is not negative.
-    pub fn from_stiffness(
-        normal_stiffness: f64,
-        shear_stiffness: f64,
-        friction: f64,
-    ) -> Result<Self> {
-        positive("normal stiffness of the thin layer", normal_stiffness)?;
-        positive("shear stiffness of the thin layer", shear_stiffness)?;
+    pub fn from_stiffness(k_n: f64, k_s: f64, friction: f64) -> Result<Self> {
+        positive("normal stiffness of the thin layer", k_n)?;
+        positive("shear stiffness of the thin layer", k_s)?;
         check_friction(friction)?;
         Ok(Self {
-            reference_stiffness: [normal_stiffness, shear_stiffness],
+            reference_stiffness: [k_n, k_s],
             thickness_ratio: 1.0,
             friction,
             debonded_ratio: DEFAULT_DEBONDED_RATIO,
@@ -252,8 +242,7 @@ impl ThinLayer {
 
     /// Condition ±τ = limit + ratio · k_s (±Δs) of a sliding element.
     ///
-    /// `direction`: 1 to the right, −1 to the left. The condition remains finite for infinite friction: it is then
-    /// p = 0 with any shear traction.
+    /// `direction`: 1 to the right, −1 to the left. For infinite friction the condition is p = 0, with any shear traction.
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let slip_resistance = self.slip_stiffness_ratio * self.stiffness()[1];
         let initial_resistance = slip_resistance * start.state.slip;
@@ -272,9 +261,7 @@ impl ThinLayer {
         }
     }
 
-    /// Slip (m) or slip velocity (m/s) whose sign is compared with the direction of slip.
-    ///
-    /// [`SlipSense`] defines which.
+    /// Slip (m) or slip velocity (m/s), as [`SlipSense`] defines, whose sign is compared with the direction of slip.
     fn slip_measure(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let slip_increment = trial.slip - start.state.slip;
         match self.slip_sense {
@@ -335,13 +322,10 @@ impl InterfaceLaw for ThinLayer {
         let sliding_mode = |direction: f64| {
             let slip_tolerance = tolerance.length + traction_tolerance / self.stiffness()[1];
             let has_slip_stiffness = self.slip_stiffness_ratio > 0.0 && self.friction.is_finite();
-            let is_shear_proportional_to_pressure =
-                prescribed_limit.is_none() && !has_slip_stiffness;
+            let is_shear_from_pressure = prescribed_limit.is_none() && !has_slip_stiffness;
             if self.friction == 0.0 {
                 mode
-            } else if is_shear_proportional_to_pressure
-                && direction * trial.shear < -traction_tolerance
-            {
+            } else if is_shear_from_pressure && direction * trial.shear < -traction_tolerance {
                 Mode::Open
             } else if direction * self.slip_measure(start, trial) < -slip_tolerance {
                 Mode::Stick
