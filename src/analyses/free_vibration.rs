@@ -17,7 +17,8 @@ use crate::linalg::{Complex, Eigenpairs, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::Probe;
 use crate::structure::{
-    DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
+    DofCombination, MassAndStiffness, SpringSupportedBase, Structure, Triplets, mass_and_stiffness,
+    max_diagonal_stiffness,
 };
 
 /// Stiffness of the springs that fix the base, relative to the largest stiffness: their displacement is negligible.
@@ -68,10 +69,15 @@ impl FixedBaseMode {
         let base = structure.base();
         base.check(dofs)?;
         let nodes = base.into_nodes();
-        let springs = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
+        let springs = SpringSupportedBase::new(
+            &nodes,
+            &stiffness,
+            BASE_SPRING_FACTOR * max_diagonal_stiffness(&stiffness),
+        );
         let mut factor = springs.factor()?;
         // Forces of the springs for a unit translation: to the right, upwards, and in plan away.
-        let Some(mut translation) = springs.pulls().into_iter().nth([0, 2][axis]) else {
+        let Some(mut translation) = springs.translation_forces().into_iter().nth([0, 2][axis])
+        else {
             return Ok(None);
         };
         factor.solve(&mut translation);

@@ -8,7 +8,7 @@ use crate::coupled::run::quantity_row::ShownIn;
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
 use crate::results::{Extremes, Quantity, Run};
-use crate::text::readable_number::{PrintedUnit, number, of_body, printed};
+use crate::text::readable_number::{PrintedUnit, number, printed_unit, whole_body_unit};
 use crate::text::table::Table;
 
 /// Vibration mode of a structure on a fixed base and on its ground.
@@ -190,10 +190,15 @@ impl Interaction {
         for quantity in Quantity::shown(ShownIn::ComparisonTime, in_plan) {
             let ground = on_ground.whole.extremes(quantity);
             let fixed = on_fixed_base.whole.extremes(quantity);
-            rows.push(comparison_row(quantity.name(), quantity.printed(in_plan), &ground, &fixed));
+            rows.push(comparison_row(
+                quantity.name(),
+                quantity.printed_unit(in_plan),
+                &ground,
+                &fixed,
+            ));
         }
         for (ground, fixed) in on_ground.probes.iter().zip(&on_fixed_base.probes) {
-            let unit = printed(of_body(&ground.unit, in_plan));
+            let unit = printed_unit(whole_body_unit(&ground.unit, in_plan));
             rows.push(comparison_row(&ground.name, unit, &ground.extremes, &fixed.extremes));
         }
         let heading = ["Largest", "unit", "on the ground", "fixed base", "ratio"];

@@ -78,7 +78,7 @@ impl StaticKernel {
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
     pub(super) fn compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
         let classes = PairClasses::new(elements.to_vec())?;
-        same_length("static compliance", matrix.len(), classes.layout().square())?;
+        same_length("static compliance", matrix.len(), classes.layout().matrix_len())?;
         let mut means = Vec::with_capacity(elements.len() * elements.len());
         for receiver in elements {
             for source in elements {

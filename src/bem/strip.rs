@@ -122,7 +122,8 @@ impl Strip {
             let left_end = nodes[0].x;
             let right_end = nodes[nodes.len() - 1].x;
             check_left_to_right(left_end, right_end)?;
-            let element_count = if count == 0 { 0 } else { count.max(BaseNode::segments(nodes)) };
+            let element_count =
+                if count == 0 { 0 } else { count.max(BaseNode::segment_count(nodes)) };
             strips.push(Self::new(left_end..right_end, element_count, grading)?);
         }
         Ok(strips)

@@ -74,7 +74,7 @@ fn uniform_response(
         )?;
         return Ok(component_sums(&diagonal.in_step, layout));
     }
-    let mut matrix = vec![0.0; layout.square()];
+    let mut matrix = vec![0.0; layout.matrix_len()];
     ground.step_compliance(&mut matrix)?;
     let row_sums: Vec<f64> = matrix.chunks(layout.len()).map(|row| row.iter().sum()).collect();
     Ok(component_sums(&row_sums, layout))

@@ -79,7 +79,7 @@ fn compliance_matrix(ground: &dyn Ground, elements: &Patch) -> Result<Compressed
     let layout = elements.layout();
     let areas = elements.areas();
     let order = layout.len();
-    let mut compliance = vec![0.0; layout.square()];
+    let mut compliance = vec![0.0; layout.matrix_len()];
     ground.step_compliance(&mut compliance)?;
     elements.refer_inside(&mut compliance);
     all_finite(STEP_COMPLIANCE_NAME, &compliance)?;

@@ -6,10 +6,11 @@
 //! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
 //! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
 //!
-//! A four-node element of length L and thickness t, integrated at its centre, has the mean strains ε_yy = g/t
-//! and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L relative to them). Its nodal
-//! forces equal the forces of tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law for one
-//! element's means, without additional degrees of freedom. [PS] is the paper of Patel & Spyrakos.
+//! A four-node element of length L and thickness t, integrated at its centre, has the strains ε_yy = g/t and
+//! γ = s/t, with the means of g and s over its two long sides. Its strain ε_xx is of the order of t/L relative to
+//! these strains. Its nodal forces equal the forces of the tractions D₂₂ g/t and μ s/t on L. The layer is therefore
+//! a law for the means of one contact element, without additional degrees of freedom. [PS] is the paper of Patel &
+//! Spyrakos.
 
 use super::coulomb::check_friction;
 use super::{
@@ -20,10 +21,10 @@ use crate::soil::Soil;
 
 /// Thickness of the layer over the height of the adjacent element [PS, eq. 13].
 const DEFAULT_THICKNESS_RATIO: f64 = 0.1;
-/// Fraction of the stiffness that remains in debonding, so that a debonded layer is not singular.
+/// Fraction of the stiffness that remains in debonding, so that the stiffness of a debonded layer is not singular.
 const DEFAULT_DEBONDED_RATIO: f64 = 1e-3;
 
-/// Pressure that limits friction.
+/// Pressure from which a thin layer computes its friction limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -47,7 +48,7 @@ words! { pub(crate) FrictionLimit, "friction limit", {
     Dynamic = "dynamic",
 } }
 
-/// Quantity that determines the direction of slip, and whether slip continues.
+/// Quantity that determines the direction of slip and whether slip continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -55,7 +56,7 @@ words! { pub(crate) FrictionLimit, "friction limit", {
 pub enum SlipSense {
     /// Slip beyond the elastic slip, as in plasticity.
     ///
-    /// Slip starts in the direction of the shear traction and continues while it grows.
+    /// Slip starts in the direction of the shear traction and continues while the inelastic slip grows.
     #[default]
     Inelastic,
     /// The relative velocity of this step, including the elastic part [PS, eq. 12].
@@ -72,8 +73,8 @@ words! { pub(crate) SlipSense, "sense of slip", {
 
 /// Thin-layer interface elements between base and soil.
 ///
-/// The layer is elastic in stick and in debonding [PS, eqs. 6–9], has Coulomb friction in slip [PS, eqs.
-/// 10–12], and rebonds when the gap has closed. It is a tenth as thick as the adjacent elements [PS, eq. 13].
+/// The layer is elastic in stick and in debonding [PS, eqs. 6–9]. It has Coulomb friction in slip [PS, eqs. 10–12], and
+/// rebonds when the gap has closed. By default it is a tenth as thick as the adjacent elements [PS, eq. 13].
 ///
 /// | mode | pressure | shear traction |
 /// |---|---|---|
@@ -81,8 +82,9 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// | slip | p = −k_n g | τ = ± friction · p |
 /// | debonding | p = −r k_n g | τ = r k_s × slip since it opened |
 ///
-/// with r = 0.001, so that an open element still carries a small tension. Tractions and slip continue from
-/// the previous step, so that slip remains. A layer of zero thickness is [`Coulomb`](super::Coulomb).
+/// with r = 0.001, so that an open element still carries a small tension. The shear traction of a step continues from
+/// the end of the previous step, so that inelastic slip remains. A layer of zero thickness is
+/// [`Coulomb`](super::Coulomb).
 ///
 /// The ratio r refers to the thickness of the layer. A layer a hundred times thinner carries a hundred times
 /// more tension while it is open, so r must be reduced with the thickness.
@@ -90,10 +92,10 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
 /// element vanishes with its pressure, as the friction limit does. An open element with r > 0 carries some
 /// shear until it lands, and then loses it. A few steps in a hundred thousand then have no solution, closed
-/// or open. They return a [`StepError::Contact`](crate::coupled::StepError::Contact), which states this for up to
-/// eight elements. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no such steps.
-/// The other options let a closed element carry shear up to its opening, or slide against its traction, and
-/// have such steps more often.
+/// or open. Such a step returns a [`StepError::Contact`](crate::coupled::StepError::Contact), which states for up to
+/// eight elements that no solution exists. With [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) there are no
+/// such steps. With the other options a closed element can carry shear up to its opening, or slide against its
+/// traction, and such steps are more frequent.
 ///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
@@ -141,7 +143,9 @@ validated! {
 }
 
 impl ThinLayer {
-    /// Layer of `soil`, a tenth as thick as the adjacent elements of height `neighbour_height` (m).
+    /// Creates a layer of `soil`, a tenth as thick as the adjacent elements.
+    ///
+    /// `neighbour_height`: height of the adjacent elements, m.
     ///
     /// The friction coefficient is zero or more; if it is infinite, nothing ever slides.
     ///
@@ -150,23 +154,29 @@ impl ThinLayer {
     /// that is NaN or negative.
     pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
-        let shear = soil.shear_modulus();
+        let shear_modulus = soil.shear_modulus();
         let nu = soil.poisson();
-        let normal = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);
-        Self::from_stiffness(normal / neighbour_height, shear / neighbour_height, friction)?
+        let constrained_modulus = 2.0 * shear_modulus * (1.0 - nu) / (1.0 - 2.0 * nu);
+        let normal_stiffness = constrained_modulus / neighbour_height;
+        let shear_stiffness = shear_modulus / neighbour_height;
+        Self::from_stiffness(normal_stiffness, shear_stiffness, friction)?
             .with_thickness_ratio(DEFAULT_THICKNESS_RATIO)
     }
 
-    /// Layer with the stiffnesses k_n and k_s (Pa/m) at a thickness ratio of one.
+    /// Creates a layer from its stiffnesses k_n and k_s (Pa/m) at a thickness ratio of one.
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite and above zero, and `friction` is not negative.
-    pub fn from_stiffness(normal: f64, shear: f64, friction: f64) -> Result<Self> {
-        positive("normal stiffness of the thin layer", normal)?;
-        positive("shear stiffness of the thin layer", shear)?;
+    pub fn from_stiffness(
+        normal_stiffness: f64,
+        shear_stiffness: f64,
+        friction: f64,
+    ) -> Result<Self> {
+        positive("normal stiffness of the thin layer", normal_stiffness)?;
+        positive("shear stiffness of the thin layer", shear_stiffness)?;
         check_friction(friction)?;
         Ok(Self {
-            reference_stiffness: [normal, shear],
+            reference_stiffness: [normal_stiffness, shear_stiffness],
             thickness_ratio: 1.0,
             friction,
             debonded_ratio: DEFAULT_DEBONDED_RATIO,
@@ -197,14 +207,14 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// Sets the pressure in the friction limit.
+    /// Sets the pressure from which the friction limit is computed.
     #[must_use]
     pub fn with_friction_limit(mut self, limit: FrictionLimit) -> Self {
         self.friction_limit = limit;
         self
     }
 
-    /// Sets the rule for the sense of slip.
+    /// Sets the quantity that determines the direction of slip.
     #[must_use]
     pub fn with_slip_sense(mut self, sense: SlipSense) -> Self {
         self.slip_sense = sense;
@@ -223,7 +233,7 @@ impl ThinLayer {
         Ok(self)
     }
 
-    /// k_n and k_s, Pa/m.
+    /// Normal and shear stiffness k_n and k_s of the layer, Pa/m.
     pub fn stiffness(&self) -> [f64; 2] {
         self.reference_stiffness.map(|stiffness| stiffness / self.thickness_ratio)
     }
@@ -240,9 +250,10 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + ratio · k_s (±Δs), in a form that remains finite for infinite friction.
+    /// Condition ±τ = limit + ratio · k_s (±Δs) of a sliding element.
     ///
-    /// See [`Limits`] for the condition with infinite friction.
+    /// `direction`: 1 to the right, −1 to the left. The condition remains finite for infinite friction: it is then
+    /// p = 0 with any shear traction.
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let slip_resistance = self.slip_stiffness_ratio * self.stiffness()[1];
         let initial_resistance = slip_resistance * start.state.slip;
@@ -261,14 +272,16 @@ impl ThinLayer {
         }
     }
 
-    /// Slip of the structure in this step, as [`SlipSense`] defines it.
-    fn slip_increment(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
-        let increment = trial.slip - start.state.slip;
+    /// Slip (m) or slip velocity (m/s) whose sign is compared with the direction of slip.
+    ///
+    /// [`SlipSense`] defines which.
+    fn slip_measure(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
+        let slip_increment = trial.slip - start.state.slip;
         match self.slip_sense {
             SlipSense::Inelastic => {
-                increment - (trial.shear - start.state.shear) / self.stiffness()[1]
+                slip_increment - (trial.shear - start.state.shear) / self.stiffness()[1]
             }
-            SlipSense::Velocity => increment,
+            SlipSense::Velocity => slip_increment,
             SlipSense::LastVelocity => start.slip_rate,
         }
     }
@@ -288,8 +301,8 @@ impl InterfaceLaw for ThinLayer {
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let ratio = if mode == Mode::Open { self.debonded_ratio } else { 1.0 };
         let [normal_stiffness, shear_stiffness] = self.stiffness().map(|k| ratio * k);
-        let normal = Condition { gap: normal_stiffness, ..Condition::pressure_is(0.0) };
-        let tangential = match mode {
+        let normal_condition = Condition { gap: normal_stiffness, ..Condition::pressure_is(0.0) };
+        let tangential_condition = match mode {
             Mode::SlipRight => self.slip_condition(1.0, start),
             Mode::SlipLeft => self.slip_condition(-1.0, start),
             _ => {
@@ -300,7 +313,7 @@ impl InterfaceLaw for ThinLayer {
                 Condition { slip: -shear_stiffness, ..Condition::shear_is(value) }
             }
         };
-        [normal, tangential]
+        [normal_condition, tangential_condition]
     }
 
     fn next_mode(
@@ -322,12 +335,15 @@ impl InterfaceLaw for ThinLayer {
         let sliding_mode = |direction: f64| {
             let slip_tolerance = tolerance.length + traction_tolerance / self.stiffness()[1];
             let has_slip_stiffness = self.slip_stiffness_ratio > 0.0 && self.friction.is_finite();
-            let is_shear_from_pressure = prescribed_limit.is_none() && !has_slip_stiffness;
+            let is_shear_proportional_to_pressure =
+                prescribed_limit.is_none() && !has_slip_stiffness;
             if self.friction == 0.0 {
                 mode
-            } else if is_shear_from_pressure && direction * trial.shear < -traction_tolerance {
+            } else if is_shear_proportional_to_pressure
+                && direction * trial.shear < -traction_tolerance
+            {
                 Mode::Open
-            } else if direction * self.slip_increment(start, trial) < -slip_tolerance {
+            } else if direction * self.slip_measure(start, trial) < -slip_tolerance {
                 Mode::Stick
             } else {
                 mode
@@ -358,14 +374,14 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    /// No error: the numbers of a layer are valid, although it may have no limits.
+    /// No error: the constructors have checked the numbers, and a debonded layer with stiffness has no limits.
     fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
     /// Limits in plan.
     ///
-    /// An open element carries no traction; slip excludes the elastic deformation.
+    /// Only a layer without traction in debonding has limits, and only if its slip is inelastic without a stiffness in slip.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let quantity = "thin layer in plan";
         if self.debonded_ratio > 0.0 {

@@ -11,7 +11,7 @@ use super::text_width::{fitted, length_text, short, width};
 use super::ticks::round_down;
 use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
-use crate::geometry::far_ends;
+use crate::geometry::enclosing_interval;
 use crate::results::{DeformedShape, TimeSeries};
 
 /// Width of the picture, pixels.
@@ -261,8 +261,9 @@ const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, 
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let x_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[0]));
-        let y_ends = far_ends(time_series.elements().iter().map(|element| element.ends()[1]));
+        let elements = time_series.elements();
+        let x_ends = enclosing_interval(elements.iter().map(|element| element.ends()[0]));
+        let y_ends = enclosing_interval(elements.iter().map(|element| element.ends()[1]));
         let longer_side = (x_ends[1] - x_ends[0]).max(y_ends[1] - y_ends[0]);
         Self { ends: [x_ends, y_ends], margin: FLOOR_MARGIN_RATIO * longer_side }
     }

@@ -10,7 +10,7 @@ use super::text_width::short;
 use super::view::StructureView;
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
-use crate::geometry::{far_ends, middle, span};
+use crate::geometry::{enclosing_interval, middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
@@ -256,7 +256,7 @@ pub(super) fn trench_outline(elements: &[ContactElement]) -> Option<[[f64; 2]; 4
     if !ContactElement::any_wall(elements) {
         return None;
     }
-    let [left, right] = far_ends(elements.iter().map(|element| element.ends()[0]));
-    let [bottom, top] = far_ends(elements.iter().map(ContactElement::heights));
+    let [left, right] = enclosing_interval(elements.iter().map(|element| element.ends()[0]));
+    let [bottom, top] = enclosing_interval(elements.iter().map(ContactElement::heights));
     Some([[left, top], [left, bottom], [right, bottom], [right, top]])
 }

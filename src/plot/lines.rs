@@ -7,7 +7,7 @@ use super::svg::{PictureLayout, Svg};
 use crate::error::{Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
-use crate::text::readable_number::{PrintedUnit, of_body, printed};
+use crate::text::readable_number::{PrintedUnit, printed_unit, whole_body_unit};
 use plotters::prelude::*;
 
 /// Largest number of intervals of a long curve, about one per pixel; each is drawn by its extremes.
@@ -87,8 +87,9 @@ fn curves_with_limit(
 pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit_label();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
-    let PrintedUnit { factor, symbol: unit } = quantity.printed(in_plan);
-    let have_same_unit = runs.iter().all(|(_, run)| quantity.printed(run.in_plan()).symbol == unit);
+    let PrintedUnit { factor, symbol: unit } = quantity.printed_unit(in_plan);
+    let have_same_unit =
+        runs.iter().all(|(_, run)| quantity.printed_unit(run.in_plan()).symbol == unit);
     let needed = "the same in all runs: in the plane it is per metre";
     require_part("unit of a quantity", have_same_unit, needed)?;
     let mut curves = Vec::with_capacity(runs.len());
@@ -141,7 +142,8 @@ pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str)
     }
     let needed = "the same in all runs";
     require_part("unit of a probe", units.windows(2).all(|pair| pair[0] == pair[1]), needed)?;
-    let PrintedUnit { factor, symbol: unit } = printed(units.first().copied().unwrap_or_default());
+    let PrintedUnit { factor, symbol: unit } =
+        printed_unit(units.first().copied().unwrap_or_default());
     let mut probe_curves = Vec::with_capacity(runs.len());
     for &(name, time_series) in runs {
         let values = time_series.probe(probe)?.iter().map(|value| factor * value);
@@ -205,7 +207,7 @@ pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
         is_input = false;
         is_shown
     });
-    let y = with_unit("energy", of_body("kJ/m", time_series.in_plan()));
+    let y = with_unit("energy", whole_body_unit("kJ/m", time_series.in_plan()));
     curves(title, "time, s", &y, &term_curves)
 }
 

@@ -340,7 +340,7 @@ fn add_prism(
     let node_count = face.len();
     points.extend(face.iter().map(point_at));
     for node in face {
-        let displacements = BaseNode::carried(face, node.place(), height);
+        let displacements = BaseNode::rigid_displacements(face, node.place(), height);
         points.push(ShapePoint::in_space([node.x, node.y, height], displacements));
     }
     add_outline(cells, first_point, node_count);

@@ -30,7 +30,7 @@ pub enum MinRemainder {
     Length(f64),
 }
 
-/// Smallest length of a row after the second pass: rows of unit length keep nearly all of it.
+/// Smallest length of a row after the second pass: an independent row of unit length keeps nearly all its length.
 const MIN_SECOND_PASS_LENGTH: f64 = 0.5;
 
 impl<'a> OrthonormalRows<'a> {
@@ -100,8 +100,10 @@ impl<'a> OrthonormalRows<'a> {
                 *product *= scales[k / count] * scales[k % count];
             }
             let min_length = match min_remainder {
-                MinRemainder::Fraction(length) | MinRemainder::Length(length) if pass == 0 => {
-                    length
+                MinRemainder::Fraction(remainder) | MinRemainder::Length(remainder)
+                    if pass == 0 =>
+                {
+                    remainder
                 }
                 _ => MIN_SECOND_PASS_LENGTH,
             };
@@ -144,7 +146,8 @@ fn append_combined_rows(
 /// Weights of orthonormal combinations of vectors, a row each, from the vectors' scalar products.
 ///
 /// Gram–Schmidt orthogonalisation of `count` vectors with the row-major `products`, the longest remainder first, while
-/// the square of its length exceeds `min_square`. A combination has no vectors that are orthogonal to all its others.
+/// the square of its length exceeds `min_square`. A vector that is orthogonal to all others has the weight zero in
+/// every combination but its own.
 pub fn independent_combinations(mut products: Vec<f64>, count: usize, min_square: f64) -> Vec<f64> {
     let mut remainder_weights: Vec<Vec<f64>> = (0..count)
         .map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect())

@@ -68,9 +68,9 @@ impl Triplets {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) unless there are `order + 1` row pointers, equal numbers of columns and values,
-    /// and the last pointer is this number. [`Error::Index`](crate::Error::Index) if the first pointer is not zero, a
-    /// pointer is larger than the next one, or a column does not exist.
+    /// [`Error::Size`](crate::Error::Size) unless there are `order + 1` row pointers, equal numbers of columns and
+    /// values, and the last pointer is this number. [`Error::Index`](crate::Error::Index) if the first pointer is not
+    /// zero, a pointer is larger than the next one, or a column does not exist.
     pub fn from_csr(
         order: usize,
         pointers: &[usize],
@@ -119,7 +119,7 @@ impl Triplets {
 
     /// Adds a dense block (row-major) at rows and columns `indices`.
     ///
-    /// The block has `indices.len()` squared entries; a shorter block has only the first of them.
+    /// A full block has `indices.len()` squared entries; entries missing at the end count as zeros.
     #[inline]
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
         for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
@@ -138,7 +138,7 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, the matrix of a spring or dashpot with the deformation l·u.
+    /// Adds `factor · lᵀ l`, the matrix of a spring or dashpot with the deformation l·u.
     ///
     /// The row vector l is a `DofCombination` or a list of (degree of freedom, weight) terms.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {

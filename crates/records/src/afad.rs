@@ -19,10 +19,11 @@ use crate::text::decimal::finite;
 ///
 /// One file has all components of a station, side by side.
 ///
-/// A header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`; a line with the
-/// names of the components, `N-S  E-W  U-D`; then the samples in gal. [`Record::read_all`](super::Record::read_all) returns all components.
-/// An error if samples or peaks (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of
-/// acceleration other than gal. Newer files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
+/// The file has a header of lines `KEY : value`, among them `NUMBER OF DATA` and `SAMPLING INTERVAL (sec)`. A line with
+/// the names of the components, `N-S  E-W  U-D`, and the samples in gal follow.
+/// [`Record::read_all`](super::Record::read_all) returns all components. Reading returns an error if samples or peaks
+/// (`RAW PGA VALUES (gal)`) differ from the header, or if the header names a unit of acceleration other than gal. Newer
+/// files of AFAD (`.asc`) have the layout of [`EsmFormat`](super::EsmFormat).
 ///
 /// ```
 /// use basemat::motion::{AfadFormat, Record};
@@ -116,7 +117,7 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
         let peak = lines.with_line_number(header.peak_in_gal(&name))?;
-        lines.with_line_number(agreement::peak(&samples, peak * factor))?;
+        lines.with_line_number(agreement::check_peak(&samples, peak * factor))?;
         components.push(Series { name, time_step, samples });
     }
     Ok(components)
@@ -132,7 +133,7 @@ fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
     Ok(row)
 }
 
-/// What the lines up to the first line of numbers contain.
+/// Contents of the lines up to the first line of numbers.
 struct AfadHead {
     header: AfadHeader,
     /// Names of the components.

@@ -2,9 +2,9 @@
 
 use crate::error::FileFault;
 
-/// Largest difference of a stated duration, or of a stated time, that counts as rounding, relative to it.
+/// Largest difference from a stated duration or time that counts as rounding, relative to the stated value.
 const DURATION_TOLERANCE: f64 = 0.03;
-/// Largest ratio of a stated peak and the samples' peak that a change of the baseline explains.
+/// Largest ratio of a stated peak and the samples' peak that a change of the baseline may explain.
 ///
 /// The closest two units differ by a factor of 2.54.
 const MAX_PEAK_RATIO: f64 = 2.0;
@@ -14,7 +14,7 @@ const PRINTED_NUMBER_TOLERANCE: f64 = 1e-3;
 /// Error unless the samples last as long as the file states.
 ///
 /// `time_step`: s. `stated_duration` (s) is rounded to `stated_rounding` (s).
-pub(super) fn duration(
+pub(super) fn check_duration(
     sample_count: usize,
     time_step: f64,
     stated_duration: f64,
@@ -33,7 +33,7 @@ pub(super) fn duration(
 }
 
 /// Error unless two places state the same number, up to its last printed digit.
-pub(super) fn number(
+pub(super) fn check_number(
     quantity: &'static str,
     value: f64,
     stated_value: f64,
@@ -45,7 +45,7 @@ pub(super) fn number(
 /// Error if the stated peak is in another unit than the samples.
 ///
 /// Both in m/s²; the stated peak may have either sign. A stated peak of zero is not checked.
-pub(super) fn peak(samples: &[f64], stated_peak: f64) -> Result<(), FileFault> {
+pub(super) fn check_peak(samples: &[f64], stated_peak: f64) -> Result<(), FileFault> {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let computed_peak = max_deviation(samples, 0.0);
     // An agency may state the peak of the samples with or without their mean.
@@ -76,13 +76,13 @@ fn may_be_same_peak(computed_peak: f64, stated_peak: f64) -> bool {
 /// Error unless the samples have the stated extreme at the stated time.
 ///
 /// `stated_time`: s. `stated_value`: m/s². If no sample has that value, only its unit is checked.
-pub(super) fn extreme(
+pub(super) fn check_extreme(
     samples: &[f64],
     time_step: f64,
     stated_time: f64,
     stated_value: f64,
 ) -> Result<(), FileFault> {
-    peak(samples, stated_value)?;
+    check_peak(samples, stated_value)?;
     let mut first_sample_time = None;
     for (index, sample) in samples.iter().enumerate() {
         if (sample - stated_value).abs() <= PRINTED_NUMBER_TOLERANCE * stated_value.abs() {
@@ -126,7 +126,7 @@ mod tests {
             (1560, 0.02, 31.0, 1.0),
         ] {
             assert_eq!(
-                duration(sample_count, time_step, stated, rounding),
+                check_duration(sample_count, time_step, stated, rounding),
                 Ok(()),
                 "{sample_count} {time_step}"
             );
@@ -138,7 +138,7 @@ mod tests {
             (400, 0.005, 2.5, 0.0),
         ] {
             assert!(
-                duration(sample_count, time_step, stated, rounding).is_err(),
+                check_duration(sample_count, time_step, stated, rounding).is_err(),
                 "{sample_count} {time_step}"
             );
         }
@@ -148,12 +148,12 @@ mod tests {
     fn peaks_show_units() {
         let samples = [0.1, -0.4, 0.2];
         for stated in [0.4, -0.4, 0.0, 0.37, 0.25] {
-            assert_eq!(peak(&samples, stated), Ok(()), "{stated}");
+            assert_eq!(check_peak(&samples, stated), Ok(()), "{stated}");
         }
         for stated in [0.04, 3.92, 0.4 / 2.54, 1.01] {
-            assert!(peak(&samples, stated).is_err(), "{stated}");
+            assert!(check_peak(&samples, stated).is_err(), "{stated}");
         }
-        assert_eq!(peak(&[10.1, 10.0, 9.9], 0.1), Ok(()));
-        assert_eq!(peak(&[0.0, 0.0], 3.0), Ok(()));
+        assert_eq!(check_peak(&[10.1, 10.0, 9.9], 0.1), Ok(()));
+        assert_eq!(check_peak(&[0.0, 0.0], 3.0), Ok(()));
     }
 }

@@ -221,7 +221,8 @@ impl<'a> Sectors<'a> {
                 for (component, column) in pair.columns.iter().enumerate() {
                     let Some(column) = column else { continue };
                     let factor = group_order * character(parity, *axes, component);
-                    matrix[row * order + column] += block_row[component].scale(factor).inner();
+                    matrix[row * order + column] +=
+                        block_row[component].scale(factor).to_complex64();
                 }
             }
         }

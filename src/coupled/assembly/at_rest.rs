@@ -98,7 +98,7 @@ pub(crate) fn static_compliance(parts: &Parts) -> Result<CompressedMatrix> {
         let diagonal = diagonal_inside_outline(quantity, compliance.at_rest, &parts.elements)?;
         return Ok(CompressedMatrix::of_diagonal(diagonal));
     }
-    let mut compliance = vec![0.0; parts.elements.layout().square()];
+    let mut compliance = vec![0.0; parts.elements.layout().matrix_len()];
     parts.ground.static_compliance(&mut compliance)?;
     parts.elements.refer_inside(&mut compliance);
     Ok(CompressedMatrix::dense(compliance))

@@ -11,7 +11,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::structure::{HeldBase, stiffest};
+use crate::structure::{SpringSupportedBase, max_diagonal_stiffness};
 
 /// Results of a structure with a fixed base.
 pub(super) struct FixedBaseResults {
@@ -93,7 +93,11 @@ impl FixedBaseResponses {
         let stiffness: &SparseMatrix = &assembled.stiffness;
         let dofs = assembled.dofs();
         let translations = assembled.influence.part_vectors(dofs);
-        let springs = HeldBase::new(assembled.base.nodes(), stiffness, stiffest(stiffness));
+        let springs = SpringSupportedBase::new(
+            assembled.base.nodes(),
+            stiffness,
+            max_diagonal_stiffness(stiffness),
+        );
         let mut rotations = Vec::new();
         for part in assembled.influence.parts() {
             let nodes = part.nodes(&assembled.base);
@@ -101,7 +105,7 @@ impl FixedBaseResponses {
             let middle_x = nodes.iter().map(|node| node.x).sum::<f64>() / node_count;
             let middle_y = nodes.iter().map(|node| node.y).sum::<f64>() / node_count;
             let middle = [middle_x, middle_y];
-            rotations.extend(springs.turns(nodes.iter().copied(), middle).concat());
+            rotations.extend(springs.rotation_forces(nodes.iter().copied(), middle).concat());
         }
         factor.solve_many(&mut rotations);
         let inertia = mass.times(&translations);

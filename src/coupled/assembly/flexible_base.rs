@@ -30,7 +30,7 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, initial_shift};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, min_interval_count};
+use crate::geometry::{ContactElement, axis_name, enclosing_interval, min_interval_count};
 use crate::linalg::{dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
@@ -321,7 +321,7 @@ impl FaceElements {
         }
         let sides = patch.layout().axes().map(|axis| {
             let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
-            let edges = far_ends(ends.iter().copied());
+            let edges = enclosing_interval(ends.iter().copied());
             (edges[1] - edges[0], min_interval_count(ends), axis)
         });
         let shorter_side = sides.min_by(|(a, ..), (b, ..)| a.total_cmp(b));

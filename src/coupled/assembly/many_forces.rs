@@ -15,7 +15,7 @@ use crate::coupled::assembly::subspace::{RitzModes, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::statics::compliance::ShiftedStiffnessFactor;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
+use crate::linalg::{ModeLimit, SparseFactor, SparseMatrix, lowest_modes};
 
 /// Growth of the frequency limit of vibration modes from one round to the next.
 const FREQUENCY_LIMIT_GROWTH: f64 = std::f64::consts::SQRT_2;
@@ -200,7 +200,7 @@ impl Reduction<'_> {
             &shifted.factor,
             &self.assembled.mass,
             MAX_VIBRATION_MODES,
-            Some((max_eigenvalue, max_residual)),
+            Some(ModeLimit { eigenvalue: max_eigenvalue, residual_tolerance: max_residual }),
         );
         let all_modes = modes.filter(|modes| modes.values.len() < MAX_VIBRATION_MODES);
         Ok(all_modes.map(|modes| {

@@ -60,7 +60,7 @@ impl RefinedBase {
         }
         let refined_patch = patch.refined().ok()?;
         let mut compliance = parts.ground.finer_compliance().ok()??;
-        if compliance.len() != refined_patch.layout().square() {
+        if compliance.len() != refined_patch.layout().matrix_len() {
             return None;
         }
         refined_patch.refer_inside(&mut compliance);

@@ -12,8 +12,8 @@ use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{dot, largest};
 use crate::structure::{
-    BaseNode, HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness,
-    stiffest,
+    BaseNode, MassAndStiffness, NonlinearForce, SpringSupportedBase, Structure, Triplets,
+    mass_and_stiffness, max_diagonal_stiffness,
 };
 
 /// Stiffness of the ground over 4 m/Δt², the resistance of the structure's mass m in a step.
@@ -32,9 +32,10 @@ pub(crate) fn on_fixed_base(
     let base = PlacedBase::of(structure.as_ref(), elements)?;
     let dofs = structure.dofs();
     let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
-    let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
+    let springs =
+        SpringSupportedBase::new(base.nodes(), &stiffness, max_diagonal_stiffness(&stiffness));
     // Forces of the springs for a unit translation to the right, and then the translation itself.
-    let mut translation = springs.pulls().swap_remove(0);
+    let mut translation = springs.translation_forces().swap_remove(0);
     // Without a factor the assembly later returns an error that names the mechanism.
     if let Ok(mut factor) = springs.factor() {
         factor.solve(&mut translation);
@@ -43,7 +44,7 @@ pub(crate) fn on_fixed_base(
     let resistance = 4.0 * mass.form(&translation, &translation) / (time_step * time_step);
     // The reference of a massless structure is its stiffness.
     let has_inertia = resistance > 0.0 && resistance.is_finite();
-    let resistance = if has_inertia { resistance } else { stiffest(&stiffness) };
+    let resistance = if has_inertia { resistance } else { max_diagonal_stiffness(&stiffness) };
     let ground = FixedGround {
         elements: elements.clone(),
         compliance: total_area / (FIXED_GROUND_STIFFNESS_RATIO * resistance),
@@ -52,7 +53,7 @@ pub(crate) fn on_fixed_base(
     for (nodes, _) in base.foundations() {
         add_rigid_foundation(
             nodes,
-            RIGID_FOUNDATION_STIFFNESS_RATIO * stiffest(&stiffness),
+            RIGID_FOUNDATION_STIFFNESS_RATIO * max_diagonal_stiffness(&stiffness),
             &mut foundation_stiffness,
         );
     }
@@ -82,7 +83,7 @@ pub(crate) fn is_fixed_base(ground: &dyn Ground) -> bool {
 ///
 /// It resists all motions of the nodes except rigid ones.
 fn add_rigid_foundation(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
-    let Some(direction_count) = nodes.first().map(BaseNode::directions) else {
+    let Some(direction_count) = nodes.first().map(BaseNode::direction_count) else {
         return;
     };
     let rigid_motions = rigid_motions(nodes, direction_count);

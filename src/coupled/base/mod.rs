@@ -16,7 +16,7 @@ use crate::coupled::base::transformation::{
     Rows, SparseVector, Transformation, Weights, accumulate,
 };
 use crate::error::{Error, Result, at_least};
-use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends, span};
+use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, enclosing_interval, span};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
@@ -203,7 +203,7 @@ impl PlacedBase {
                     self.elements[elements.clone()].iter().map(|element| element.ends()[axis]);
                 let sides = ends.clone().map(|[low, high]| high - low);
                 let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
-                let edges = far_ends(ends);
+                let edges = enclosing_interval(ends);
                 let node_ends = span(nodes.iter().map(|node| node.place()[axis]));
                 let limit =
                     longest_side.min(MAX_UNCOVERED_FRACTION * (node_ends[1] - node_ends[0]));

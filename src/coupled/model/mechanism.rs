@@ -3,7 +3,7 @@
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
-use crate::structure::{HeldBase, Structure, Triplets, dof_list_text};
+use crate::structure::{SpringSupportedBase, Structure, Triplets, dof_list_text};
 
 /// Largest regularising term on the diagonal, relative to the largest stiffness.
 const REGULARISING_MASS_RATIO: f64 = 1e-12;
@@ -101,7 +101,9 @@ pub(crate) struct RegularisedStiffness {
 
 impl RegularisedStiffness {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(crate) fn on_firm_springs<'a>(at_rest: &StructureAtRest<'a>) -> (HeldBase<'a>, Self) {
+    pub(crate) fn on_firm_springs<'a>(
+        at_rest: &StructureAtRest<'a>,
+    ) -> (SpringSupportedBase<'a>, Self) {
         Self::on_springs(at_rest, 1.0)
     }
 
@@ -109,11 +111,11 @@ impl RegularisedStiffness {
     pub(crate) fn on_springs<'a>(
         at_rest: &StructureAtRest<'a>,
         factor: f64,
-    ) -> (HeldBase<'a>, Self) {
+    ) -> (SpringSupportedBase<'a>, Self) {
         let StructureAtRest { stiffness, mass, base, .. } = *at_rest;
         let max_entry = stiffness.entries().fold(0.0_f64, |max, (_, _, k)| max.max(k.abs()));
         let spring = factor * if max_entry > 0.0 { max_entry } else { 1.0 };
-        let springs = HeldBase::new(base.nodes(), stiffness, spring);
+        let springs = SpringSupportedBase::new(base.nodes(), stiffness, spring);
         let regularised = Self::new(springs.matrix.clone(), spring, &mass.diagonal());
         (springs, regularised)
     }
@@ -153,7 +155,7 @@ impl RegularisedStiffness {
     pub(crate) fn factor(&self) -> Option<SparseFactor> {
         let mut sum = self.matrix.clone();
         self.regularisation.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        SparseFactor::new(HeldBase::STIFFNESS_NAME, &sum).ok()
+        SparseFactor::new(SpringSupportedBase::STIFFNESS_NAME, &sum).ok()
     }
 
     /// Degrees of freedom of all mechanisms with a relative work of at most `max_work_ratio`, ascending.

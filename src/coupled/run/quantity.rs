@@ -13,8 +13,8 @@ use crate::coupled::run::quantity_row::{QuantityRow, Scale, ShownIn};
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::column;
-use crate::text::readable_number::{PrintedUnit, of_body, printed};
-use crate::text::words::unknown;
+use crate::text::readable_number::{PrintedUnit, printed_unit, whole_body_unit};
+use crate::text::words::unknown_word_error;
 
 /// Declares the enum, its table, and the summary of a run or a foundation, from rows in the order of columns.
 macro_rules! quantities {
@@ -288,7 +288,7 @@ impl Quantity {
     ///
     /// Per metre of thickness in the plane, of the whole body in plan.
     pub fn unit(self, in_plan: bool) -> &'static str {
-        of_body(self.row().unit, in_plan)
+        whole_body_unit(self.row().unit, in_plan)
     }
 
     /// Column of the quantity in files: its word and unit.
@@ -299,12 +299,12 @@ impl Quantity {
     }
 
     /// Unit in which values are printed.
-    pub(crate) fn printed(self, in_plan: bool) -> PrintedUnit<'static> {
+    pub(crate) fn printed_unit(self, in_plan: bool) -> PrintedUnit<'static> {
         let unit = match self.row().scale {
             Scale::Percent => PrintedUnit { factor: 1e2, symbol: "%" },
-            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
+            Scale::Unit | Scale::Safety(_) => printed_unit(self.row().unit),
         };
-        PrintedUnit { symbol: of_body(unit.symbol, in_plan), ..unit }
+        PrintedUnit { symbol: whole_body_unit(unit.symbol, in_plan), ..unit }
     }
 
     /// Label of the limit of one for a factor of safety; `None` for other quantities.
@@ -339,7 +339,7 @@ impl FromStr for Quantity {
     fn from_str(text: &str) -> Result<Self> {
         let quantity =
             Self::ALL_QUANTITIES.into_iter().find(|quantity| quantity.row().word == text);
-        quantity.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
+        quantity.ok_or_else(|| unknown_word_error("quantity", text, QUANTITY_WORDS))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::column::column;
-use crate::text::readable_number::{number, of_body};
+use crate::text::readable_number::{number, whole_body_unit};
 
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,7 +154,7 @@ impl EnergyTerm {
         let field = ENERGY_TERM_ROWS[self as usize].0;
         let name =
             if field.contains("bound") { field.to_owned() } else { format!("{field} energy") };
-        column(&name, of_body("J/m", in_plan))
+        column(&name, whole_body_unit("J/m", in_plan))
     }
 
     /// Whether the structure has lost the term's energy as heat or to the ground.

@@ -18,7 +18,7 @@ use crate::interface::{InterfaceLaw, law_of};
 use crate::linalg::{
     CompressedMatrix, SparseFactor, SparseMatrix, Triplets, largest, row_products,
 };
-use crate::structure::{Structure, Tangent, stiffest};
+use crate::structure::{Structure, Tangent, max_diagonal_stiffness};
 
 /// Name of K + BᵀA S⁻¹ B in errors.
 const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
@@ -160,7 +160,7 @@ impl<'a> GroundStiffness<'a> {
     fn is_stable_with(&self, stiffness: &SparseMatrix) -> bool {
         let terms = [(1.0, stiffness), (1.0, &self.matrix)];
         let matrices = self.assembled.matrices();
-        let penalty = FIRM_SPRING_FACTOR * stiffest(stiffness);
+        let penalty = FIRM_SPRING_FACTOR * max_diagonal_stiffness(stiffness);
         SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, stiffness.order(), &terms)
             .and_then(|sum| with_constraints(sum, matrices, penalty))
             .and_then(|sum| SparseFactor::positive_definite(GROUNDED_STIFFNESS_NAME, &sum))

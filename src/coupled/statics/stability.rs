@@ -65,7 +65,7 @@ fn base_failure(
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         // A moment is the work of the load on a unit rotation.
         let mut moments = [0.0; 3];
-        let rotation_forces = springs.turns(nodes.iter().copied(), bounds.map(middle));
+        let rotation_forces = springs.rotation_forces(nodes.iter().copied(), bounds.map(middle));
         for (moment, forces) in moments.iter_mut().zip(rotation_forces) {
             *moment = work(&mut factor, forces, load);
         }

@@ -9,9 +9,9 @@ use crate::error::{Error, Result};
 use crate::history::convolution_weights::{ConvolutionWeights, LateWeights};
 use crate::history::shared_spectra::SharedSpectra;
 
-/// Ratio of an attempt's target tolerance to the target of the attempt before.
+/// Ratio of an attempt's target tolerance to that of the previous attempt.
 const TOLERANCE_REDUCTION: f64 = 0.2;
-/// Largest number of attempts: enough to reach rounding from any tolerance.
+/// Largest number of attempts: the last one has 5e-7 of the required tolerance as its target.
 const MAX_FIT_ATTEMPTS: usize = 10;
 
 /// Window, horizon and tolerance of a fit.
@@ -19,7 +19,9 @@ const MAX_FIT_ATTEMPTS: usize = 10;
 pub(super) struct FitRequest {
     /// Number of lags in the window.
     pub(super) lags: usize,
+    /// Last lag up to which the tolerance must be satisfied.
     pub(super) horizon: usize,
+    /// Largest error of a coefficient, relative to the largest coefficient of its lag.
     pub(super) tolerance: f64,
 }
 
@@ -34,7 +36,7 @@ pub(super) struct TailFit {
 }
 
 impl TailFit {
-    /// Fits the fewest exponentials that are accurate and passive.
+    /// Fits exponentials, more in each attempt, until they are accurate and passive.
     pub(super) fn new(
         kernel: &dyn ConvolutionWeights,
         late: &dyn LateWeights,
@@ -55,7 +57,7 @@ impl TailFit {
             }
             let PassivityMargin { min_eigenvalue, frequency } =
                 passivity::margin(kernel, &exact_lags, &tail, horizon as f64);
-            // A NaN is an error as well.
+            // NaN is not passive.
             if min_eigenvalue.is_nan() || min_eigenvalue < 0.0 {
                 failure = Some(Error::NotPassive {
                     quantity: "history by exponentials",
@@ -72,6 +74,7 @@ impl TailFit {
     }
 }
 
+/// Error for a fit whose error is `reached`, above `tolerance`.
 fn inaccurate(tolerance: f64, reached: f64) -> Error {
     let remedy = "with the largest number of poles tried".to_owned();
     Error::Accuracy { quantity: "history by exponentials", reached, tolerance, remedy }

@@ -1,4 +1,4 @@
-//! Fits shared by several histories.
+//! Tests of fits that several histories share.
 
 use super::*;
 use crate::bem::{PatchKernel, Strip};

@@ -33,7 +33,7 @@ impl<R: Read> MshFields<R> {
         }
     }
 
-    /// Reads the number one that begins a binary file and shows its byte order.
+    /// Reads the number one at the beginning of a binary file, by which its byte order is checked.
     pub(super) fn begin_binary(&mut self) -> LineResult<()> {
         let byte_order_mark = i32::from_le_bytes(self.bytes("number one in binary form")?);
         if byte_order_mark != 1 {

@@ -24,7 +24,7 @@ pub(super) fn read(
     let mut fields = MshFields::new(source);
     let mut mesh = FileMesh::default();
     let mut completed_sections = Vec::new();
-    // Sections before the format are read as those of version 4.
+    // A section before the section of the format is read as one of version 4.
     let mut version = None;
     while let Some(section) = fields.section()? {
         if completed_sections.contains(&section) {

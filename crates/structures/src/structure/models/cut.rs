@@ -11,11 +11,13 @@ pub(super) struct SectionCut<'a> {
     height: f64,
     /// Reference point [x, y] of the moments, m; y is unused in the plane.
     reference: [f64; 2],
-    /// Whether each node belongs to the part below; nodes of the section do.
+    /// Whether each node belongs to the part below, which includes the nodes at the height of the section.
     is_below: Vec<bool>,
-    /// Matrices of the elements above, times −1.
+    /// Stiffness matrices of the elements above, times −1; resultants use their sum.
     stiffness: Vec<Triplets>,
+    /// Damping matrices of the elements above, times −1; resultants use their sum.
     damping: Vec<Triplets>,
+    /// Mass matrix of the elements above, times −1.
     mass: Vec<Triplets>,
 }
 
