@@ -3,7 +3,7 @@
 use crate::coupled::model::effective_stiffness::EFFECTIVE_STIFFNESS_NAME;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result};
 use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
@@ -84,7 +84,7 @@ impl fmt::Display for Conditioning {
 /// Returns an error if double precision is insufficient.
 pub(crate) fn conditioning(
     scene: &Scene,
-    solver: &mut Solver,
+    solver: &mut StepSolver,
     start: &PreviousContacts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.operators_and_contact_mut();

@@ -13,7 +13,7 @@ use crate::coupled::state::State;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
@@ -33,7 +33,7 @@ pub struct Simulation {
     pub(crate) ground: Box<dyn Ground>,
     pub(crate) motion: Box<dyn FreeField>,
     pub(crate) forcing: Forcing,
-    pub(crate) solver: Solver,
+    pub(crate) solver: StepSolver,
     pub(crate) increment: Increment,
     /// The energy balance; `None` if it is omitted.
     pub(crate) energies: Option<EnergyAccumulator>,

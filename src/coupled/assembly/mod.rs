@@ -50,7 +50,7 @@ use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::Result;
 
 impl Simulation {
@@ -121,7 +121,7 @@ fn start(
     coarse_base_warning: Option<Warning>,
 ) -> Result<Simulation> {
     let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } = parts;
-    let mut solver = Solver::new(&scene, operators, builder.search);
+    let mut solver = StepSolver::new(&scene, operators, builder.search);
     let mut state = State::at_rest(&scene)?;
     let is_compliant = scene.is_compliant(&state.start)?;
     let mass = &assembled.mass;
