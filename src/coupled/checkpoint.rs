@@ -151,7 +151,7 @@ impl Simulation {
         Ok(checkpoint)
     }
 
-    /// Sets the simulation to the state of `checkpoint`; its present state does not matter.
+    /// Sets the simulation to the state of `checkpoint`, whatever its present state.
     ///
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
@@ -169,8 +169,8 @@ impl Simulation {
 
     /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
     ///
-    /// Apart from the changes it is [`Simulation::resume`]. Use it, for example, to continue with another friction or
-    /// another motion, which the label names.
+    /// Apart from the changes the function is [`Simulation::resume`]. Use it, for example, to continue with another
+    /// friction or another motion, which the label names.
     ///
     /// # Errors
     /// As for [`Simulation::resume`], for a difference outside the `changes`.
@@ -320,9 +320,9 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
 
 /// All numbers that a step passes to the next, in a fixed order.
 ///
-/// `components`: number of displacement components, 2 in the plane, 3 in plan.
+/// `component_count` is the number of displacement components: 2 in the plane, 3 in plan.
 fn state_numbers<'a>(
-    components: usize,
+    component_count: usize,
     state: &'a mut State,
     energies: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
@@ -340,7 +340,7 @@ fn state_numbers<'a>(
         let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
             translation;
         for values in [displacement, increment, velocity, new_velocity, new_acceleration] {
-            numbers.extend(values.iter_mut().take(components));
+            numbers.extend(values.iter_mut().take(component_count));
         }
     }
     let mut y_components = Vec::new();
@@ -355,10 +355,10 @@ fn state_numbers<'a>(
         numbers.push(&mut foundation.rocking_work);
         y_components.push(&mut foundation.rocking_work_across);
     }
-    if components == COMPONENTS_IN_SPACE {
+    if component_count == COMPONENTS_IN_SPACE {
         numbers.push(free_field_across);
         numbers.extend(y_components);
     }
-    numbers.extend(energies.into_iter().flat_map(|energies| energies.numbers(components)));
+    numbers.extend(energies.into_iter().flat_map(|energies| energies.numbers(component_count)));
     numbers
 }

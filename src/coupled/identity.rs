@@ -155,7 +155,8 @@ impl Simulation {
     pub(crate) fn identity(&self) -> Identity {
         let Self { scene, state, .. } = self;
         let model = &scene.model;
-        // The sign of each mode is arbitrary. The responses of a nonlinear structure have no modes and change.
+        // Modal coordinates of a checkpoint are wrong for modes of other signs, which are arbitrary. This sum depends
+        // on the signs. The responses of a nonlinear structure have no modes and change with the tangent.
         let operators = self.solver.operators();
         let responses = operators.traction_responses.iter().enumerate().filter(|_| model.is_linear);
         let signed_sum = responses.map(|(k, value)| (k as f64).cos() * value).sum();

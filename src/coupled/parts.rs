@@ -31,7 +31,7 @@ pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// The ground, prepared for time stepping.
     pub(crate) ground: Box<dyn Ground>,
-    /// Soil of the ground, as described before its preparation.
+    /// Description of the ground, from before its preparation.
     pub(crate) description: GroundDescription,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) builder: SimulationBuilder,
@@ -69,7 +69,8 @@ impl Parts {
         let mut ground = builder.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
-        // For some grounds, whether they are a bed is determined only by the preparation.
+        // A dense step compliance limits the number of elements. A ground that returns an error here is checked after
+        // its preparation.
         if matches!(ground.diagonal_compliance(), Ok(None)) {
             check_count(elements.len(), components)?;
         }
@@ -253,7 +254,7 @@ fn check_laws(
     laws.iter().try_for_each(|law| law.check(scene))
 }
 
-/// Checks that laws and contact search suit a ground in plan.
+/// Checks that laws and contact search suit a ground in plan, where laws consist of limits.
 fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     let needed =
         "must be the robust one on a ground in plan: the flow chart exists only in the plane";

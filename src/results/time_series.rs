@@ -75,20 +75,21 @@ validated! {
         contact: Option<ContactFrames>,
         motion: Option<MotionFrames>,
     } => {
-        let kept = times.len();
-        let count = Quantity::recorded(ContactLayout::for_elements(&elements).is_plan()).count();
-        crate::error::same_length("list of scalars", scalars.len(), count)?;
+        let step_count = times.len();
+        let is_plan = ContactLayout::for_elements(&elements).is_plan();
+        let quantity_count = Quantity::recorded(is_plan).count();
+        crate::error::same_length("list of scalars", scalars.len(), quantity_count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
-        crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
+        crate::error::same_length("list of energy balances", energy_balances.len(), step_count)?;
         let lists = scalars.iter().chain(&probe_values).chain(foundations.lists());
         for values in lists.chain(joints.lists()) {
-            crate::error::same_length("time series", values.len(), kept)?;
+            crate::error::same_length("time series", values.len(), step_count)?;
         }
-        foundations.check(count)?;
+        foundations.check(quantity_count)?;
         let are_whole = contact.as_ref().is_none_or(|frames| frames.is_whole(elements.len()))
             && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
         crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
-        crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
+        crate::error::same_length("list of times", usize::from(step_count > 0), 1)?;
         let sequence = StateSequence::ended(end);
         Ok(Self {
             recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
@@ -97,7 +98,7 @@ validated! {
     }
 }
 
-/// Largest number of steps that memory is reserved for.
+/// Largest number of steps for which memory is reserved at once.
 ///
 /// A longer run allocates again when this memory is used up.
 const MAX_RESERVED_STEPS: usize = 1_000_000;
@@ -170,8 +171,8 @@ impl TimeSeries {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::Error::Memory) if time series and frames would exceed the
-    /// [limit](crate::memory_limit) or the memory of the system; they then end with the previous step. As the
-    /// observer's error it ends a run.
+    /// [limit](crate::memory_limit) or the memory of the system; they then end with the previous step. Returned by an
+    /// observer, the error ends the run.
     pub fn record(&mut self, state: &State) -> Result<()> {
         if !self.sequence.is_next(state) {
             return Ok(());
@@ -286,7 +287,7 @@ impl TimeSeries {
 
     /// Time series of a quantity at [`TimeSeries::times`].
     ///
-    /// Empty in the plane for quantities of three directions.
+    /// It is empty in the plane for quantities that exist only in plan.
     pub fn series(&self, quantity: Quantity) -> &[f64] {
         self.scalars.get(quantity as usize).map_or(&[], Vec::as_slice)
     }
@@ -299,7 +300,7 @@ impl TimeSeries {
         self.joints.find(joint, quantity)
     }
 
-    /// Time series of the probe called `name`, zero at the start of a run.
+    /// Time series of the probe called `name` at [`TimeSeries::times`].
     ///
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe has this name.
@@ -357,7 +358,7 @@ impl TimeSeries {
 
     /// Static displacement of the degrees of freedom, m and rad, which the frames of motion do not contain.
     ///
-    /// As [`Simulation::static_displacement`]; empty unless [`Recorder::motion`] was set.
+    /// It is [`Simulation::static_displacement`], or empty unless [`Recorder::motion`] was set.
     pub fn static_displacement(&self) -> &[f64] {
         self.motion.as_ref().map_or(&[], |frames| &frames.static_displacement)
     }
@@ -367,7 +368,7 @@ impl TimeSeries {
         let series = self.scalars.iter().chain(self.foundations.lists()).chain(&self.probe_values);
         let number_count =
             series.chain(self.joints.lists()).map(Vec::len).sum::<usize>() + self.times.len();
-        8 * number_count
+        size_of::<f64>() * number_count
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)

@@ -74,6 +74,7 @@ impl ComplexBlock {
             values.extend_from_slice(&pivot.values[column * pivot_order..][..pivot_order]);
         });
         if !is_regular {
+            // All callers eliminate degrees of freedom of these elements.
             let matrix = "finite elements around a trench";
             return Err(Error::Singular { matrix, order: pivot_order });
         }

@@ -1,4 +1,4 @@
-//! Static state of a scene: in stages; for walls after backfilling or in place of the soil.
+//! Static state of a scene, in stages; walls are backfilled or wished in place.
 
 use std::cell::RefCell;
 
@@ -23,10 +23,10 @@ use crate::structure::nonlinear_state;
 
 /// Static state under the weight and the loads at t = 0; without gravity the state without forces.
 ///
-/// The function commits the structure's internal variables to this state. `shared_compliance` receives the compliance of
-/// the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
-/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on its
-/// ground is an error in every gravity stage, since it would overturn during the run.
+/// The function commits this state to the structure's internal variables. `shared_compliance` receives the compliance
+/// of the condensed structure, or otherwise of a linear structure. If the condensed structure has no static state,
+/// `condensed` becomes `None`, and the state of the whole structure is computed. A structure with P–Δ that buckles on
+/// its ground is an error in every gravity stage, since it would overturn during the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
@@ -111,7 +111,7 @@ pub(crate) fn static_compliance(parts: &Parts, base: &PlacedBase) -> Result<Comp
         let diagonal = diagonal_inside_outline(quantity, compliance.at_rest, &parts.elements)?;
         return Ok(CompressedMatrix::of_diagonal(diagonal));
     }
-    let mut compliance = vec![0.0; parts.elements.layout().square()];
+    let mut compliance = vec![0.0; parts.elements.layout().matrix_len()];
     parts.ground.static_compliance(&mut compliance)?;
     parts.elements.refer_inside(&mut compliance);
     Ok(CompressedMatrix::dense(base.spread_ground_matrix(compliance)))
@@ -199,6 +199,6 @@ pub(crate) fn state_under_loads(
         dense_multiply_add(ground.compliance, -1.0, &traction, &mut jump_offset);
     }
     let problem = StaticProblem { jump_offset: &jump_offset, ..problem };
-    let placed_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
-    state_under_load(&problem, laws, placed_state, [weight, load])
+    let weight_state = state_under_weight(&problem, laws, builder.gravity_stage, weight)?;
+    state_under_load(&problem, laws, weight_state, [weight, load])
 }

@@ -6,7 +6,9 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | S, B | static compliance of the soil, element means of the base displacement |
-//! | u₀, τ₀ | displacement and tractions after backfilling |
+//! | u₀, τ₀, g₀ | displacement, tractions and gaps after backfilling |
+//!
+//! The further loads act from this state. The offset of the jumps is therefore B u₀ − S τ₀ + g₀.
 
 use std::cell::RefCell;
 

@@ -30,7 +30,7 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, ShiftedStiffnessFactor, initial_shift};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, min_interval_count};
+use crate::geometry::{ContactElement, axis_name, enclosing_interval, min_interval_count};
 use crate::linalg::{dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
@@ -42,7 +42,7 @@ const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
 const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
 /// Relative difference of static shapes on n and on 2n elements above which the base is an error.
 const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
-/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have 0.
+/// Smallest exponent p in ρ ~ nᵖ for n elements at which more elements help; solids have p = 0.
 const MIN_REFINEMENT_EXPONENT: f64 = 1.0;
 /// Largest exponent p in ρ ~ nᵖ, for beams and plates.
 const MAX_REFINEMENT_EXPONENT: f64 = 3.0;
@@ -52,7 +52,7 @@ const MIN_REFINEMENT_FACTOR: f64 = 1.25;
 const PROJECTION_ROUNDING_TOLERANCE: f64 = 1e-12;
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
 const ON_FACE_TOLERANCE: f64 = 1e-9;
-/// Asymmetry of K that counts as rounding.
+/// Relative asymmetry of K that counts as rounding.
 const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
@@ -192,7 +192,7 @@ fn needed_elements(
     needed
 }
 
-/// Factored stiffness of the compliance on the base's elements; computes the shared compliance if it is missing.
+/// Factored stiffness behind the shared compliance, which the function computes if it is missing.
 ///
 /// `None` if the stiffness is not symmetric or cannot be factored.
 fn shared_factor(
@@ -237,13 +237,13 @@ fn largest_difference(
                 face_nodes.push(node);
             }
         }
-        let first = normal_displacements(&face_nodes, element, first_state);
-        let second = normal_displacements(&face_nodes, element, second_state);
-        let change = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+        let first_shape = normal_displacements(&face_nodes, element, first_state);
+        let second_shape = normal_displacements(&face_nodes, element, second_state);
+        let change = first_shape.iter().zip(&second_shape).map(|(a, b)| a - b).collect();
         shapes.push((
             foundation,
             bending_norm(&face_nodes, change),
-            bending_norm(&face_nodes, second),
+            bending_norm(&face_nodes, second_shape),
         ));
     }
     let mut worst_face = (0, 0.0);
@@ -304,7 +304,7 @@ fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
 struct FaceElements {
     /// Number of the foundation.
     foundation: usize,
-    /// Axis along which the elements are counted: z for a wall, in plan the one of the shorter side.
+    /// Axis along which the elements are counted: z for a wall, in plan the axis of the shorter side.
     axis: Option<char>,
     /// Number of elements along the axis.
     count: usize,
@@ -321,7 +321,7 @@ impl FaceElements {
         }
         let sides = patch.layout().axes().map(|axis| {
             let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
-            let edges = far_ends(ends.iter().copied());
+            let edges = enclosing_interval(ends.iter().copied());
             (edges[1] - edges[0], min_interval_count(ends), axis)
         });
         let shorter_side = sides.min_by(|(a, ..), (b, ..)| a.total_cmp(b));

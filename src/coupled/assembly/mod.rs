@@ -1,7 +1,7 @@
 //! Build of a simulation, in the order of [`SimulationBuilder::build`].
 //!
-//! 1. `parts.rs`: the builder's parts, each checked alone;
-//! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
+//! 1. `parts.rs`: the builder's parts, each checked separately;
+//! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in degrees of freedom;
 //! 3. `at_rest.rs`, `static_stages.rs`: the static state under the weight, then under the loads at t = 0, by the search of
 //!    `statics/equilibrium.rs`; if the elements may be too few, `flexible_base.rs` compares this state with that on twice
 //!    the elements;
@@ -51,7 +51,7 @@ use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::joint_losses::JointLosses;
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::solver::StepSolver;
 use crate::error::Result;
 
 impl Simulation {
@@ -96,9 +96,9 @@ impl SimulationBuilder {
         let shifted_stiffness =
             shared_compliance.take().map(|compliance: Compliance| compliance.factor);
         let structure = parts.structure.as_ref();
-        let positive_definite =
-            fixed_base.positive_definite(&assembled, shifted_stiffness.as_deref());
-        assembled.check_damping(structure, positive_definite)?;
+        let positive_definite_stiffness =
+            fixed_base.positive_definite_stiffness(&assembled, shifted_stiffness.as_deref());
+        assembled.check_damping(structure, positive_definite_stiffness)?;
         let reduction = fixed_base.take_reduction_input(&assembled, shifted_stiffness);
         let is_connected_by_force = supports::parts_connected_by_force(
             structure,
@@ -125,7 +125,7 @@ fn start(
     coarse_base_warning: Option<Warning>,
 ) -> Result<Simulation> {
     let Parts { mut structure, ground, description, builder, is_first_order_ground, .. } = parts;
-    let mut solver = Solver::new(&scene, operators, builder.search);
+    let mut solver = StepSolver::new(&scene, operators, builder.search);
     let mut state = State::at_rest(&scene)?;
     let is_compliant = scene.is_compliant(&state.start)?;
     let mass = &assembled.mass;

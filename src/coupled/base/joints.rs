@@ -126,7 +126,7 @@ impl PlacedBase {
             return Cow::Borrowed(whole);
         }
         let ground_layout = self.elements.layout();
-        let mut ground = vec![0.0; ground_layout.square()];
+        let mut ground = vec![0.0; ground_layout.matrix_len()];
         for (i, row) in ground.chunks_exact_mut(ground_layout.len()).enumerate() {
             let first = self.contact_index(i) * self.layout.len();
             self.copy_ground_part(&whole[first..first + self.layout.len()], row);
@@ -139,7 +139,7 @@ impl PlacedBase {
         if self.joints.is_empty() {
             return ground;
         }
-        let mut whole = vec![0.0; self.layout.square()];
+        let mut whole = vec![0.0; self.layout.matrix_len()];
         let ground_layout = self.elements.layout();
         for (i, row) in ground.chunks_exact(ground_layout.len()).enumerate() {
             let first = self.contact_index(i) * self.layout.len();

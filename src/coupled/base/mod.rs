@@ -24,7 +24,7 @@ use crate::geometry::{ContactElement, ContactLayout, Patch};
 use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
-/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the one before.
+/// Number of passes that correct the translations of the contact nodes: each removes the rounding of the pass before.
 const TRANSLATION_CORRECTION_COUNT: usize = 4;
 
 /// Base on contact elements: B from coordinates to element means of displacement, and BᵀA from tractions to forces.
@@ -115,8 +115,8 @@ impl PlacedBase {
     ) -> Self {
         let layout = elements.layout();
         let mut rows = vec![SparseVector::new(); layout.len()];
-        for (e, weights) in weights.into_iter().enumerate() {
-            let means = element_components(&nodes, &weights, &elements[e]);
+        for (e, element_weights) in weights.into_iter().enumerate() {
+            let means = element_components(&nodes, &element_weights, &elements[e]);
             for (component, terms) in means.into_iter().enumerate() {
                 rows[layout.place(component, e)] = terms;
             }
@@ -294,9 +294,10 @@ impl PlacedBase {
         self.rows.add_transposed(factor, |i| self.area(i), traction, force);
     }
 
-    /// Rotation of a foundation's chord, counter-clockwise, rad.
+    /// Rotations of a foundation, rad.
     ///
-    /// In plan the rotations are about y, about x and about the vertical, by the right-hand rule.
+    /// In the plane the only rotation is that of the chord, counter-clockwise. In plan the rotations are about y, about
+    /// x and about the vertical, by the right-hand rule.
     pub(crate) fn rotations(&self, foundation: usize, u: &[f64]) -> impl Iterator<Item = f64> {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.value(u))
     }

@@ -200,8 +200,8 @@ pub enum Warning {
     },
     /// A base in plan may slide with friction of 3 or more.
     ///
-    /// Some steps then have several solutions, and the mirror image of a scene may follow another one. In one scene of a
-    /// hundred this changes peaks by tens of per cent.
+    /// Some steps then have several solutions, and the mirror image of a scene may follow another solution. In one
+    /// scene of a hundred this changes peaks by tens of per cent.
     #[error(
         "friction of {friction} in plan: steps may have several solutions; run a mirror image too"
     )]

@@ -63,7 +63,7 @@ impl Warning {
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
             warnings.push(Self::Mistake(Mistake::LongPeriod { period }));
         }
-        for (foundation, axis, reach) in scene.base.uncovered() {
+        for (foundation, axis, reach) in scene.base.long_overhangs() {
             warnings.push(Self::UncoveredBase { foundation, reach, axis });
         }
         warnings.extend(Self::of_joints(scene));

@@ -3,7 +3,7 @@
 use super::transition::Transition;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::joint_line::PlacedJoint;
-use crate::geometry::{ContactElement, far_ends, middle};
+use crate::geometry::{ContactElement, enclosing_interval, middle};
 use crate::interface::{ContactState, Mode};
 
 /// Contact, forces and motion of one joint.
@@ -88,7 +88,7 @@ impl JointState {
         let areas = &base.areas()[joint.elements.clone()];
         let elements = joint.line.elements();
         let length: f64 = areas.iter().sum();
-        let joint_middle = middle(far_ends(elements.iter().map(ContactElement::span)));
+        let joint_middle = middle(enclosing_interval(elements.iter().map(ContactElement::span)));
         let mut sums = Self::default();
         for ((element, area), (state, mode)) in
             elements.iter().zip(areas).zip(self.contact.iter().zip(&self.modes))

@@ -65,7 +65,7 @@ pub struct State {
     pub step: usize,
     /// Time, s.
     pub time: f64,
-    /// Opening and total traction of each element of the ground.
+    /// Gap, slip and total tractions of each element of the ground.
     pub contact: Vec<ContactState>,
     /// Mode of each element of the ground.
     pub modes: Vec<Mode>,
@@ -82,9 +82,10 @@ pub struct State {
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
-    /// Length of open elements over the length of the base.
+    /// Length of open elements over the length of the base; in plan area over area.
     pub uplifted_fraction: f64,
-    /// Slip averaged over the length of the base, m; positive if the structure has moved to the right.
+    /// Slip averaged over the length of the base, in plan over its area, m; positive if the structure has moved to the
+    /// right.
     pub mean_slip: f64,
     /// Rotation of the base's chord, counter-clockwise, rad; with several foundations the largest.
     ///

@@ -27,7 +27,7 @@ impl State {
                 )
             })
             .collect();
-        let modes = static_state.modes_with(&scene.laws);
+        let modes = static_state.initial_modes(&scene.laws);
         let previous_contacts: Vec<_> = (0..element_count)
             .map(|e| {
                 let previous = PreviousContact::new(contact[e], modes[e], scene.time_step);

@@ -151,7 +151,7 @@ impl Forcing {
 
     /// Subtracts the effect of the free field's tractions in this step from the history.
     fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
-        // The buffer of the impulse holds −τ_ff.
+        // The buffer of the impulse now contains −τ_ff.
         for (negative, traction) in self.impulse.iter_mut().zip(&self.free_traction) {
             *negative = -traction;
         }

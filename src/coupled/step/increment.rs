@@ -25,7 +25,7 @@ pub(crate) struct Increment {
     pub(crate) traction: Vec<f64>,
     /// Change of traction on whole elements, for the ground, Pa.
     pub(crate) spread_traction: Vec<f64>,
-    /// Openings and total tractions of each element at the end.
+    /// Gap, slip and total tractions of each element at the end.
     pub(crate) contact: Vec<ContactState>,
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
@@ -39,7 +39,8 @@ pub(crate) struct Increment {
     pub(crate) trials: usize,
     /// Last method of the mode search.
     pub(crate) method: SearchMethod,
-    /// Friction coefficient that replaced a larger one on a sliding element; `None` if none was replaced.
+    /// Friction coefficient that replaced a larger coefficient on a sliding element; `None` if no coefficient was
+    /// replaced.
     pub(crate) substituted_friction: Option<f64>,
     /// f(u*) minus f at the static state; empty for a linear structure.
     pub(crate) nonlinear_force: Vec<f64>,

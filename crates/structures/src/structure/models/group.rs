@@ -290,14 +290,14 @@ fn group_row(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination
 
 /// Whether there is a gap between two convex polygons.
 ///
-/// There is a gap if along the normal of some edge one polygon ends before the other begins.
-fn are_apart(one: &[BaseNode], other: &[BaseNode]) -> bool {
-    let one_corners: Vec<[f64; 2]> = one.iter().map(BaseNode::place).collect();
-    let other_corners: Vec<[f64; 2]> = other.iter().map(BaseNode::place).collect();
-    Edge::all(&one_corners).chain(Edge::all(&other_corners)).any(|edge| {
-        let one_range = span(one_corners.iter().map(|corner| edge.outward(*corner)));
-        let other_range = span(other_corners.iter().map(|corner| edge.outward(*corner)));
-        one_range[1] < other_range[0] || other_range[1] < one_range[0]
+/// There is a gap if, along the normal of some edge, one polygon ends before the other begins.
+fn are_apart(first: &[BaseNode], second: &[BaseNode]) -> bool {
+    let first_corners: Vec<[f64; 2]> = first.iter().map(BaseNode::place).collect();
+    let second_corners: Vec<[f64; 2]> = second.iter().map(BaseNode::place).collect();
+    Edge::all(&first_corners).chain(Edge::all(&second_corners)).any(|edge| {
+        let first_range = span(first_corners.iter().map(|corner| edge.outward(*corner)));
+        let second_range = span(second_corners.iter().map(|corner| edge.outward(*corner)));
+        first_range[1] < second_range[0] || second_range[1] < first_range[0]
     })
 }
 
@@ -330,7 +330,7 @@ impl Structure for StructureGroup {
         self.add_matrices(matrix, Structure::damping)
     }
 
-    /// Texts by the members.
+    /// Texts of all members with such degrees of freedom, joined.
     ///
     /// Degrees of freedom without a text of their member appear with their indices in the group.
     fn describe(&self, dofs: &[usize]) -> Option<String> {

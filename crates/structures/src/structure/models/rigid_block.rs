@@ -23,7 +23,7 @@ use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 pub struct RigidBlock {
     width: f64,
     mass: f64,
-    /// About the centre of gravity, kg m² per metre of thickness.
+    /// Rotary inertia about the centre of gravity, kg m² per metre of thickness.
     rotary_inertia: f64,
     /// Height of the centre of gravity above the base, m.
     center_height: f64,
@@ -58,7 +58,7 @@ impl RigidBlock {
         Self::from_mass(width, mass, rotary_inertia, 0.5 * height)
     }
 
-    /// Any rigid body in the plane, by its base width, mass and inertia.
+    /// Any rigid body in the plane, from its base width, mass and inertia.
     ///
     /// `width` of the base: m. `mass`: kg/m. `rotary_inertia` about the centre of gravity: kg m²/m.
     /// `center_height`: height of the centre of gravity above the base, m.
@@ -176,11 +176,11 @@ impl Structure for RigidBlock {
     }
 
     fn base(&self) -> Base {
-        let left = self.center - 0.5 * self.width;
-        let right = self.center + 0.5 * self.width;
+        let left_end = self.center - 0.5 * self.width;
+        let right_end = self.center + 0.5 * self.width;
         BaseNode::rigid_base(
-            left,
-            right,
+            left_end,
+            right_end,
             [Self::HORIZONTAL_DOF, Self::VERTICAL_DOF, Self::ROTATION_DOF],
         )
         .into()
