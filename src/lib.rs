@@ -32,7 +32,7 @@
 //!     .probe(Probe::displacement("roof", roof))
 //!     .build()?;
 //!
-//! // Before it shakes, the ground carries the weight and nothing else.
+//! // Before the shaking, the ground carries the weight and nothing else.
 //! let start = simulation.state();
 //! assert!((start.normal_force / weight - 1.0).abs() < 1e-9);
 //! assert!(start.base_shear.abs() < 1e-9 * weight && start.base_moment.abs() < 1e-9 * weight);
@@ -47,7 +47,7 @@
 //! })?;
 //! assert_eq!(run.steps, 300);
 //! assert!(run.whole.base_shear.magnitude() > 0.0);
-//! // Every joule is accounted for.
+//! // The energy balance closes.
 //! assert!(run.energy_error < 1e-9);
 //! println!("{run}");
 //! # Ok::<(), basemat::Error>(())
@@ -163,6 +163,7 @@
 //! | structure | [`structure::Structure`] | 4 |
 //! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with internal variables |
 //! | finite element | [`fem::Element`] | 4 |
+//! | material of solids that yield | [`fem::SolidMaterial`] | 7 |
 //! | spring with internal variables | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
@@ -182,7 +183,7 @@
 //! # Examples
 //!
 //! `containment` is the problem of Patel & Spyrakos; `shear_building`, `square_block` (in three dimensions) and some
-//! 25 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
+//! 30 more each teach one thing on a page; `pictures` draws everything (feature `png`). [The list of
 //! examples](https://github.com/basemat/basemat/blob/main/examples/README.md) states what each prints.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
