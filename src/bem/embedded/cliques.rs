@@ -267,3 +267,64 @@ impl CliqueGraph {
         Some(step)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use basemat_fourier::num_complex::Complex64;
+    use basemat_testkit::random::Random;
+
+    use super::*;
+
+    /// Random matrices of a grid of cells with four corners each, the lowest of them fixed.
+    #[test]
+    fn front_by_front_is_all_at_once() {
+        let mut random = Random(7);
+        let [columns, rows] = [6, 5];
+        let order = (columns + 1) * (rows + 1);
+        let corner = |i: usize, j: usize| (j > 0).then_some(i * (rows + 1) + j);
+        let mut matrix_dofs = vec![];
+        let mut matrices = vec![];
+        let mut sum = ComplexBlock::zeros(order, order);
+        for cell in 0..columns * rows {
+            let [i, j] = [cell / rows, cell % rows];
+            let dofs = [corner(i + 1, j + 1), corner(i, j), corner(i + 1, j), corner(i, j + 1)];
+            let mut matrix = ComplexBlock::zeros(4, 4);
+            for b in 0..4 {
+                for a in b..4 {
+                    let diagonal = if a == b { 3.0 } else { 0.0 };
+                    let re = diagonal + random.within(-1.0, 1.0);
+                    matrix[(a, b)] = Complex64::new(re, random.within(-1.0, 1.0));
+                }
+            }
+            matrix.mirror_lower();
+            for (b, column) in dofs.iter().enumerate() {
+                for (a, row) in dofs.iter().enumerate() {
+                    if let (Some(row), Some(column)) = (row, column) {
+                        sum[(*row, *column)] += matrix[(a, b)];
+                    }
+                }
+            }
+            matrix_dofs.push(dofs.to_vec());
+            matrices.push(matrix);
+        }
+        let retained = [7, 1, order - 1, 20];
+        let plan = EliminationPlan::new(&matrix_dofs, &retained);
+        assert!(plan.fronts.len() > 5);
+        let computed = plan.retained_matrix(matrices).unwrap();
+        let is_eliminated = |dof: &usize| !dof.is_multiple_of(rows + 1) && !retained.contains(dof);
+        let eliminated: Vec<usize> = (0..order).filter(is_eliminated).collect();
+        let part = |row_dofs: &[usize], column_dofs: &[usize]| {
+            let mut values = vec![];
+            for column in column_dofs {
+                values.extend(row_dofs.iter().map(|row| sum[(*row, *column)]));
+            }
+            ComplexBlock::from_columns(row_dofs.len(), values)
+        };
+        let mut expected = part(&retained, &retained);
+        let pivot = part(&eliminated, &eliminated);
+        expected.eliminate(&pivot, &part(&eliminated, &retained)).unwrap();
+        for (computed, expected) in computed.values().iter().zip(expected.values()) {
+            assert!((computed - expected).norm() < 1e-12, "{computed} {expected}");
+        }
+    }
+}
