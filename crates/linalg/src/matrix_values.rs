@@ -71,9 +71,9 @@ impl SparseMatrix {
 
     /// Replaces the values by the sums of `triplets`.
     ///
-    /// `indices` has the index of each triplet's entry from the last call, to which a search is not needed; it may be
-    /// empty. Allocates only for more triplets than before. Returns false, with undefined values, if an entry is outside
-    /// the pattern or not finite.
+    /// `indices` has the index of each triplet's entry from the last call, so that unchanged entries need no search; it
+    /// may be empty. Allocates only for more triplets than before. Returns false, with undefined values, if an entry is
+    /// outside the pattern or not finite.
     pub fn refill(&mut self, triplets: &Triplets, indices: &mut Vec<usize>) -> bool {
         self.values.fill(0.0);
         indices.resize(triplets.entries().len(), usize::MAX);

@@ -1,7 +1,7 @@
 //! Responses of a large yielding structure to unit tractions, on the degrees of freedom of its base alone.
 //!
-//! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, it follows from a small dense factor, and
-//! the tractions that the problem returns need one more solution with K_eff.
+//! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, this matrix follows from a small dense
+//! factor. The response to the tractions of the contact problem then needs one more solution with K_eff.
 
 use crate::coupled::base::PlacedBase;
 use crate::linalg::ChangingFactor;

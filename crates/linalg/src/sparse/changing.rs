@@ -15,15 +15,16 @@ use crate::symmetry::{MAX_ASYMMETRY, MirroredPairs};
 
 /// Factor of the last of many matrices with one sparsity pattern.
 ///
-/// The order of elimination and the pattern of the factor are found once. Each new matrix is factored in the memory of the
-/// last one. For symmetric positive definite matrices the result is that of [`SparseFactor::with_elimination`] to the last
-/// bit. Large matrices with a symmetric pattern, but unsymmetric values, keep the order of elimination of the symmetric ones.
+/// The order of elimination and the pattern of the factor are determined once. Each new matrix is factored in the
+/// memory of the last one. For symmetric positive definite matrices the result is that of
+/// [`SparseFactor::with_elimination`] to the last bit. Large matrices with a symmetric pattern, but unsymmetric values,
+/// keep the order of elimination of the symmetric ones.
 pub struct ChangingFactor {
     name: &'static str,
     elimination: Elimination,
     /// The matrix, by columns.
     columns: SparseColMat<usize, f64>,
-    /// Index by columns of each entry by rows.
+    /// Position, in storage by columns, of each entry in storage by rows.
     column_indices: Vec<usize>,
     mirrored_pairs: MirroredPairs,
     /// Factor of symmetric positive definite matrices.
@@ -36,7 +37,7 @@ pub struct ChangingFactor {
     lu: Option<ReusedFactor>,
     /// Method of the last factorization.
     method: Method,
-    /// Solution of the test of a factor, and of right-hand sides on the last rows.
+    /// Buffer for the solution of a factor's test, and for solutions of right-hand sides on the last rows.
     solution: Vec<f64>,
     last_rows: Vec<usize>,
     /// Entries of Cholesky's factor in the last rows; `None` unless they are a dense block.
@@ -87,11 +88,11 @@ impl ChangingFactor {
         last_rows: &[usize],
     ) -> Result<Self> {
         let columns = by_columns(matrix);
-        let ending = (!last_rows.is_empty())
+        let ending_elimination = (!last_rows.is_empty())
             .then(|| elimination.of_pattern_ending_with(columns.symbolic(), last_rows));
         let mut factor = Self {
             name,
-            elimination: ending.flatten().unwrap_or_else(|| elimination.clone()),
+            elimination: ending_elimination.flatten().unwrap_or_else(|| elimination.clone()),
             columns,
             column_indices: column_indices(matrix),
             mirrored_pairs: MirroredPairs::of(matrix),
