@@ -75,7 +75,7 @@
 //!
 //! ```math
 //! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
-//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
+//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w .
 //! ```
 //!
 //! Another [`interface::InterfaceLaw`] has other conditions. The discrete equations satisfy an energy balance exactly,
@@ -87,8 +87,9 @@
 //! ```
 //!
 //! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile
-//! strength can only dissipate energy. So a run cannot become unstable. [`coupled::EnergyBalance`] computes each term
-//! from its own definition, and its residual comes with every run. The [theory] has derivations and sources.
+//! strength can only dissipate energy. With the midpoint rule a run therefore cannot become unstable.
+//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with every run. The
+//! [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
