@@ -118,7 +118,7 @@
 //! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
-//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
+//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, matrices of other programs, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
