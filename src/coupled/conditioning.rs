@@ -88,12 +88,13 @@ pub(crate) fn conditioning(
     start: &PreviousContacts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.operators_and_contact_mut();
-    let order = scene.layout().len();
     let effective_stiffness = operators.condition_number(&scene.model, &scene.coefficients)?;
-    let ground = match scene.step_compliance.as_diagonal() {
+    let ground = if scene.step_compliance.as_diagonal().is_some() {
         // A diagonal matrix scaled by its diagonal is the identity.
-        Some(_) => 1.0,
-        None => dense_condition(&scene.step_compliance, order),
+        1.0
+    } else {
+        let ground_order = scene.base.elements().layout().len();
+        dense_condition(&scene.base.ground_matrix(&scene.step_compliance), ground_order)
     };
     let delassus = contact.condition_number_at_rest(
         &operators.delassus,

@@ -13,6 +13,7 @@ use crate::coupled::state::State;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
+use crate::coupled::step::joint_losses::JointLosses;
 use crate::coupled::step::solver::StepSolver;
 use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
@@ -81,11 +82,10 @@ impl Simulation {
             let data = StepData { scene, structure: structure.as_ref(), state, forcing };
             energies.accumulate(data, ground.as_ref(), increment);
             state.energy_balance = energies.energy_balance;
+            JointLosses::set(Some(&energies.joint_losses), state);
         }
         state.advance(scene, forcing, increment);
-        increment.spread_traction.copy_from_slice(&increment.traction);
-        let pairs = increment.spread_traction.iter_mut().zip(&forcing.free_traction);
-        pairs.for_each(|(traction, free_traction)| *traction -= free_traction);
+        increment.set_ground_traction(scene, &forcing.free_traction);
         scene.base.elements().spread_inside(&mut increment.spread_traction);
         ground.commit(&increment.spread_traction);
         if let Some(force) = structure.nonlinear_mut() {

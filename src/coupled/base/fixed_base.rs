@@ -7,6 +7,7 @@
 //! | γ | stiffness of the springs between the nodes of a foundation |
 
 use crate::bem::{DiagonalCompliance, Ground};
+use crate::coupled::base::joint_line::JointLine;
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
@@ -27,9 +28,10 @@ const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 pub(crate) fn on_fixed_base(
     structure: Box<dyn Structure>,
     elements: &Patch,
+    joints: &[JointLine],
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
-    let base = PlacedBase::of(structure.as_ref(), elements)?;
+    let base = PlacedBase::of(structure.as_ref(), elements, joints)?;
     let dofs = structure.dofs();
     let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
     let springs =

@@ -222,7 +222,7 @@ impl StiffnessFactorization {
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
-    fn solve_many(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn solve_many(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve_many(rhs),
             Self::Changing(stiffness) => stiffness.factor.solve_many(rhs),
