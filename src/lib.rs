@@ -114,7 +114,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
-//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
+//! | [`coupled`] | [`Simulation`], its builder, joints between bodies, time schemes, results, energy balance |
 //! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
