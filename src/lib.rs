@@ -75,7 +75,7 @@
 //!
 //! ```math
 //! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
-//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
+//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w .
 //! ```
 //!
 //! Another [`interface::InterfaceLaw`] has other conditions. The discrete equations satisfy an energy balance exactly,
@@ -87,8 +87,9 @@
 //! ```
 //!
 //! The soil's term is the work of the tractions on a passive ground, so it is never negative. Contact without tensile
-//! strength can only dissipate energy. So a run cannot become unstable. [`coupled::EnergyBalance`] computes each term
-//! from its own definition, and its residual comes with every run. The [theory] has derivations and sources.
+//! strength can only dissipate energy. With the midpoint rule a run therefore cannot become unstable.
+//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with every run. The
+//! [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
@@ -113,11 +114,11 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
-//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
+//! | [`coupled`] | [`Simulation`], its builder, joints between bodies, time schemes, results, energy balance |
 //! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
-//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
+//! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, matrices of other programs, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
