@@ -112,6 +112,7 @@ impl ComplexBlock {
             values.extend_from_slice(pivot.column(column));
         });
         if !is_regular {
+            // All callers eliminate degrees of freedom of these elements.
             let matrix = "finite elements around a trench";
             return Err(Error::Singular { matrix, order: pivot_order });
         }

@@ -158,10 +158,10 @@ impl TrenchSoil {
             backfill.profile.moduli(s, &mut fill_moduli)?;
             shear_moduli.extend(fill_moduli);
         }
-        let inertia_s_squared = inertia_s.inner() * inertia_s.inner();
+        let inertia_s_squared = inertia_s.to_complex64() * inertia_s.to_complex64();
         let mut moduli = Vec::with_capacity(shear_moduli.len());
         for (modulus, soil) in shear_moduli.iter().zip(self.soils()) {
-            let shear = modulus.inner();
+            let shear = modulus.to_complex64();
             let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
             moduli.push(Moduli { shear, lame, inertia: inertia_s_squared * soil.density() });
         }
@@ -228,7 +228,8 @@ impl TrenchSoil {
         let half_width = self.elements.trench().half_width();
         let lowest = self.grid.lower_intervals.last();
         let upper_length = lowest.map_or(half_width, |interval| interval.length);
-        let bottom = Bottom::new(s.inner(), upper_length, soil.shear_wave_speed(), depth, degree);
+        let bottom =
+            Bottom::new(s.to_complex64(), upper_length, soil.shear_wave_speed(), depth, degree);
         TrenchMesh { degree, bottom }
     }
 

@@ -133,9 +133,9 @@ fn symbols_are_positive_at_short_and_long_steps() {
                 .quadrature
                 .mobility(log_radius_and_angle, &mut work, &mut scratch, &mut sums)
                 .unwrap();
-            let mut matrix = vec![Complex::default(); classes.layout().square()];
+            let mut matrix = vec![Complex::default(); classes.layout().matrix_len()];
             classes.scatter(&mut matrix, |_, pair| sums[pair.class]);
-            let matrix: Vec<_> = matrix.iter().map(|value| value.inner()).collect();
+            let matrix: Vec<_> = matrix.iter().map(|value| value.to_complex64()).collect();
             let eigenvalues =
                 crate::linalg::hermitian_range(&matrix, classes.layout().len()).unwrap();
             smallest_ratio = smallest_ratio.min(eigenvalues[0] / eigenvalues[1]);
@@ -170,7 +170,7 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
 /// `fill` overwrites one list of lags for each kind of a class.
 fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])) -> Vec<f64> {
     let layout = classes.layout();
-    let mut matrix = vec![0.0; layout.square()];
+    let mut matrix = vec![0.0; layout.matrix_len()];
     classes.each(|[receiver, source], pair, terms| {
         let mut lags = vec![vec![0.0; LAG_COUNT]; classes.kinds()];
         let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
