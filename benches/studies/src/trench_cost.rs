@@ -33,10 +33,10 @@ pub(crate) struct TrenchCostOptions {
 
 const TIME_STEP: f64 = 0.01;
 const HALF_WIDTH: f64 = 12.0;
-const DEPTH: f64 = 6.0;
+const TRENCH_DEPTH: f64 = 6.0;
 
 /// Numbers of contact elements and of steps.
-const SIZES: [[usize; 2]; 3] = [[32, 390], [48, 390], [64, 740]];
+const CASE_SIZES: [[usize; 2]; 3] = [[32, 390], [48, 390], [64, 740]];
 const SHORT_SIZES: [[usize; 2]; 1] = [[8, 100]];
 
 fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
@@ -58,7 +58,7 @@ fn profiles() -> Result<[(&'static str, SoilProfile); 3]> {
 
 /// Runs the study.
 pub(crate) fn run(options: &TrenchCostOptions) -> std::result::Result<(), AnyError> {
-    let sizes: &[[usize; 2]] = if options.short { &SHORT_SIZES } else { &SIZES };
+    let sizes: &[[usize; 2]] = if options.short { &SHORT_SIZES } else { &CASE_SIZES };
     println!("| ground | elements | steps | processor s | elapsed s |");
     println!("|---|---|---|---|---|");
     for (index, (name, profile)) in profiles()?.into_iter().enumerate() {
@@ -66,7 +66,7 @@ pub(crate) fn run(options: &TrenchCostOptions) -> std::result::Result<(), AnyErr
             if options.elements.is_some_and(|only| only != *element_count) {
                 continue;
             }
-            let trench = Trench::new(-HALF_WIDTH..HALF_WIDTH, DEPTH)?;
+            let trench = Trench::new(-HALF_WIDTH..HALF_WIDTH, TRENCH_DEPTH)?;
             let elements = trench.elements(element_count / 2, element_count / 4)?;
             let mut ground = TrenchGround::new(profile.clone(), elements)?;
             if let Some(folder) = &options.weights {
