@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
-use crate::coupled::base::fixed_base::{is_fixed_base, without_rigid_foundations};
+use crate::coupled::base::fixed_base::{into_structure, is_fixed_base, without_rigid_foundations};
 use crate::coupled::conditioning::Conditioning;
 use crate::coupled::run::Run;
 use crate::coupled::run::resolution::Resolution;
@@ -145,9 +145,9 @@ impl Simulation {
         without_rigid_foundations(self.structure.as_ref())
     }
 
-    /// Returns the structure by value; on a fixed base, inside a wrapper that adds rigid foundations to it.
+    /// Returns the structure of the builder by value, in its present state.
     pub fn into_structure(self) -> Box<dyn Structure> {
-        self.structure
+        into_structure(self.structure)
     }
 
     /// The ground in its present state.

@@ -122,7 +122,15 @@ impl Triplets {
     /// A full block has `indices.len()` squared entries; entries missing at the end count as zeros.
     #[inline]
     pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
-        for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
+        let rows = indices.iter().zip(block.chunks(indices.len().max(1)));
+        if self.index_offset.is_none() {
+            for (&row, values) in rows {
+                let columns = indices.iter().zip(values);
+                self.entries.extend(columns.map(|(&column, &value)| (row, column, value)));
+            }
+            return;
+        }
+        for (row, values) in rows {
             for (column, &value) in indices.iter().zip(values) {
                 self.add(*row, *column, value);
             }

@@ -94,7 +94,11 @@ impl Operators {
                 *factorization = StiffnessFactorization::Changing(Box::new(stiffness));
             }
         }
-        self.tangent.copy_from(tangent);
+        if has_same_pattern {
+            self.tangent.copy_values(tangent);
+        } else {
+            self.tangent.clone_from(tangent);
+        }
         let factorization = &mut self.factorization;
         if self.delassus.on_bed().is_some() {
             let solve = |rhs: &mut [f64]| factorization.solve_many(rhs);
