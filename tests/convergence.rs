@@ -117,7 +117,7 @@ fn blocks_in_contact_converge_at_least_with_the_time_step() {
 /// REFERENCE: each run against the next finer one, and the frequency-domain table.
 #[test]
 fn elements_converge_with_their_size_and_graded_ones_with_its_square() {
-    let exact = PulsedBlock::exact();
+    let exact = PulsedBlock::table_history();
     for (grading, expected) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
         let runs =
             [4, 8, 16, 32].map(|count| history(PulsedBlock::BONDED_BLOCK, (grading, count), 0.025));

@@ -15,7 +15,7 @@ use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, shake};
 use basemat_problems::yielding_springs::{
-    Masses, WithYieldingSprings, YieldingSpring, hyperbolic, yielding_column,
+    Masses, WithYieldingSprings, YieldingSpring, hyperbolic, spring_column,
 };
 use basemat_problems::{needed_from, own_force};
 
@@ -41,7 +41,7 @@ fn bonded(structure: impl Structure + 'static, time_step: f64) -> SimulationBuil
 #[test]
 fn piecewise_linear_columns_take_few_iterations() {
     for (time_step, max_mean) in [(0.01, 3.0), (0.02, 4.0), (0.05, 6.0)] {
-        let builder = bonded(yielding_column(40), time_step).motion(shaking());
+        let builder = bonded(spring_column(40), time_step).motion(shaking());
         let mut simulation = builder.build().unwrap();
         let mut iterations = Vec::new();
         let run = simulation
@@ -63,7 +63,7 @@ fn piecewise_linear_columns_take_few_iterations() {
 fn yielding_columns_converge_with_the_time_step() {
     let top_motion = |halvings: i32| {
         let stride = 1_usize << halvings;
-        let column = bonded(yielding_column(4), 0.005 / stride as f64);
+        let column = bonded(spring_column(4), 0.005 / stride as f64);
         let builder = column.motion(shaking()).on_fixed_base();
         let mut simulation = builder.build().unwrap();
         let mut motion = Vec::new();
@@ -75,7 +75,7 @@ fn yielding_columns_converge_with_the_time_step() {
         simulation.run(400 * stride, observe).unwrap();
         let structure: &dyn Any = simulation.structure();
         let column = structure.downcast_ref::<WithYieldingSprings<Masses>>().unwrap();
-        assert!(column.largest_plastic() > 1e-5);
+        assert!(column.largest_plastic_deformation() > 1e-5);
         motion
     };
     let reference = top_motion(7);
@@ -148,7 +148,7 @@ fn yielding_columns_stand_under_their_weight() {
         assert!(moved < 1e-9 * weight * settled, "{ratio}: {}", run.energy_balance);
         let structure: &dyn Any = simulation.structure();
         let column = structure.downcast_ref::<WithYieldingSprings<Masses>>().unwrap();
-        assert!(column.largest_plastic() > 0.1 * compression(weight, strength));
+        assert!(column.largest_plastic_deformation() > 0.1 * compression(weight, strength));
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
     }
 }

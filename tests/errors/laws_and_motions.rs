@@ -1,4 +1,4 @@
-//! GOAL: interface laws, time schemes and ground motions refuse bad numbers.
+//! GOAL: interface laws, time schemes, footings and ground motions refuse bad numbers.
 //! SCENE: zero, negative and non-finite parameters.
 //! REFERENCE: the fields of the error.
 

@@ -1,6 +1,6 @@
 //! GOAL: soils, strips, grounds and their kernels refuse bad numbers and huge counts.
 //! SCENE: zero, negative and non-finite parameters; grounds that were not prepared.
-//! REFERENCE: the fields of the error; nothing is allocated for a huge count.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, SpringGround,

@@ -23,7 +23,7 @@ fn rectangle() -> Plan {
     Plan::rectangle(-1.0..1.0, -1.5..1.5, 5).unwrap()
 }
 
-/// Which union a cell belongs to.
+/// Assignment of cells to unions.
 struct UnionMap {
     /// Union of each cell.
     union_of_cell: Vec<usize>,
@@ -63,7 +63,7 @@ impl UnionMap {
     }
 }
 
-/// Each index as often as its count.
+/// Each index, repeated as often as its count.
 fn repeated_indices(counts: &[usize]) -> Vec<usize> {
     counts.iter().enumerate().flat_map(|(index, count)| vec![index; *count]).collect()
 }

@@ -29,7 +29,7 @@ const NEEDED_COLUMNS: &str = "1 (name the column of the acceleration, or read th
 
 /// GOAL: columns are read with any usual separator, comment, title, column order and number format.
 #[test]
-fn reader_takes_every_usual_layout() {
+fn reader_reads_every_usual_layout() {
     let expected = Record::new(0.02, vec![0.0, 1.5, -2.5e-1]).unwrap();
     for text in [
         "0,0\n0.02,1.5\n0.04,-0.25\n",

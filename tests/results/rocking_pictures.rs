@@ -1,4 +1,4 @@
-//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and refuse what has no one unit.
+//! GOAL: pictures of rocking have units and a key, show measured points beside the paths, and refuse mixed units.
 //! SCENE: a block on springs that yield under a slow moment; a body in plan; measured points, some of them not finite.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 

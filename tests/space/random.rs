@@ -251,7 +251,7 @@ fn energies_of_random_flexible_scenes_close() {
     }
     println!("{outcome:?}");
     assert!(outcome.refused.is_empty() && outcome.reduced == 4, "{outcome:?}");
-    assert!(outcome.opened > 150 && outcome.slid > 200, "{outcome:?}");
+    assert!(outcome.open_steps > 150 && outcome.sliding_steps > 200, "{outcome:?}");
 }
 
 /// Scenes whose Ritz vectors do not converge are stepped in all modes.

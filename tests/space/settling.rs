@@ -82,7 +82,7 @@ fn row(steps_per_leg: usize, mut turn: impl FnMut(usize, f64) -> [f64; 2]) -> Pa
 }
 
 fn strip_row(count: usize, law: SettlingLaw, steps_per_leg: usize) -> PacketRow {
-    let mut strips = SettlingStrips::new(FOOTING_BASE, count, [SHEAR_MODULUS, POISSON_RATIO], law);
+    let mut strips = SettlingStrips::new(FOOTING_BASE, count, SHEAR_MODULUS, POISSON_RATIO, law);
     row(steps_per_leg, |_, rotation| [strips.turn(rotation), strips.settlement])
 }
 

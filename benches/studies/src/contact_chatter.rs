@@ -89,11 +89,11 @@ pub(crate) fn run(options: &ContactChatterOptions) -> Result<(), AnyError> {
                     1e3 * outcome.residual_slip,
                     outcome.uplift,
                     1e3 * outcome.rotation,
-                    outcome.contact,
-                    outcome.algorithmic,
+                    outcome.contact_energy,
+                    outcome.algorithmic_energy,
                     1e3 * outcome.penetration,
                     outcome.energy_error,
-                    outcome.changes
+                    outcome.mode_changes
                 );
             }
         }

@@ -113,7 +113,7 @@ pub(crate) enum SchemeRecipe {
     Hht(f64),
 }
 
-/// A scene in SI_UNITS units.
+/// A scene in SI units.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneRecipe {
     pub(crate) building: BuildingRecipe,
@@ -158,7 +158,7 @@ impl SceneRecipe {
         }
     }
 
-    /// Weight of the structure in SI_UNITS units, N/m.
+    /// Weight of the structure in SI units, N/m.
     pub(crate) fn weight(&self) -> f64 {
         let mass = match self.building {
             BuildingRecipe::Block { height, density } => BASE_WIDTH * height * density,

@@ -30,7 +30,7 @@ pub fn under_pulse(
 /// Base displacement, rotation, and base shear (its mean over a sample).
 pub type SampledHistory = [Vec<f64>; 3];
 
-/// The history of so many steps, a sample every `interval` of them.
+/// History of a run of `steps` steps, with a sample every `interval` steps.
 pub fn sample(
     simulation: &mut Simulation,
     steps: usize,
@@ -59,10 +59,12 @@ pub fn distance(computed: &SampledHistory, expected: &SampledHistory) -> [f64; 3
     })
 }
 
-/// Sampling of the histories of a [`PulsedBlock`]: all time steps are fractions of it.
+/// Interval between samples of a [`PulsedBlock`], s: all time steps divide it.
 pub const SAMPLING_INTERVAL: f64 = 0.2;
 
-/// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`; bonded without friction.
+/// A block of width 2 and mass 4 under a Ricker pulse of peak 1 that ends before `duration`.
+///
+/// It is bonded if it has no `friction`.
 #[derive(Debug, Clone, Copy)]
 pub struct PulsedBlock {
     pub height: f64,
@@ -83,7 +85,7 @@ impl PulsedBlock {
     pub const SLIDING_BLOCK: Self =
         Self { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
 
-    /// Its history on so many elements.
+    /// History of the block on a strip of `elements` elements.
     pub fn history(
         self,
         (grading, elements): (Grading, usize),
@@ -104,8 +106,8 @@ impl PulsedBlock {
         sample(&mut builder.build()?, nearest_integer(self.duration / time_step), interval)
     }
 
-    /// The bonded block of the table, sampled.
-    pub fn exact() -> SampledHistory {
+    /// Sampled reference history of the bonded block, from its table.
+    pub fn table_history() -> SampledHistory {
         let table = table("td_block_SV_nu0333_h2_rho1.csv");
         let base = TabledSeries::new(&table, "u_base");
         let rotation = TabledSeries::new(&table, "theta");
@@ -136,12 +138,12 @@ pub fn rotation(state: &State) -> f64 {
     -state.absolute_displacement()[2]
 }
 
-/// Horizontal force on the soil.
+/// Horizontal force of a block on the soil.
 pub fn shear(state: &State) -> f64 {
     state.base_shear
 }
 
-/// Moment on the soil as the tables count it, clockwise.
+/// Moment of a block on the soil as the tables count it, clockwise.
 pub fn moment(state: &State) -> f64 {
     -state.base_moment
 }

@@ -5,7 +5,7 @@
 use basemat::fem::{Beam, Direction, Element, MassKind, SpaceBeam};
 use basemat_problems::dense::{eigenpairs, largest};
 use basemat_problems::space_beams::{
-    concrete, deep_beam, hinged_cantilever, section, sheared, straight_cantilever,
+    concrete, deep_beam, hinged_cantilever, section, section_with_shear, straight_cantilever,
     thick_cantilever, twisted_cantilever,
 };
 use basemat_problems::supported::{
@@ -75,7 +75,7 @@ fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
 #[test]
 fn an_axial_force_works_on_a_rigid_rotation() {
     for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED_DIRECTIONS] {
-        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+        let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
             .unwrap();
@@ -122,7 +122,7 @@ fn an_axial_force_works_on_a_rigid_rotation() {
 #[test]
 fn rigid_motions_cause_no_force() {
     for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED_DIRECTIONS] {
-        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+        let beam = SpaceBeam::new([0, 1], concrete(), section_with_shear(), [1.0, 1.0, 0.2])
             .and_then(|beam| beam.with_offsets(END_OFFSETS))
             .and_then(|beam| beam.with_releases(1, released))
             .unwrap()
@@ -165,7 +165,8 @@ fn rigid_motions_cause_no_force() {
 /// PROBLEM: a cantilever hinged against a guide. RESULT: 3 EI/L³, softer by shear.
 #[test]
 fn a_hinge_carries_no_moment() {
-    for (section, ratio) in [(section(), 0.0), (sheared(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
+    for (section, ratio) in
+        [(section(), 0.0), (section_with_shear(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
     {
         let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
         assert_near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);

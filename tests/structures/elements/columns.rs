@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use basemat::fem::{Direction, Mesh};
 use basemat::structure::FemModel;
 use basemat_problems::columns::{COLUMN_LENGTH, beam, rigid_head, self_weight_buckling, supported};
-use basemat_problems::space_beams::{section, sheared};
+use basemat_problems::space_beams::{section, section_with_shear};
 use basemat_problems::stiff_element::StiffElement;
 use basemat_problems::supported::{CLAMPED_DIRECTIONS, RX, RY, RZ, X, Y, Z, assert_near};
 
@@ -32,7 +32,7 @@ fn columns_buckle_as_euler_and_engesser_say() {
         let found = supported(section(), 4, foot, head);
         assert_near("Euler's column, table", found, table[0], 1e-6);
         assert_near("Euler's column", found, euler, tolerance);
-        let found = supported(sheared(), 8, foot, head);
+        let found = supported(section_with_shear(), 8, foot, head);
         assert_near("Engesser's column, table", found, table[1], 1e-6);
         assert_near("Engesser's column", found, engesser, tolerance);
     }

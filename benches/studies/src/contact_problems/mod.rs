@@ -71,7 +71,7 @@ pub(crate) fn run(options: &ContactProblemsOptions) -> Result<(), AnyError> {
 }
 
 fn print_row(operator: &str, friction: &str, tally: &ContactTally) {
-    let mean = tally.trials as f64 / (tally.problems - tally.failed).max(1) as f64;
+    let mean = tally.trials as f64 / (tally.problems - tally.failed_steps).max(1) as f64;
     println!(
         "| {operator} | {friction} | {} | {} | {} | {} | {mean:.2} | {} | {} | {} | {} | {} \
          | {:.0e} | {:.0e} |",
@@ -79,12 +79,12 @@ fn print_row(operator: &str, friction: &str, tally: &ContactTally) {
         tally.methods[0],
         tally.methods[1],
         tally.methods[2],
-        tally.most_trials,
-        tally.several,
-        tally.most_solutions,
-        tally.none,
-        tally.failed,
-        tally.violation,
-        tally.distance
+        tally.max_trials,
+        tally.ambiguous_problems,
+        tally.max_solutions,
+        tally.unsolvable_problems,
+        tally.failed_steps,
+        tally.max_violation,
+        tally.max_distance
     );
 }

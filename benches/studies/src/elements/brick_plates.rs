@@ -13,7 +13,7 @@ fn lines(rows: &mut BenchmarkRows, counts @ [nx, ny, nz]: [usize; 3]) {
         for j in 0..=ny {
             if i == 0 || i == nx || j == 0 || j == ny {
                 let node = block.node([i, j, 0]);
-                block.scene.hold(node, &[Z]);
+                block.scene.fix(node, &[Z]);
             }
         }
     }

@@ -13,7 +13,7 @@ use super::report::timed;
 use crate::AnyError;
 use crate::document::peak_memory;
 use basemat_problems::headline::{
-    ELEMENT_COUNT, ELEMENT_LENGTH, headline, soil, time_step, without_end,
+    ELEMENT_COUNT, ELEMENT_LENGTH, headline, repeated_record, soil, time_step,
 };
 
 const SWEEP_CASES: usize = 8;
@@ -88,7 +88,7 @@ fn march(scene: RunScene, steps: usize) -> Result<StepTimes> {
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
         RunScene::Long => {
-            let record = without_end(steps as f64 * time_step())?;
+            let record = repeated_record(steps as f64 * time_step())?;
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }
         RunScene::Friction | RunScene::Sweep => {

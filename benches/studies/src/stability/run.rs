@@ -4,7 +4,7 @@
 //! that then
 //!
 //! ```text
-//! H = kinetic + strain + interface + static_contact + soil
+//! H = kinetic + strain + interface + static contact + soil
 //! ```
 //!
 //! cannot rise, because dashpots, friction and impacts only dissipate. The work of a weight that acts as a load is

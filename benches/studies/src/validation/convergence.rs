@@ -50,7 +50,7 @@ fn add(checks: &mut Vec<ValidationCheck>, name: &str, [low, high]: [f64; 2], lim
 fn run(short: bool) -> Result<ValidationOutcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
-    let exact = PulsedBlock::exact();
+    let exact = PulsedBlock::table_history();
     let mut left = FigurePanel::new("number of elements", "error of the rotation, relative L2")
         .categories(&["4", "8", "16", "32"])
         .logarithmic();
