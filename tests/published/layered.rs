@@ -1,4 +1,4 @@
-//! GOAL: structures on layered ground move as another program says.
+//! GOAL: structures on layered ground move as another program computes.
 //! SCENE: rigid block on a layer over rock, elastic and damped, and on a rigid base; bonded,
 //! vertically incident SV Ricker pulse; 16 graded elements.
 //! REFERENCE: `td_block_SV_*`, synthesis of Laplace transforms.

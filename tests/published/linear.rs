@@ -223,7 +223,7 @@ fn check_impedances(bonded: bool) {
     }
 }
 
-/// GOAL: the soil operator alone, all components, is the half-plane's, and converges to it.
+/// GOAL: the soil operator alone, all components, converges to that of the half-plane.
 /// SCENE: massless rigid strip, bonded; a Ricker pulse of each rigid motion, Fourier transformed.
 /// REFERENCE: impedances over a₀, the problem of Luco & Westmann 1972, by a spectral method.
 #[test]
@@ -236,7 +236,7 @@ fn luco_westmann_1972_bonded_strip() {
 }
 
 /// GOAL: as above for the diagonal parts of the operator, without their coupling.
-/// SCENE: the strip presses without friction, or drags without pressure.
+/// SCENE: the strip transmits pressure without shear, or shear without pressure.
 /// REFERENCE: relaxed impedances, the problem of Karasudhi, Keer & Lee 1968.
 #[test]
 fn karasudhi_keer_lee_1968_relaxed_strip() {

@@ -88,20 +88,20 @@ fn newmark_1965_sine() {
             .map(|k| amplitude * gravity * (omega * f64::from(k) * step).sin())
             .collect();
         let record = Record::new(step, samples).unwrap();
-        let history = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
+        let slide = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
         let table = table(file);
-        // the table's events go on past its last row at 10 s, so 10.4 s;
-        // the polygon departs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
+        // the table has events after its last row at 10 s, hence 10.4 s;
+        // the polygon differs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
         // and slips then by that over the duration
         for [time, velocity, slip] in table.rows(["t", "v_rel", "d_rel"]) {
-            assert_close(file, history.slip_velocity(time), velocity, 2e-6, 0.0);
-            assert_close(file, history.slip(time), slip, 2e-6, 0.0);
+            assert_close(file, slide.slip_velocity(time), velocity, 2e-6, 0.0);
+            assert_close(file, slide.slip(time), slip, 2e-6, 0.0);
         }
         let words = table.words_after("exact events:");
-        assert!(words.len() >= 20 && history.events().len() >= words.len());
-        for (word, event) in words.iter().zip(history.events()) {
+        assert!(words.len() >= 20 && slide.events().len() >= words.len());
+        for (word, event) in words.iter().zip(slide.events()) {
             let (time, kind) = word.split_once(':').unwrap();
-            // the table calls every zero of the slip velocity a stop
+            // in the table every zero of the slip velocity is a stop
             let found = match (*event, kind) {
                 (SlidingEvent::Slip { time }, "slip")
                 | (SlidingEvent::Stop { time } | SlidingEvent::Reversal { time }, "stop") => time,
@@ -123,19 +123,19 @@ fn newmark_1965_el_centro() {
     let mut count = 0;
     for ([friction, maximum, minimum, residual, largest], _) in rows {
         let block = SlidingBlock::new(*friction, STANDARD_GRAVITY).unwrap();
-        let history = block.slide(&el_centro_1940());
+        let slide = block.slide(&el_centro_1940());
         // the sub-steps of the table leave 2e-6 m
-        assert_close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
-        assert_close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
-        assert_close("residual", history.residual(), *residual, 2.5e-6, 0.0);
-        let found = history.maximum().max(-history.minimum());
+        assert_close("maximum", slide.maximum(), *maximum, 2.5e-6, 0.0);
+        assert_close("minimum", slide.minimum(), *minimum, 2.5e-6, 0.0);
+        assert_close("residual", slide.residual(), *residual, 2.5e-6, 0.0);
+        let found = slide.maximum().max(-slide.minimum());
         assert_close("largest", found, *largest, 2.5e-6, 0.0);
         count += 1;
     }
     assert_eq!(count, 8);
 }
 
-/// Tilted rigid strip on the half-plane, smooth and fully sliding, with and without uplift.
+/// Tilted rigid strip on the half-plane, frictionless and fully sliding, with and without uplift.
 #[test]
 fn half_plane_no_tension_strip() {
     let table = table("halfplane_tilted_punch.csv");
@@ -193,8 +193,8 @@ fn rigid_strip_limits() {
             (&relaxed, strip.smooth_rocking_stiffness()),
             (&bonded, strip.bonded_rocking_stiffness()),
         ] {
-            // the departure goes with a₀² ln a₀: below 4e-4 at a₀ = 0.01, and the larger one at
-            // 0.05 says that it tends to zero
+            // the difference is in proportion to a₀² ln a₀: below 4e-4 at a₀ = 0.01, and far
+            // larger at 0.05
             let compliance = table.column("re_crr");
             assert_close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
             let near = compliance[0] * rocking - 1.0;
@@ -219,7 +219,7 @@ fn rigid_strip_limits() {
                 assert_close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
             }
         }
-        // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which turns its sign
+        // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which changes the sign
         let coupling = bonded.column("re_chr")[0] / bonded.column("re_crr")[0];
         assert_close("coupling", coupling, strip.bonded_coupling_length(), 0.0, 1e-3);
     }

@@ -25,10 +25,10 @@ pub(crate) struct ContactProblemsOptions {
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder of problems that export.py has written: these instead of random ones.
+    /// Folder of problems written by export.py, which replace the random ones.
     #[arg(long)]
     published: Option<PathBuf>,
-    /// Folder of the documentation: given, the published problems go to benches/studies/tables, and its images/ the picture.
+    /// Folder of the documentation; with it the published problems go to benches/studies/tables, and the picture to its images/.
     #[arg(long, requires = "published")]
     docs: Option<PathBuf>,
 }

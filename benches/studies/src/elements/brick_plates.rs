@@ -26,7 +26,7 @@ fn lines(rows: &mut BenchmarkRows, counts @ [nx, ny, nz]: [usize; 3]) {
     }
 }
 
-/// Whether upper and lower face move against each other in their planes.
+/// Whether upper and lower face move in opposite directions in their planes.
 fn is_flexural(block: &BrickGrid, [nx, ny, nz]: [usize; 3], mode: &Vibration) -> bool {
     let mut product = 0.0;
     for i in 0..=nx {
