@@ -98,7 +98,7 @@ pub(crate) fn run(options: &LayeredAccuracyOptions) -> Result<(), AnyError> {
                     println!(
                         "| {name} | {elements} | {step} | {} | {:.1e} | {:.1e} | {setup_seconds:.2} s | {:.1} ms |",
                         stages.count(),
-                        errors.history,
+                        errors.series,
                         errors.peak,
                         1e3 * march_seconds
                     );

@@ -108,7 +108,7 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        // As text, for example which shards are missing.
+        // As text, for example the names of missing shards.
         Err(error) => {
             eprintln!("{error}");
             ExitCode::FAILURE
