@@ -274,7 +274,7 @@ impl CellOutcome {
                 source: StepError::NotFinite { .. } | StepError::Runaway { .. },
                 ..
             }) => true,
-            // A march whose soil has increased the energy counts as growth, not as failure.
+            // A failed run whose soil has increased the energy counts as growth, not as failure.
             Some(_) => active && ratio > 1e3,
             // `rise` decides here.
             None if tracker.sinks => !last.is_finite(),

@@ -1,4 +1,4 @@
-//! Rigid discs and rectangles on the half-space beside formulas and tables that engineers know by name.
+//! Rigid discs and rectangles on the half-space beside formulas and tables that are known by name.
 
 use std::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ const BOUNDARY_ELEMENTS: [(f64, [[f64; 2]; 4]); 3] = [
 ///
 /// Veletsos and Verbic, Earthquake Engineering and Structural Dynamics 2 (1973), 87–102. The coefficients were read in the
 /// verification notes of the program SASSI-EDU, which take them from a report of 1980 (Shye and Robinson, SRS 484); the paper
-/// was not at hand. They are of one ν and up to 11 % off, so that `basemat::reference` does not have them. At high frequency
+/// was not available. They are of one ν and up to 11 % off, so that `basemat::reference` does not have them. At high frequency
 /// they are within 4 % of plane waves.
 fn veletsos_verbic(a0: f64) -> [Complex; 3] {
     [

@@ -28,7 +28,7 @@ const YOUNG_MODULUS: f64 = 30.0e9;
 const POISSON_RATIO: f64 = 0.2;
 const MASS_DENSITY: f64 = 2400.0;
 
-/// A plate, and the nodes at which its settlements are read.
+/// A plate, and the nodes of its settlements.
 struct Plate {
     model: FemModel,
     nodes: Vec<usize>,
@@ -144,7 +144,7 @@ fn disc(rigidity: f64, cells: usize) -> Result<[f64; 2], AnyError> {
     let thickness = 0.1_f64;
     let stiffness = rigidity * soil.shear_modulus() * radius.powi(3);
     let young = 12.0 * (1.0 - POISSON_RATIO * POISSON_RATIO) * stiffness / thickness.powi(3);
-    // A polygon of the circle's area.
+    // A polygon with the area of the circle.
     let half_sector = std::f64::consts::PI / SECTOR_COUNT as f64;
     let outer = radius * (half_sector / (half_sector.sin() * half_sector.cos())).sqrt();
     let step = 1.0 / RING_COUNT as f64;
