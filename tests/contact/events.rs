@@ -168,7 +168,7 @@ fn whole_base_lifts_off_and_lands() {
     let on_springs = refined_runs("springs", 0.8, |step| thrown_block(step).ground(springs()));
     assert_converging("springs", &on_springs.differences, 0.01);
     for run in &on_springs.sampled {
-        // All elements are alike here: they open in one step, and land in one.
+        // All elements are equal here: they open in one step, and land in one.
         assert!(
             run.was_fully_open && run.simultaneous_changes >= 2,
             "{}",

@@ -1,4 +1,4 @@
-//! GOAL: another program can solve the contact problem of its own time steps with the crate.
+//! GOAL: another program can solve the contact problem of its time steps with the crate.
 //! SCENE: a mass on a column on a rigid base, on springs with dashpots, sliding and uplifting under El Centro; central
 //! differences by hand.
 //! REFERENCE: the same structure in a `Simulation`, by the midpoint rule; errors by their type.
@@ -194,7 +194,7 @@ fn element_at_rest() -> PreviousContact<'static> {
 }
 
 #[test]
-fn bad_problems_are_refused() {
+fn invalid_problems_are_refused() {
     for size in [0, 1, 3, 5, 9, 15] {
         let result = problem_with_matrix(vec![1.0; size]);
         assert!(matches!(result, Err(Error::Size { .. })), "{size}");
@@ -210,7 +210,7 @@ fn bad_problems_are_refused() {
 }
 
 #[test]
-fn bad_starts_and_steps_are_refused() {
+fn invalid_starts_and_steps_are_refused() {
     let mut problem = unit_problem();
     let start = problem.start(&[element_at_rest()]).unwrap();
     assert!(matches!(problem.solve(&[0.0], &start), Err(Error::Size { .. })));

@@ -80,7 +80,7 @@ fn single_sample() -> Record {
 
 /// GOAL: curves out of range are errors of their layer.
 #[test]
-fn bad_curves_are_refused_by_layer() {
+fn invalid_curves_are_refused_by_layer() {
     let nan = f64::NAN;
     for bad_curves in [
         StrainCurves::Linear { damping: 1.0 },
@@ -117,7 +117,7 @@ fn bad_curves_are_refused_by_layer() {
 
 /// GOAL: options out of range are named.
 #[test]
-fn bad_options_are_refused_by_name() {
+fn invalid_options_are_refused_by_name() {
     let default = EquivalentLinearOptions::default();
     let curves = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissMean];
     for (options, name) in [
@@ -137,7 +137,7 @@ fn bad_options_are_refused_by_name() {
 
 /// GOAL: sites without a solution are refused by layer, quantity, value and need.
 #[test]
-fn bad_sites_are_refused_by_layer_quantity_value_and_need() {
+fn invalid_sites_are_refused_by_layer_quantity_value_and_need() {
     let column = two_layer_column();
     let pulse = single_sample();
     let good = StrainCurves::SeedIdrissMean;

@@ -258,7 +258,7 @@ fn unit_ground(strip: Strip) -> ElasticGround {
 
 /// GOAL: tolerances, time steps and memory out of range give typed errors.
 #[test]
-fn bad_input_is_an_error() {
+fn invalid_input_is_an_error() {
     let kernel = kernel(0.3, 0.5, strip(2, Grading::Uniform));
     for tolerance in [0.0, -1.0, 1e-13, 0.1, f64::NAN, f64::INFINITY] {
         let refused = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();

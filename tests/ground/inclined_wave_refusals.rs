@@ -14,7 +14,7 @@ use basemat_problems::profiles::{soft, two_layers};
 
 /// GOAL: angles, frequencies, motions and profiles out of range give typed errors.
 #[test]
-fn bad_waves_are_refused() {
+fn invalid_waves_are_refused() {
     let elastic = two_layers(Elastic, Elastic);
     let control = InclinedControl::Incident;
     for wave in BODY_WAVES {

@@ -271,7 +271,7 @@ fn half_plane_loads_follow_from_each_other() {
 
 /// GOAL: weights are zero before the first wave and after the last coupling, are reciprocal, and refuse bad input.
 #[test]
-fn nothing_arrives_early_and_bad_input_is_refused() {
+fn nothing_arrives_early_and_invalid_input_is_refused() {
     for nu in POISSON_RATIOS {
         let ground = soil(nu);
         let near = ContactElement::new(0.0, 1.0);

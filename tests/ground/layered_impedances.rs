@@ -218,7 +218,7 @@ fn impedances_at(profile: SoilProfile, frequency: f64) -> Result<Vec<StripImpeda
 
 /// GOAL: frequencies out of range, resonances and profiles without soil are refused.
 #[test]
-fn bad_frequencies_and_resonances_are_refused() {
+fn invalid_frequencies_and_resonances_are_refused() {
     let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
     // An undamped layer 2 m thick guides waves from 1/8 Hz.
     let layer = SoilProfile::on_rigid_bedrock().with_layer(soil, 2.0).unwrap();

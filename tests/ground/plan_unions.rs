@@ -139,7 +139,7 @@ fn l_shape_with_unions(columns: &[usize], rows: &[usize]) -> Result<Plan> {
 
 /// GOAL: unions that do not fill the cells of a mat are refused.
 #[test]
-fn bad_unions_are_errors() {
+fn invalid_unions_are_errors() {
     for columns in [&[1, 4][..], &[2, 2, 1], &[1, 3]] {
         assert!(with_unions(columns, &UNION_ROWS).is_err(), "{columns:?}");
     }

@@ -171,7 +171,7 @@ fn deconvolution_undoes_convolution() {
 
 /// GOAL: motions, frequencies and profiles out of range are refused.
 #[test]
-fn bad_motions_are_refused() {
+fn invalid_motions_are_refused() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, 5.0).unwrap();
     let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();

@@ -120,7 +120,7 @@ fn baselines_remove_a_polynomial() {
 
 /// GOAL: degrees out of range and records too short for them are refused.
 #[test]
-fn bad_baselines_are_refused() {
+fn invalid_baselines_are_refused() {
     let record = el_centro_1940();
     for baseline in [
         Baseline::VelocityPolynomial { degree: 0 },

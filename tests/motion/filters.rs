@@ -53,7 +53,7 @@ fn high_pass_removes_an_offset() {
 
 /// GOAL: corners, orders and tapers out of range are refused.
 #[test]
-fn bad_filters_are_refused() {
+fn invalid_filters_are_refused() {
     let record = Record::new(TIME_STEP, vec![1.0; 2001]).unwrap().tapered(2.0, 2.0).unwrap();
     for corner in [0.0, -1.0, f64::NAN, f64::INFINITY, 50.0] {
         assert!(matches!(record.high_pass(corner, 2), Err(Error::Input { .. })), "{corner}");

@@ -232,7 +232,7 @@ fn rayleigh_waves_follow_roots_of_thirty_digits() {
 
 /// GOAL: travelling waves are delayed by distance over velocity; velocities and origins out of range are refused.
 #[test]
-fn travelling_waves_are_delayed_and_refuse_bad_input() {
+fn travelling_waves_are_delayed_and_refuse_invalid_input() {
     for velocity in [0.0, f64::NAN, 1e-320] {
         assert!(TravellingWave::new(el_centro_1940(), velocity, 0.0).is_err());
     }

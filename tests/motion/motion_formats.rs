@@ -206,7 +206,7 @@ fn cosmos_text(interval: f64) -> String {
 
 /// GOAL: the interval of a COSMOS file is in its real header: the data's, or else the recorder's.
 #[test]
-fn cosmos_takes_the_interval_from_its_real_header() {
+fn the_interval_of_cosmos_files_is_in_the_real_header() {
     let text = cosmos_text(5.0);
     let format = CosmosFormat::default();
     let mut expected = [-4e-7; 10];

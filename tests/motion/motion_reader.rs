@@ -155,7 +155,7 @@ fn a_single_column_is_single() {
 
 /// GOAL: finite numbers whose record overflows are refused with the file's name.
 #[test]
-fn numbers_that_make_no_record_name_the_file() {
+fn errors_of_invalid_records_name_the_file() {
     let error = refusal(b"0 1e200\n1e200 1e200\n", &metric());
     assert_eq!(error.line, 0);
     let FileFault::Unusable(error) = error.fault else { panic!("{error}") };

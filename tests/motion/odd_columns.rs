@@ -64,7 +64,7 @@ fn decimal_commas_are_refused() {
 
 /// GOAL: a first sample that is not a number is refused, as it would shift the record; a header is made of words.
 #[test]
-fn a_bad_first_sample_is_no_header() {
+fn an_invalid_first_sample_is_no_header() {
     for sample in [
         "*****",
         "1,5",

@@ -256,7 +256,7 @@ fn units_and_formats_of_csmip_and_cosmos_are_whole() {
         // A unit without `in` before it contradicts the one for files without a unit.
         ".01 sec, cm/sec2 (8f10.3)",
         ".01 sec. cm/sec/sec (8f10.3)",
-        // Formats that the reader does not know.
+        // Unsupported formats.
         ".01 sec, in g (8f10.3,2x)",
         ".01 sec, in g (2(4f10.3))",
         ".01 sec (8f10,3)",

@@ -81,7 +81,7 @@ fn stiff_oscillators_follow_the_ground_and_soft_ones_stay() {
 
 /// GOAL: periods and damping ratios out of range are refused.
 #[test]
-fn bad_input_is_refused() {
+fn invalid_input_is_refused() {
     let record = el_centro_1940();
     for period in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12, 1e300, 1e-300] {
         let refused = record.response_spectrum(&[1.0, period], 0.05, &mut unobserved);

@@ -206,7 +206,7 @@ fn recorded_probe(probe: Probe) -> TimeSeries {
 }
 
 #[test]
-fn bad_requests_are_errors() {
+fn invalid_requests_are_errors() {
     let PlottedRun { time_series, shape, .. } = rocking_block(Recorder::new());
     assert!(matches!(plot::mode_map("T", &time_series), Err(Error::Scene { .. })));
     let fault = plot::deformed_shapes("T", &shape, &time_series, &[0.1], 1.0);

@@ -14,7 +14,7 @@ fn record(state: &State, time_series: &mut TimeSeries, run: &mut Run) {
 }
 
 #[test]
-fn bad_requests_are_errors() {
+fn invalid_requests_are_errors() {
     // The series of a loop that leaves steps out has no spectrum.
     let mut skipping = simulation();
     let mut time_series = Recorder::new().start(&skipping).unwrap();

@@ -104,7 +104,7 @@ fn build(limits: Serviceability) -> Result<(), Error> {
 
 /// GOAL: invalid limits are refused by name.
 #[test]
-fn bad_limits_are_refused() {
+fn invalid_limits_are_refused() {
     let none = Serviceability::default();
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let refused = [

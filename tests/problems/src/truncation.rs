@@ -10,7 +10,7 @@ use basemat::{Simulation, Soil};
 
 use crate::impedance::{ForceSampling, impedances};
 use crate::rigid_strip::DrivenStrip;
-use crate::sampled_block::{SampledHistory, distance, sample, under_pulse};
+use crate::sampled_block::{SampledSeries, distance, sample, under_pulse};
 use crate::series::{RelativeError, nearest_integer};
 use crate::table;
 
@@ -93,7 +93,7 @@ pub fn impedance_errors(name: &str, poisson: f64, mesh: FullPlaneMesh) -> [f64; 
 /// Base displacement, rotation and base shear of a bonded rigid block under a Ricker pulse.
 ///
 /// Width and height are 2, the density is 1. There is a sample every `interval` steps; the shear is the mean over them.
-fn block_history(ground: impl Ground + 'static, time_step: f64, interval: usize) -> SampledHistory {
+fn block_series(ground: impl Ground + 'static, time_step: f64, interval: usize) -> SampledSeries {
     let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
     let mut simulation = under_pulse(block, ground, time_step);
     sample(&mut simulation, nearest_integer(20.0 / time_step), interval).unwrap().0
@@ -106,8 +106,8 @@ pub fn block_errors(mesh: FullPlaneMesh) -> [f64; 3] {
     let time_step = mesh.time_step(soil);
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
     let half_plane = ElasticGround::new(soil, strip).unwrap();
-    let computed = block_history(mesh.ground(soil), time_step, 1);
-    distance(&computed, &block_history(half_plane, time_step / 8.0, 8))
+    let computed = block_series(mesh.ground(soil), time_step, 1);
+    distance(&computed, &block_series(half_plane, time_step / 8.0, 8))
 }
 
 /// Mean slip and largest uplifted fraction of a block of height 4 under its weight that rocks and

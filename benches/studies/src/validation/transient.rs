@@ -124,7 +124,11 @@ fn checks(time_series: &TabledRun) -> Vec<ValidationCheck> {
         let name = format!("{}, relative L2", series.name);
         checks.push(ValidationCheck::below(name, series.error, series.limit));
     }
-    checks.push(ValidationCheck::below("energy balance, residual", time_series.energy_error, 1e-10));
+    checks.push(ValidationCheck::below(
+        "energy balance, residual",
+        time_series.energy_error,
+        1e-10,
+    ));
     checks
 }
 
