@@ -145,9 +145,9 @@ fn shape_load_and_tilt_factors_follow_annex_d() -> Result<()> {
     Ok(())
 }
 
-/// The data base of the test has 814 kPa; the growth with depth is γ N_q = 1.39 MPa/m for a strip.
+/// The bearing capacity of the test is 814 kPa; the growth with depth is γ N_q = 1.39 MPa/m for a strip.
 #[test]
-fn bearing_pressure_and_growth_of_a_centrifuge_test() -> Result<()> {
+fn the_bearing_pressure_of_a_centrifuge_test_is_within_ten_percent() -> Result<()> {
     let sand = strength(42.0);
     let unit_weight = SAND_DENSITY * 9.81;
     let footing = ShallowFooting::rectangle(FOOTING_SIDES)?;

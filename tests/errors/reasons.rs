@@ -153,7 +153,7 @@ fn matrices_and_the_static_load_are_refused_with_the_structures_error() {
 }
 
 #[test]
-fn a_step_that_the_structure_refuses_commits_nothing() {
+fn a_step_refused_by_the_structure_commits_nothing() {
     for (part, threshold, quantity) in [
         (RefusedPart::Load, 0.0205, "load of the structure"),
         (RefusedPart::Force, 1e-4, "nonlinear force of the structure"),

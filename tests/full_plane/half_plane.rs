@@ -36,9 +36,9 @@ fn impedances_of_a_bonded_strip_are_those_of_the_half_plane() {
 }
 
 /// GOAL: the error of the truncated free surface. The direct impedances have the error of the mesh with or without free
-/// elements; the coupling, which comes from the free surface and from H alone, converges to that of the half-plane with about the root
-/// of the surface's length. SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these
-/// surfaces. REFERENCE: impedances by a spectral method.
+/// elements; the coupling, which comes from the free surface and from H alone, converges to that of the half-plane with
+/// about the root of the surface's length. SCENE: as before by convolution quadrature (BDF2), which is bounded with any
+/// of these surfaces. REFERENCE: impedances by a spectral method.
 #[test]
 fn the_coupling_converges_with_the_length_of_the_free_surface() {
     let ground = bdf2_mesh(20).ground(soil(1.0 / 3.0));

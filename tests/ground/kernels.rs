@@ -210,7 +210,7 @@ fn integral_along_surface(plane: &HalfPlane, x: f64, time: f64, is_impulse: bool
 /// GOAL: Lamb's problem is right for a line load, for a loaded element, and as the mean of an element.
 /// REFERENCE: tables with columns xy (x due to z load) and yx (z due to x load).
 #[test]
-fn lamb_line_load_and_elements() {
+fn displacements_of_line_loads_and_elements_are_those_of_the_tables() {
     for (nu, [heaviside, element, galerkin]) in lamb_tables() {
         let plane = HalfPlane::new(soil(nu));
         for row in rows(heaviside) {

@@ -268,7 +268,7 @@ fn long_mats_are_strips() {
 
 /// GOAL: the error of plane strain for a square mat is as the guide states it.
 #[test]
-fn plane_strain_misleads_on_square_mats() {
+fn errors_of_plane_strain_on_square_mats_are_those_of_the_guide() {
     let profile = half_space(1.0 / 3.0);
     let strip = Strip::new(-1.0..1.0, 24, Grading::Cosine).unwrap();
     let ground = ElasticGround::new(profile.clone(), strip).unwrap();

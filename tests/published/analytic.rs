@@ -71,7 +71,7 @@ fn punch_error_limits(grading: Grading, eccentricity: f64) -> [f64; 3] {
 /// SCENE: frictionless rigid strip under a load at eccentricity e, through the preload.
 /// REFERENCE: inclined punch (Muskhelishvili 1953): contact over 4(b − e), M/(Pb) = 1 − θ_u/(2θ).
 #[test]
-fn muskhelishvili_1953_tilted_punch() {
+fn a_tilted_punch_has_the_contact_of_muskhelishvili_1953() {
     for poisson in [0.0, 1.0 / 3.0] {
         let strip = NoTensionStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0, 0.0).unwrap();
         let lift_off = (1.0 - poisson) / PI;
@@ -166,7 +166,7 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
 /// reversals fall on steps, so that the speed after one of them has an error of up to friction·g·Δt. The error is of first
 /// order, and not smooth in Δt.
 #[test]
-fn newmark_1965_sliding_on_stiff_soil() {
+fn a_block_on_stiff_soil_slides_as_newmarks_1965() {
     let table = table("sliding_rigid_block.csv");
     for (friction, limits, tolerance) in [
         (0.1, [1.5e-2, 3.5e-2, 4.5e-2, 2.7e-2, 3.6e-3], [8e-6, 4e-4]),
@@ -266,7 +266,7 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> QuarterPeriods {
 /// The block rocks more slowly than Housner's: the soil deforms under the corner, and pressure acts
 /// at the middle of the last element, not at its end. Both are in the second reference.
 #[test]
-fn housner_1963_quarter_period() {
+fn quarter_periods_on_stiff_soil_are_close_to_housner_1963() {
     for (speed, elements, housner, yielding) in [
         (100.0, 16, 2.1e-2, 6.2e-3),
         (200.0, 16, 8.5e-3, 6e-3),

@@ -16,7 +16,7 @@ fn ground(profile: SoilProfile, elements: usize) -> ElasticGround {
 }
 
 #[test]
-fn td_block_on_layers_under_sv_pulse() {
+fn blocks_on_layers_move_as_in_the_tables_td_block() {
     let names = ["u_base", "theta", "u_roof", "V", "M"];
     let kjartansson = Kjartansson::new(0.05, 0.3).unwrap();
     for (name, profile, limits) in [

@@ -12,7 +12,7 @@ use basemat_problems::{assert_close, table};
 
 /// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
 #[test]
-fn housner_1963_periods_and_peaks() {
+fn periods_and_peaks_of_housners_block_are_the_tabulated_ones() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
     assert_close("alpha", block.slenderness_angle(), 0.244_978_663_126_864, 1e-15, 0.0);
     assert_close("p", block.frequency_parameter(), 1.889_156_352_028_5, 0.0, 1e-13);
@@ -44,7 +44,7 @@ fn housner_1963_periods_and_peaks() {
 
 /// Housner 1963: 44 impacts after release, and the amplitudes between them.
 #[test]
-fn housner_1963_free_rocking() {
+fn impacts_of_housners_block_are_the_tabulated_ones() {
     let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
     let start = 0.6 * block.slenderness_angle();
     let table = table("housner_free.csv");
@@ -75,7 +75,7 @@ fn housner_1963_free_rocking() {
 
 /// Newmark 1965: sine shaking, events and slip against the exact solution for the sine itself.
 #[test]
-fn newmark_1965_sine() {
+fn slip_of_newmarks_block_under_sines_is_the_tabulated_one() {
     for (file, amplitude, frequency, friction) in [
         ("newmark_sine_A0.3g_f0.5_mu0.25.csv", 0.3, 0.5, 0.25),
         ("newmark_sine_A0.4g_f1.0_mu0.2.csv", 0.4, 1.0, 0.2),
@@ -114,7 +114,7 @@ fn newmark_1965_sine() {
 
 /// Newmark 1965: slip under El Centro for eight friction coefficients.
 #[test]
-fn newmark_1965_el_centro() {
+fn slip_of_newmarks_block_under_el_centro_is_the_tabulated_one() {
     let table = table("sliding_rigid_block.csv");
     let columns = ["mu", "slip_max_m", "slip_min_m", "slip_residual_m", "max_abs_slip_m"];
     let records = table.text("record");
@@ -137,7 +137,7 @@ fn newmark_1965_el_centro() {
 
 /// Tilted rigid strip on the half-plane, frictionless and fully sliding, with and without uplift.
 #[test]
-fn half_plane_no_tension_strip() {
+fn strips_without_tension_on_the_half_plane_have_the_tabulated_contact() {
     let table = table("halfplane_tilted_punch.csv");
     let columns = ["nu", "f", "e", "g", "contact_length", "x_left", "x_right", "theta"];
     let rows = table.rows(columns);
@@ -159,7 +159,7 @@ fn half_plane_no_tension_strip() {
 
 /// Rigid strip on springs without tension.
 #[test]
-fn winkler_no_tension_strip() {
+fn strips_without_tension_on_springs_have_the_tabulated_moments() {
     let stiffness = 3e7;
     let half_width = 2.5;
     let load = 4e5;
@@ -184,7 +184,7 @@ fn winkler_no_tension_strip() {
 
 /// Static and high-frequency limits of the strip against the ends of its impedance tables.
 #[test]
-fn rigid_strip_limits() {
+fn limits_of_rigid_strips_are_those_of_the_impedance_tables() {
     for (name, poisson) in [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)] {
         let strip = RigidStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0).unwrap();
         let relaxed = table(&format!("strip_relaxed_nu{name}_xi00.csv"));

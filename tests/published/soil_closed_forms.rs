@@ -68,7 +68,8 @@ fn inverse_distance([x, y]: [f64; 2], i: i32, j: i32, count: i32) -> f64 {
     1.0 / (along - x).hypot(away - y)
 }
 
-/// The settlement under a loaded rectangle is a sum of point loads, integrated along rays from a point inside and over cells outside.
+/// The settlement under a loaded rectangle is a sum of point loads, integrated along rays from a point inside and over
+/// cells outside.
 #[test]
 fn loaded_rectangles_settle_as_point_loads_do() {
     let unit = (1.0 - 0.3) / (2.0 * std::f64::consts::PI * 3.0);

@@ -56,7 +56,7 @@ fn value_bits(row: &CaseRow<'_>, name: &str) -> Option<u64> {
 }
 
 #[test]
-fn rows_survive_the_process_in_any_order() {
+fn interrupted_tables_continue_with_rows_in_any_order() {
     let expected = finished_table("expected");
     for first in [vec![], vec![2], vec![5, 0, 2], vec![0, 2, 1, 3], vec![5, 4, 3, 2, 1, 0]] {
         let path = path("resumed");
@@ -77,7 +77,7 @@ fn rows_survive_the_process_in_any_order() {
         }
         let table = file.finish().unwrap();
         assert!(!part_file(&path).exists());
-        // Columns are in the order in which results came.
+        // Columns are in the order of the results.
         for (row, other) in table.rows().zip(expected.rows()) {
             assert_eq!((row.index, row.warnings), (other.index, other.warnings));
             assert_eq!(row.results.err(), other.results.err());

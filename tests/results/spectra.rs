@@ -56,7 +56,8 @@ fn triangle(period: f64) -> f64 {
     3.0 - period.ln().abs()
 }
 
-/// As in the guide, the peak at f_j extends from 0.85 f_j to 1.15 f_j, and every point of its slopes is shifted like the peak.
+/// As in the guide, the peak at f_j extends from 0.85 f_j to 1.15 f_j, and every point of its slopes is shifted like
+/// the peak.
 #[test]
 fn broadened_peaks_are_plateaus() {
     let periods = log_spaced(0.1, 10.0, 401).unwrap();

@@ -324,7 +324,8 @@ fn a_load_on_the_edge_of_a_round_raft_settles_it_as_the_ritz_solution() {
     assert!((bending_ratio - 1.0).abs() < 0.05, "{middle} {edge}");
 }
 
-/// A round raft with D/(G R³) = 0.06 rocks under a stiff wall on its edge: its stiffness is accurate on every number of cells.
+/// A round raft with D/(G R³) = 0.06 rocks under a stiff wall on its edge: its stiffness is accurate on every number of
+/// cells.
 ///
 /// With the overhang of a rigid raft it is 1 % too soft.
 /// Reference: Ritz solution of `tests/data/plan/disc_on_half_space.py`, moment over rotation and G R³.

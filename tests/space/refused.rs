@@ -204,8 +204,8 @@ fn build_twisted(torque: f64) -> Result<Simulation> {
         .build()
 }
 
-/// The error of a torque beyond friction has the torque that friction resists under even pressure: µ N times the mean distance of the
-/// cells from the middle.
+/// The error of a torque beyond friction has the torque that friction resists under even pressure: µ N times the mean
+/// distance of the cells from the middle.
 #[test]
 fn a_torque_beyond_friction_is_named() {
     // Cells of a bed reach a tenth of their side beyond the edge.
@@ -259,7 +259,7 @@ impl SmallLoads {
 
 /// Forces of the size of rounding are allowed on a base without friction.
 #[test]
-fn rounding_neither_twists_nor_pushes_off() {
+fn loads_of_the_size_of_rounding_are_allowed() {
     for (push, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
         assert!(SmallLoads { push, down: 0.1, torque }.build().is_ok());
         let cause = SmallLoads { push, down: 0.3, torque }.stability_error();

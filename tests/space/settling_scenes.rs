@@ -1,6 +1,7 @@
 //! GOAL: on soil that settles in every cycle the energy balance closes, the soil returns no energy, and resumed runs
 //! have the same bits.
-//! SCENE: random blocks in the plane and bodies in space that rock and slide under a strong record, on springs and half-spaces.
+//! SCENE: random blocks in the plane and bodies in space that rock and slide under a strong record, on springs and
+//! half-spaces.
 //! REFERENCE: the energy balance; the run without interruption; the law with a rigid memory where the settlements vanish.
 //! `SETTLING_SCENES=1000` runs 1000 scenes.
 

@@ -1,4 +1,4 @@
-//! Steady sliding in space takes next to no iterations.
+//! Steady sliding in space needs few iterations.
 
 use basemat::Simulation;
 use basemat::coupled::Load;
@@ -33,11 +33,11 @@ fn steady_iterations(law: impl InterfaceLaw + 'static) -> usize {
 }
 
 #[test]
-fn steady_sliding_takes_next_to_no_iterations() {
+fn steady_sliding_needs_four_iterations_at_most() {
     assert!(steady_iterations(Coulomb::new(0.3).unwrap()) <= 4);
 }
 
 #[test]
-fn steady_sliding_on_a_layer_takes_few_iterations() {
+fn steady_sliding_on_a_layer_needs_four_iterations_at_most() {
     assert!(steady_iterations(thin_layer(0.3)) <= 4);
 }

@@ -273,7 +273,7 @@ fn level_motion(u: &[f64], level: usize) -> [f64; 3] {
 
 /// The weight of point masses that have a floor's mass and polar inertia, lowered by the sway below them.
 #[test]
-fn weights_go_down_with_the_sway_of_all_storeys_below() {
+fn weights_sink_with_the_sway_of_all_storeys_below() {
     let with = stiffness_matrix(&building(0));
     let without = stiffness_matrix(&building(0).with_p_delta(0.0).unwrap());
     let u: Vec<f64> = (0..with.len()).map(|k| (1.7 * k as f64).sin()).collect();

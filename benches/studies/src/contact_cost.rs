@@ -24,7 +24,8 @@ pub(crate) struct ContactCostOptions {
     /// Few steps, as a test.
     #[arg(long)]
     short: bool,
-    /// One run of 100 000 steps on a layer of 5 % damping over rock: memory, and the bound of the error of its truncated history.
+    /// One run of 100 000 steps on a layer of 5 % damping over rock: memory, and the bound of the error of its
+    /// truncated history.
     #[arg(long)]
     long: bool,
     /// Fraction of the coefficients' sum that the long run may omit.

@@ -53,8 +53,8 @@ fn every_run_is_finite_balanced_and_admissible() {
     assert!(tally.counted("changes of mode") > 5 * scenes, "{tally}");
 }
 
-/// Random scenes of usual weight give no warning of numbers in another unit, nor of the end of a run, under usual shaking (at
-/// most 2 g) by a function, and under records that are run to their end.
+/// Random scenes of usual weight give no warning of numbers in another unit, nor of the end of a run, under usual
+/// shaking (at most 2 g) by a function, and under records that are run to their end.
 #[test]
 fn usual_scenes_give_no_warning_of_units() {
     let usual = recipes(1.0).prop_filter("usual weight, friction and scheme", is_usual);

@@ -86,8 +86,8 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
 
 /// Energy error that a step of a flight may have, in roundings times the condition of the effective stiffness.
 ///
-/// The rounding of the factors is the same in every step and acts as a spring on the rigid motion, so that errors of steps add up.
-/// In modes the condition is one: see `tests/coupled/conditioning.rs`.
+/// The rounding of the factors is the same in every step and acts as a spring on the rigid motion, so that errors of
+/// steps add up. In modes the condition is one: see `tests/coupled/conditioning.rs`.
 const MAX_ROUNDINGS: f64 = 10.0;
 
 /// The energy balance closes, and dissipated energy never decreases.

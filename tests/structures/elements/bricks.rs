@@ -46,8 +46,8 @@ fn a_patch_of_bricks_carries_a_uniform_strain() {
     }
 }
 
-/// PROBLEM: the faces of a distorted brick. RESULT: the normal by the order of its corners points outwards, and each node is in
-/// three faces.
+/// PROBLEM: the faces of a distorted brick. RESULT: the normal by the order of its corners points outwards, and each
+/// node is in three faces.
 #[test]
 fn normals_of_brick_faces_point_outwards() {
     let corners = [[0.0, 0.0], [1.0, -0.2], [1.3, 0.9], [0.1, 1.1]];

@@ -19,7 +19,7 @@ const GREENHILL_FACTOR: f64 = 7.837_347_438_943_484;
 /// PROBLEM: cantilever, hinged and clamped column. RESULT: the tables' values, and Euler's and Engesser's loads
 /// within 0.2 % with 4 beams (8 with shear), 2 % if clamped at both ends.
 #[test]
-fn columns_buckle_as_euler_and_engesser_say() {
+fn columns_have_the_buckling_loads_of_euler_and_engesser() {
     type ColumnCase = ([f64; 2], f64, &'static [Direction], &'static [Direction], f64);
     let cases: [ColumnCase; 3] = [
         ([4_163_876.0, 4_149_969.0], 2.0, &CLAMPED_DIRECTIONS, &[], 2e-3),

@@ -28,7 +28,8 @@ pub(crate) struct ContactProblemsOptions {
     /// Folder of problems written by export.py, which replace the random ones.
     #[arg(long)]
     published: Option<PathBuf>,
-    /// Folder of the documentation; with it the published problems go to benches/studies/tables, and the picture to its images/.
+    /// Folder of the documentation; with it the published problems go to benches/studies/tables, and the picture to its
+    /// images/.
     #[arg(long, requires = "published")]
     docs: Option<PathBuf>,
 }

@@ -7,10 +7,9 @@
 //! ```
 //!
 //! A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to levels of
-//! peak ground velocity. Runs whose demand (by default the residual slip) exceeds its limit
-//! are counted; a lognormal curve is fitted to the counts of each friction and width by maximum likelihood. Bands contain 90 %
-//! of the curves of a bootstrap over the motions: all levels have the same motions, so that runs
-//! are not independent.
+//! peak ground velocity. Runs whose demand (by default the residual slip) exceeds its limit are counted; a lognormal
+//! curve is fitted to the counts of each friction and width by maximum likelihood. Bands contain 90 % of the curves of
+//! a bootstrap over the motions: all levels have the same motions, so that runs are not independent.
 //!
 //! Cases are rows of one table. The row of a case that fails states the reason; it is not counted.
 //! A run that is stopped continues from its table; `docs/guide.md`, Sweeps, distributes it over a cluster.

@@ -1,8 +1,8 @@
 //! Error of the base shear against processor time.
 //!
 //! Scenes are a rigid block with a reference table, five seconds of the containment of the example of that name, and
-//! towers of 300 to 30 000 degrees of freedom. The study varies elements, grading, time step, history and time scheme, and coordinates of the towers. The content of
-//! `benches/studies/tables/precision.md` comes from
+//! towers of 300 to 30 000 degrees of freedom. The study varies elements, grading, time step, history and time scheme,
+//! and coordinates of the towers. The content of `benches/studies/tables/precision.md` comes from
 //!
 //! ```text
 //! cargo study precision --docs docs

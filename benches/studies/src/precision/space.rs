@@ -1,8 +1,8 @@
 //! Error against run time in space: structures of shells on half-spaces.
 //!
-//! Elements of each part, cells and step are chosen one by one. Errors of the base shear and of the displacement of the top
-//! are relative to finer runs, which `--reference` computes again. The content of `benches/studies/tables/precision.md` comes
-//! from
+//! Elements of each part, cells and step are chosen one by one. Errors of the base shear and of the displacement of the
+//! top are relative to finer runs, which `--reference` computes again. The content of
+//! `benches/studies/tables/precision.md` comes from
 //!
 //! ```text
 //! cargo study precision --space --reference --docs docs

@@ -148,8 +148,8 @@ impl StabilityScene {
 
     /// Whether the scheme is computed for these parameters.
     ///
-    /// The number of lags of the full plane is the number of steps in which waves cross its surface. It is large where S waves are slow
-    /// compared with the P waves of a step. The quadrature computes all of them at once.
+    /// The number of lags of the full plane is the number of steps in which waves cross its surface. It is large where
+    /// S waves are slow compared with the P waves of a step. The quadrature computes all of them at once.
     pub(crate) fn exists(&self) -> bool {
         match self.scheme {
             StabilityScheme::Basemat

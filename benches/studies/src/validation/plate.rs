@@ -126,7 +126,9 @@ fn even_load(count: usize) -> Result<[Vec<f64>; 2], AnyError> {
 }
 
 /// D/(G R³), the stiffness over G R under an even load and under a force in the middle, both by the settlement of the
-/// middle, and limits of their errors. Stiffnesses are printed by tests/data/plan/disc_on_half_space.py. Rigid: 4/(1 − ν); flexible, even load: π/(1 − ν).
+/// middle, and limits of their errors. Stiffnesses are printed by tests/data/plan/disc_on_half_space.py.
+///
+/// Rigid: 4/(1 − ν); flexible, even load: π/(1 − ν).
 const DISC_CASES: [(f64, [f64; 2], [f64; 2]); 5] = [
     (0.006, [4.7028, 1.2356], [4e-3, 5e-2]),
     (0.02, [4.7660, 1.8193], [4e-3, 2e-2]),
