@@ -15,7 +15,7 @@ use basemat::{Error, Simulation};
 
 use basemat_problems::scenes::{SCENE_GRAVITY, SI_UNITS, shake};
 use basemat_problems::yielding_springs::{
-    Masses, WithYieldingSprings, YieldingSpring, hyperbolic, yielding_column,
+    Masses, WithYieldingSprings, YieldingSpring, hyperbolic, spring_column,
 };
 use basemat_problems::{needed_from, own_force};
 
@@ -41,7 +41,7 @@ fn bonded(structure: impl Structure + 'static, time_step: f64) -> SimulationBuil
 #[test]
 fn piecewise_linear_columns_take_few_iterations() {
     for (time_step, max_mean) in [(0.01, 3.0), (0.02, 4.0), (0.05, 6.0)] {
-        let builder = bonded(yielding_column(40), time_step).motion(shaking());
+        let builder = bonded(spring_column(40), time_step).motion(shaking());
         let mut simulation = builder.build().unwrap();
         let mut iterations = Vec::new();
         let run = simulation
@@ -71,7 +71,7 @@ fn columns_at_rest_with_an_offset_take_few_iterations() {
     let ground = SpringGround::new(-2.0..2.0, 4, 1e6, 1e8).unwrap().with_dashpots(3e5, 3e5);
     let builder = Simulation::builder(0.01).ground(ground.unwrap()).interface(Bonded);
     let mut simulation =
-        builder.structure(yielding_column(40)).motion(shaking).gravity(0.0).build().unwrap();
+        builder.structure(spring_column(40)).motion(shaking).gravity(0.0).build().unwrap();
     let mut last_trials = Vec::new();
     let mut top = 0.0;
     let observe = |state: &State| {
@@ -143,7 +143,7 @@ fn yielding_columns_stand_under_their_weight() {
         assert!(moved < 1e-9 * weight * settled, "{ratio}: {}", run.energy_balance);
         let structure: &dyn Any = simulation.structure();
         let column = structure.downcast_ref::<WithYieldingSprings<Masses>>().unwrap();
-        assert!(column.largest_plastic() > 0.1 * compression(weight, strength));
+        assert!(column.largest_plastic_deformation() > 0.1 * compression(weight, strength));
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
     }
 }

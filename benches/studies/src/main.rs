@@ -1,7 +1,7 @@
-//! Studies of basemat: what the tables and figures of its documents come from, one subcommand each.
+//! Studies of basemat: the sources of the tables and figures of its documents, one subcommand each.
 //!
 //! ```text
-//! cargo study                          # names them
+//! cargo study                          # lists them
 //! cargo study validation --short       # one of them
 //! cargo study validation --help        # its options
 //! ```
@@ -111,7 +111,7 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        // As text, for example which shards are missing.
+        // As text, for example the names of missing shards.
         Err(error) => {
             eprintln!("{error}");
             ExitCode::FAILURE
