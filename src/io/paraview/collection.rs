@@ -10,7 +10,7 @@ use crate::text::file::{write_error, write_file};
 pub(super) fn prepare_folder(folder: &Path, name: &str) -> Result<()> {
     let is_valid_name = !name.is_empty() && name.chars().all(is_allowed_in_name);
     require_part("name of a series", is_valid_name, "letters, digits, - and _ only, one at least")?;
-    Ok(std::fs::create_dir_all(folder).map_err(write_error(folder))?)
+    std::fs::create_dir_all(folder).map_err(write_error(folder))
 }
 
 /// Whether the name of a series may contain a character.
