@@ -101,10 +101,7 @@ fn main() -> ExitCode {
         Study::Embedded(options) => embedded::run(&options),
         Study::RockingFooting(options) => rocking_footing::run(&options),
         Study::SettlingCost(options) => settling_cost::run(&options),
-        Study::Yielding(options) => {
-            yielding::run(&options);
-            Ok(())
-        }
+        Study::Yielding(options) => yielding::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
