@@ -112,7 +112,9 @@ fn motions_refuse_bad_numbers() {
     let record = Record::new(0.1, vec![0.0, 1.0, 0.0, -1.0]).unwrap();
     assert_refused("new time step", &NOT_POSITIVE_FINITE, |x| record.resampled(x));
     assert_refused("scale factor", &NOT_FINITE, |x| record.scaled(x));
-    assert_refused("wanted peak", &NOT_POSITIVE_FINITE, |x| record.scaled_to_peak(x));
+    assert_refused("peak acceleration of the scaled record", &NOT_POSITIVE_FINITE, |x| {
+        record.scaled_to_peak(x)
+    });
     assert!(record.with_baseline(Baseline::VelocityPolynomial { degree: 0 }).is_err());
     assert!(record.with_baseline(Baseline::RestToRest { degree: 9 }).is_err());
     assert_refused("amplitude", &NOT_FINITE, |x| RickerDisplacement::new(x, 0.1, 1.0));

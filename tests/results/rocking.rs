@@ -337,7 +337,7 @@ fn each_foundation_has_its_series() {
 fn series_of_foundations_are_kept_on_request() {
     let two = Recorder::new().start(&two_footings()).unwrap();
     let error = two.rocking(0).unwrap_err();
-    assert!(error.to_string().contains("tell the recorder to keep `foundations`"), "{error}");
+    assert!(error.to_string().contains("set `foundations` of the recorder"), "{error}");
     let mut shifted = on_springs(Bonded).moment_center(-3.0).motion(AtRest).build().unwrap();
     let time_series = Recorder::new().start(&shifted).unwrap();
     assert!(matches!(time_series.rocking(0), Err(Error::Scene { .. })));

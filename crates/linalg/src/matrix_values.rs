@@ -51,7 +51,7 @@ impl SparseMatrix {
         self.row_starts == other.row_starts && self.columns == other.columns
     }
 
-    /// Becomes equal to another matrix; allocates only if the pattern differs.
+    /// Copies another matrix into this one; allocates only if the pattern differs.
     pub fn copy_from(&mut self, other: &Self) {
         if self.has_pattern_of(other) {
             self.values.copy_from_slice(&other.values);
@@ -68,9 +68,9 @@ impl SparseMatrix {
 
     /// Replaces the values by the sums of `triplets`.
     ///
-    /// `indices` has the index of each triplet's entry from the last call, to which a search is not needed; it may be
-    /// empty. Allocates only for more triplets than before. Returns false, with undefined values, if an entry is outside
-    /// the pattern or not finite.
+    /// `indices` has the index of each triplet's entry from the last call, so that unchanged entries need no search; it
+    /// may be empty. Allocates only for more triplets than before. Returns false, with undefined values, if an entry is
+    /// outside the pattern or not finite.
     pub fn refill(&mut self, triplets: &Triplets, indices: &mut Vec<usize>) -> bool {
         self.values.fill(0.0);
         indices.resize(triplets.entries().len(), usize::MAX);

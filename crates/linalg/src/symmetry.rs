@@ -24,9 +24,9 @@ impl SparseMatrix {
         relative_asymmetry(self.mirrored_entries().map(|entry| (entry.value, entry.mirrored_value)))
     }
 
-    /// The pair of mirrored entries with the largest excess of their difference; `None` without an excess.
+    /// The pair of mirrored entries whose difference exceeds the allowed difference most; `None` if none does.
     ///
-    /// `allowed_difference(row, column)`: the excess is the difference above it. Returns row, column, and a_ij with a_ji.
+    /// `allowed_difference(row, column)` belongs to one pair. Returns row, column, and [a_ij, a_ji].
     pub fn unsymmetric_pair(
         &self,
         allowed_difference: impl Fn(usize, usize) -> f64,
@@ -52,9 +52,10 @@ impl SparseMatrix {
         })
     }
 
-    /// Index of the mirrored entry of each stored entry; the largest number if it is not stored.
+    /// Index of the mirrored entry of each stored entry; `usize::MAX` if it is not stored.
     pub(super) fn mirrored_indices(&self) -> impl Iterator<Item = usize> {
-        // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search there.
+        // Rows ascend, so each search in the row of a mirrored entry continues from the end of the previous search
+        // there.
         let mut search_starts = self.row_starts.clone();
         self.entries().map(move |(row, column, _)| {
             let end = self.row_starts[column + 1];

@@ -41,10 +41,10 @@ pub(super) fn formulation(name: &str, hourglass_percent: usize) -> PyResult<Quad
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
 /// ``material`` (`Material`, `Iwan`, `DruckerPrager` or `UserMaterial`).
 ///
-/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (right in bending: that of an elastic material unless
-/// given), "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one
-/// point, stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean
-/// dilatation of the element: the only one of materials that yield, and theirs unless given).
+/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (accurate in bending: that of an elastic material
+/// unless given), "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes), "hourglass" (one point,
+/// stabilised with ``hourglass_percent``, 5 by default) or "mean_dilatation" (2 × 2 points with the mean dilatation of the
+/// element: the only formulation for materials that yield, and theirs unless given).
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(pub(super) Layer<SharedMaterial>);
 

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, WithOption};
 
-/// Elastic material of solids, shells and beams: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-/// ``density`` (kg/m³).
+/// Elastic material, in plane strain for elements in the plane: Young's modulus ``young_modulus`` (Pa), Poisson's ratio
+/// ``poisson``, ``density`` (kg/m³).
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 

@@ -1,7 +1,7 @@
 //! Responses of a large yielding structure to unit tractions, on the degrees of freedom of its base alone.
 //!
-//! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, it follows from a small dense factor, and
-//! the tractions that the problem returns need one more solution with K_eff.
+//! The contact problem needs B K_eff⁻¹ BᵀA only. If the base is eliminated last, this matrix follows from a small dense
+//! factor. The response to the tractions of the contact problem then needs one more solution with K_eff.
 
 use crate::coupled::base::PlacedBase;
 use crate::linalg::ChangingFactor;
@@ -57,10 +57,10 @@ impl BaseResponses {
         let Self { dofs, unit_forces, responses, means } = self;
         responses.copy_from_slice(unit_forces);
         factor.solve_on_last_rows(responses);
-        let count = dofs.len();
-        let order = means.len() / count;
-        for (mean_row, row) in means.chunks_exact(count).zip(operator.chunks_exact_mut(order)) {
-            for (response, entry) in responses.chunks_exact(count).zip(row) {
+        let dof_count = dofs.len();
+        let order = means.len() / dof_count;
+        for (mean_row, row) in means.chunks_exact(dof_count).zip(operator.chunks_exact_mut(order)) {
+            for (response, entry) in responses.chunks_exact(dof_count).zip(row) {
                 *entry += mean_row.iter().zip(response).map(|(b, u)| b * u).sum::<f64>();
             }
         }

@@ -27,7 +27,7 @@ const HISTORY_COUNT: usize = 40;
 /// Displacements of a history, m.
 const DISPLACEMENT_SIZE: f64 = 4e-3;
 /// Mean compressive strain of a history in each direction.
-const COMPRESSION: f64 = 2e-3;
+const MEAN_COMPRESSIVE_STRAIN: f64 = 2e-3;
 /// Step of the differences relative to the displacements.
 const DIFFERENCE_STEP: f64 = 1e-5;
 
@@ -94,7 +94,7 @@ fn compare_tangent(
         for (dof, value) in displacement.iter_mut().enumerate() {
             *value = random.within(-DISPLACEMENT_SIZE, DISPLACEMENT_SIZE);
             // Compression, so that few points of sand are at the tip of the cone.
-            *value -= COMPRESSION * coordinates[dof / 2][dof % 2];
+            *value -= MEAN_COMPRESSIVE_STRAIN * coordinates[dof / 2][dof % 2];
         }
     }
     // At the tip the tangent has a small part of the elasticity, which the force does not have.

@@ -14,16 +14,16 @@ use crate::symmetry::{MAX_ASYMMETRY, relative_asymmetry};
 
 /// Factor of the last of many matrices with one sparsity pattern.
 ///
-/// The order of elimination and the pattern of the factor are found once. Each new matrix is factored in the memory of the
-/// last one, with the same result to the last bit as by [`SparseFactor::with_elimination`].
+/// The order of elimination and the pattern of the factor are determined once. Each new matrix is factored in the
+/// memory of the last one, with the same result to the last bit as by [`SparseFactor::with_elimination`].
 pub struct ChangingFactor {
     name: &'static str,
     elimination: Elimination,
     /// The matrix, by columns.
     columns: SparseColMat<usize, f64>,
-    /// Index by columns of each entry by rows.
+    /// Position, in storage by columns, of each entry in storage by rows.
     column_indices: Vec<usize>,
-    /// Index by rows of the mirrored entry of each entry by rows; the largest number if it is not stored.
+    /// Index of the mirrored entry of each entry, both by rows; `usize::MAX` if the mirrored entry is not stored.
     mirrored_indices: Vec<usize>,
     /// Factor of symmetric positive definite matrices.
     cholesky: Option<ReusedFactor>,
@@ -31,7 +31,7 @@ pub struct ChangingFactor {
     lu: Option<ReusedFactor>,
     /// Whether the last matrix was factored by LU.
     uses_lu: bool,
-    /// Solution of the test of a factor, and of right-hand sides on the last rows.
+    /// Buffer for the solution of a factor's test, and for solutions of right-hand sides on the last rows.
     solution: Vec<f64>,
     last_rows: Vec<usize>,
     /// Entries of Cholesky's factor in the last rows; `None` unless they are a dense block.
@@ -69,11 +69,11 @@ impl ChangingFactor {
         last_rows: &[usize],
     ) -> Result<Self> {
         let columns = by_columns(matrix);
-        let ending = (!last_rows.is_empty())
+        let ending_elimination = (!last_rows.is_empty())
             .then(|| elimination.of_pattern_ending_with(columns.symbolic(), last_rows));
         let mut factor = Self {
             name,
-            elimination: ending.flatten().unwrap_or_else(|| elimination.clone()),
+            elimination: ending_elimination.flatten().unwrap_or_else(|| elimination.clone()),
             columns,
             column_indices: column_indices(matrix),
             mirrored_indices: matrix.mirrored_indices().collect(),
@@ -312,40 +312,49 @@ mod tests {
             for (k, (low, skew)) in (0..).zip(cases) {
                 let matrix = grid(side, f64::from(k), low, skew);
                 changing.refactor(&matrix).unwrap();
-                let new = SparseFactor::with_elimination("grid", &matrix, &elimination).unwrap();
+                let new_factor =
+                    SparseFactor::with_elimination("grid", &matrix, &elimination).unwrap();
                 let is_definite = changing.factor().unwrap().is_positive_definite();
-                assert_eq!(is_definite, new.is_positive_definite());
+                assert_eq!(is_definite, new_factor.is_positive_definite());
                 assert_eq!(is_definite, low > 0.0 && skew == 0.0);
-                let many: Vec<f64> = (0..7 * side * side).map(|i| (i as f64).sin()).collect();
-                let mut a = many.clone();
-                let mut b = many;
-                changing.solve_many(&mut a);
-                new.solve_many(&mut b);
-                assert_eq!(a, b);
-                let residual = matrix.times(&a[..side * side]);
+                let right_sides: Vec<f64> =
+                    (0..7 * side * side).map(|i| (i as f64).sin()).collect();
+                let mut computed = right_sides.clone();
+                let mut expected = right_sides;
+                changing.solve_many(&mut computed);
+                new_factor.solve_many(&mut expected);
+                assert_eq!(computed, expected);
+                let residual = matrix.times(&computed[..side * side]);
                 let error = residual.iter().enumerate().map(|(i, r)| (r - (i as f64).sin()).abs());
                 assert!(error.fold(0.0, f64::max) < 1e-9);
             }
-            // On the last rows, with a dense block or without.
+            // On the last rows, with computed dense block or without.
             let last_rows: Vec<usize> = (0..side).map(|k| k * side + (k * k) % side).collect();
-            let mut ending =
+            let mut ending_factor =
                 ChangingFactor::ending_with("grid", &first, &elimination, &last_rows).unwrap();
             for (low, skew) in [(0.2, 0.0), (0.2, 0.1), (-0.9, 0.0), (0.4, 0.0)] {
                 let matrix = grid(side, 0.7, low, skew);
-                ending.refactor(&matrix).unwrap();
+                ending_factor.refactor(&matrix).unwrap();
                 changing.refactor(&matrix).unwrap();
-                let mut on_last: Vec<f64> = (0..3 * side).map(|i| (i as f64).cos()).collect();
-                for (k, column) in on_last.clone().chunks_exact(side).enumerate() {
-                    let mut whole = vec![0.0; side * side];
-                    last_rows.iter().zip(column).for_each(|(row, value)| whole[*row] = *value);
-                    changing.solve(&mut whole);
-                    ending.solve_on_last_rows(&mut on_last[k * side..][..side]);
-                    for (row, value) in last_rows.iter().zip(&on_last[k * side..]) {
-                        assert!((whole[*row] - value).abs() < 1e-9, "{} {value}", whole[*row]);
+                let mut last_values: Vec<f64> = (0..3 * side).map(|i| (i as f64).cos()).collect();
+                for (k, column) in last_values.clone().chunks_exact(side).enumerate() {
+                    let mut full_solution = vec![0.0; side * side];
+                    last_rows
+                        .iter()
+                        .zip(column)
+                        .for_each(|(row, value)| full_solution[*row] = *value);
+                    changing.solve(&mut full_solution);
+                    ending_factor.solve_on_last_rows(&mut last_values[k * side..][..side]);
+                    for (row, value) in last_rows.iter().zip(&last_values[k * side..]) {
+                        assert!(
+                            (full_solution[*row] - value).abs() < 1e-9,
+                            "{} {value}",
+                            full_solution[*row]
+                        );
                     }
                 }
             }
-            assert_eq!(ending.last_entries.is_some(), side == 40);
+            assert_eq!(ending_factor.last_entries.is_some(), side == 40);
             let zero = grid(side, 0.0, 0.0, 0.0);
             let mut singular = zero.clone();
             singular.values.fill(0.0);

@@ -256,7 +256,7 @@ impl Mesh {
         let mut nodes: Vec<usize> = (0..self.nodes.len())
             .filter(|&node| (self.nodes[node][up_axis] - height).abs() <= tolerance)
             .collect();
-        // In the plane this is z, which is zero.
+        // In the plane this axis is z, along which all coordinates are zero.
         let depth_axis = 3 - up_axis;
         nodes.sort_by(|&first, &second| {
             let first_point = self.nodes[first];

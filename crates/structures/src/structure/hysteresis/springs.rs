@@ -167,7 +167,7 @@ short_debug! {
 }
 
 impl WithSprings {
-    /// A structure without springs.
+    /// Prepares `structure` for springs, which are added by the other methods.
     pub fn new(structure: impl Structure + 'static) -> Self {
         Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }

@@ -99,7 +99,7 @@ pub(super) struct InelasticElements {
     variables: Vec<f64>,
     /// Displacement of the model at the end of the last step, m and rad.
     committed_displacement: Vec<f64>,
-    /// Energies of the undeformed model, from which energies count.
+    /// Energies of the undeformed model, which are subtracted from those of a deformed one.
     energy_at_rest: InternalEnergy,
     /// Whether forces act at zero displacement.
     has_initial_stress: bool,
@@ -129,7 +129,7 @@ impl Clone for InelasticElements {
 impl InelasticElements {
     /// Elements of a mesh in their undeformed state; `None` if all are linear.
     ///
-    /// `row` returns the motion of a node by the model's `dof_count` degrees of freedom.
+    /// `row` returns the motion of a node as a sum of the model's `dof_count` degrees of freedom.
     ///
     /// # Errors
     /// [`Error::Item`](crate::Error::Item) with the element and its error in the undeformed state.
@@ -318,7 +318,9 @@ impl NonlinearForce for InelasticElements {
         Some(self.total_remainder(midstep, end).unwrap_or(f64::NAN))
     }
 
-    /// The element with the highest mobilised strength at the first of the degrees of freedom that has one.
+    /// Text of the element with the highest mobilised strength at one degree of freedom.
+    ///
+    /// It is the first of `dofs` that belongs to an element with internal variables.
     fn describe_state(&self, displacement: &[f64], dofs: &[usize]) -> Option<String> {
         self.check_length(displacement).ok()?;
         dofs.iter().find_map(|dof| {

@@ -17,18 +17,19 @@ use crate::structure::{
 fn members_of_a_group_have_their_forces() {
     let mut group =
         StructureGroup::new().with(yielding(), 0.0).unwrap().with(yielding(), 10.0).unwrap();
-    let mut alone = [yielding(), yielding()];
-    let n = alone[0].dofs();
+    let mut separate_models = [yielding(), yielding()];
+    let n = separate_models[0].dofs();
     let mut u = displacements(1, 2 * n, 4e-3);
     group.nonlinear_mut().unwrap().commit(&u);
-    for (k, model) in alone.iter_mut().enumerate() {
+    for (k, model) in separate_models.iter_mut().enumerate() {
         model.nonlinear_mut().unwrap().commit(&u[k * n..(k + 1) * n]);
     }
     let midstep = u.clone();
     u = displacements(5, 2 * n, 5e-3);
-    let expected = [force(&alone[0], &u[..n]), force(&alone[1], &u[n..])].concat();
+    let expected =
+        [force(&separate_models[0], &u[..n]), force(&separate_models[1], &u[n..])].concat();
     assert_eq!(force(&group, &u), expected);
-    let forces = alone.each_ref().map(|model| model.nonlinear().unwrap());
+    let forces = separate_models.each_ref().map(|model| model.nonlinear().unwrap());
     let remainders = [0, 1].map(|k| {
         let range = k * n..(k + 1) * n;
         forces[k].remainder(&midstep[range.clone()], &u[range]).unwrap()
@@ -39,8 +40,8 @@ fn members_of_a_group_have_their_forces() {
         (group_remainder - remainders[0] - remainders[1]).abs() < 1e-12 * group_remainder.abs()
     );
     let text = group_force.describe_state(&u, &[n + 3, 2]).unwrap();
-    let alone_text = forces[1].describe_state(&u[n..], &[3]).unwrap();
-    assert_eq!(text, format!("structure 1: {alone_text}"));
+    let separate_text = forces[1].describe_state(&u[n..], &[3]).unwrap();
+    assert_eq!(text, format!("structure 1: {separate_text}"));
 }
 
 /// The model inside a wrapper has the variables of the last step.
@@ -55,13 +56,13 @@ fn states_are_read_inside_groups_and_wrappers() {
     let wrapper: &dyn Any = group.structure(1).unwrap();
     let wrapper = wrapper.downcast_ref::<WithModalDamping>().unwrap();
     let model: &dyn Any = wrapper.structure();
-    let mut alone = yielding();
-    alone.nonlinear_mut().unwrap().commit(&u[n..]);
+    let mut separate_model = yielding();
+    separate_model.nonlinear_mut().unwrap().commit(&u[n..]);
     let points = model.downcast_ref::<FemModel>().unwrap().solid_points(3).unwrap();
-    assert_eq!(points, alone.solid_points(3).unwrap());
+    assert_eq!(points, separate_model.solid_points(3).unwrap());
     assert!(points.iter().any(|point| point.state.plastic_strain > 0.0));
     assert!(matches!(group.structure(2), Err(Error::Index { .. })));
-    let sprung = WithSprings::new(alone.clone());
+    let sprung = WithSprings::new(separate_model.clone());
     let model: &dyn Any = sprung.structure();
     let inner_points = model.downcast_ref::<FemModel>().unwrap().solid_points(3);
     assert_eq!(inner_points.unwrap(), points);
@@ -138,11 +139,13 @@ fn merged_nodes_join_yielding_blocks() {
     let joined = FemModel::on_base(parts).unwrap();
     let n = whole.dofs();
     assert_eq!(joined.dofs(), n);
-    let u_at = |[x, y, _]: [f64; 3]| [3e-3 * (x * y).sin(), 4e-3 * (x - y).cos()];
+    let displacement_at = |[x, y, _]: [f64; 3]| [3e-3 * (x * y).sin(), 4e-3 * (x - y).cos()];
     let forces = [&whole, &joined].map(|model| {
         let mut u = vec![0.0; n];
         for (node, point) in model.mesh().nodes().iter().enumerate() {
-            for (direction, value) in [Direction::X, Direction::Y].into_iter().zip(u_at(*point)) {
+            for (direction, value) in
+                [Direction::X, Direction::Y].into_iter().zip(displacement_at(*point))
+            {
                 u[model.dof(node, direction).unwrap()] = value;
             }
         }
