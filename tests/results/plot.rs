@@ -274,7 +274,7 @@ fn building_on(soil: Soil) -> Result<SimulationBuilder> {
 
 /// A page of one run: motion, model, peaks beside the fixed base, first mode and pictures, all inside one file.
 #[test]
-fn a_page_holds_motion_model_peaks_and_pictures() {
+fn a_page_has_motion_model_peaks_and_pictures() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     let found = interaction(3.0, || building_on(soil)).unwrap();
     let mut simulation = building_on(soil).unwrap().build().unwrap();
