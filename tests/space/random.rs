@@ -125,7 +125,7 @@ impl RunTotals {
         self.scenes += 1;
         let mut simulation = match scene(&mut Random(FIRST_SEED + number as u64)) {
             Ok(simulation) => simulation,
-            // A structure that cannot stand under its load at t = 0.
+            // A structure without a static state under its load at t = 0.
             Err(error @ (Error::Preload { .. } | Error::Stability(_))) => {
                 println!("{number}: {error}");
                 self.unsolved_scenes += 1;
