@@ -8,7 +8,6 @@ use std::borrow::Cow;
 
 use crate::error::Result;
 use crate::geometry::{ContactElement, ContactLayout, check_count};
-use crate::structure::BaseNode;
 
 impl PlacedBase {
     /// Adds joints: their nodes to the contact nodes, and their elements after those of the ground.
