@@ -1,8 +1,8 @@
 //! Joints: contact between two lines of nodes of a structure.
 
 use crate::coupled::base::joint_line::JointLine;
-use crate::error::{Error, Result, not_negative};
-use crate::interface::{Bonded, ContactScene, InterfaceLaw, SharedLaw, check_list};
+use crate::error::{Error, Result, not_negative, require};
+use crate::interface::{Bonded, ContactScene, InterfaceLaw, Mode, SharedLaw, check_list};
 use crate::structure::BaseNode;
 
 /// Contact between two lines of nodes of a structure: a joint in a wall, a column under a cap, towers side by side.
@@ -95,6 +95,8 @@ impl Joint {
 
     /// Sets the gap of the unloaded structure, m: an expansion joint; default zero.
     ///
+    /// It needs a law that opens, such as [`Coulomb`](crate::interface::Coulomb).
+    ///
     /// # Errors
     /// [`Error::Input`] unless it is finite and not negative.
     pub fn with_gap(mut self, gap: f64) -> Result<Self> {
@@ -115,6 +117,11 @@ impl Joint {
             return Err(Error::Scene { quantity: "interface law of a joint", needed });
         }
         check_list(&self.laws, element_count)?;
+        // A law that never opens would pull both sides together.
+        let can_open = self.laws.iter().all(|law| law.modes().contains(&Mode::Open));
+        let is_closed = can_open || self.line.gap == 0.0;
+        let needed = "zero with a law that cannot open: `with_law` sets another one";
+        require("gap of a joint", self.line.gap, is_closed, needed)?;
         self.laws.iter().try_for_each(|law| law.check(scene))?;
         Ok(SharedLaw::for_each(self.laws, element_count))
     }

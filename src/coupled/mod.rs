@@ -27,6 +27,10 @@
 //! K_eff = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u),             θ = ½ for the midpoint rule
 //! ```
 //!
+//! Elements of a [`Joint`] follow those of the ground. Their rows of B are the means of the upper side minus those of the
+//! lower side, and their rows of G¹ and h are zero. A part without foundations has the translation y of the ground under
+//! what it stands on; a joint between parts of different y begins with their difference.
+//!
 //! [`Simulation::step`] computes in this order:
 //!
 //! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);

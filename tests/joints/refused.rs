@@ -80,6 +80,13 @@ fn scenes_without_support_or_in_plan() -> Result<()> {
     assert!(scene(vec![Joint::between(missing.clone(), missing, 2)?]).is_err());
     // A list of laws of the wrong length, and none.
     assert!(scene(vec![first()?.with_laws(Vec::new())]).is_err());
+    // A gap that a bonded joint would close.
+    let second = || Joint::between(nodes(2, &bottom)?, nodes(1, &upper_top)?, 2);
+    let bonded_gap = second()?.with_gap(0.01)?;
+    let expected = "gap of a joint";
+    assert!(
+        matches!(scene(vec![first()?, bonded_gap]), Err(Error::Input { quantity, .. }) if quantity == expected)
+    );
 
     let body = RigidBody::cuboid([4.0, 4.0, 2.0], 2000.0)?;
     let joint =

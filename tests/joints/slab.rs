@@ -8,7 +8,7 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Result, Simulation};
 
 /// Stiffness of the ground per area, Pa/m: no part of a motion in a step.
-const GROUND_STIFFNESS: f64 = 1e18;
+const GROUND_STIFFNESS: f64 = 1e19;
 const ELEMENT_COUNT: usize = 8;
 const FRICTION_COEFFICIENT: f64 = 0.45;
 
@@ -40,7 +40,7 @@ fn responses(is_on_slab: bool) -> Result<[Vec<f64>; 2]> {
             .build()?
     };
     let mut responses = [Vec::new(), Vec::new()];
-    let run = simulation.run(6000, |state| {
+    let run = simulation.run(2800, |state| {
         let (slip, rotation) = match &state.joints[..] {
             [joint] => (joint.mean_slip, state.displacement()[5]),
             _ => (state.mean_slip, state.displacement()[2]),
@@ -63,7 +63,7 @@ fn a_block_on_a_slab_moves_as_on_the_ground() -> Result<()> {
         let difference =
             expected.iter().zip(computed).fold(0.0, |max: f64, (a, b)| max.max((a - b).abs()));
         println!("peak {peak:e}, difference {:e}", difference / peak);
-        assert!(peak > 1e-3 && difference < 1e-6 * peak, "{difference:e} of {peak:e}");
+        assert!(peak > 1e-4 && difference < 1e-6 * peak, "{difference:e} of {peak:e}");
     }
     Ok(())
 }

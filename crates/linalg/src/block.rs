@@ -69,8 +69,8 @@ impl ComplexBlock {
     /// Largest magnitude of a real or imaginary part.
     pub fn largest(&self) -> f64 {
         // Several maxima at once: each comparison waits for the one before.
-        let mut maxima = [0.0_f64; LANES];
-        let (chunks, rest) = self.values.as_chunks::<LANES>();
+        let mut maxima = [0.0_f64; MAXIMA_AT_ONCE];
+        let (chunks, rest) = self.values.as_chunks::<MAXIMA_AT_ONCE>();
         for values in chunks {
             for (maximum, value) in maxima.iter_mut().zip(values) {
                 *maximum = maximum.max(value.re.abs()).max(value.im.abs());
@@ -144,7 +144,7 @@ impl ComplexBlock {
 }
 
 /// Number of maxima at once in [`ComplexBlock::largest`].
-const LANES: usize = 8;
+const MAXIMA_AT_ONCE: usize = 8;
 
 impl Index<(usize, usize)> for ComplexBlock {
     type Output = Complex64;

@@ -23,7 +23,7 @@ use faer::{Accum, MatMut, Par, Spec};
 use crate::{SparseMatrix, dot};
 
 /// Columns that are eliminated together.
-struct EliminationFront {
+struct LuFront {
     /// Position of the first pivot in the order of elimination.
     first_position: usize,
     pivot_count: usize,
@@ -37,7 +37,7 @@ struct EliminationFront {
     children: Vec<(usize, Vec<usize>)>,
 }
 
-impl EliminationFront {
+impl LuFront {
     /// Number of rows of the front.
     fn order(&self) -> usize {
         self.pivot_count + self.rows_below.len()
@@ -46,7 +46,7 @@ impl EliminationFront {
 
 /// LU factors by fronts.
 pub(crate) struct BlockLu {
-    fronts: Vec<EliminationFront>,
+    fronts: Vec<LuFront>,
     /// Row at each position in the order of elimination.
     rows: Vec<usize>,
     /// The fronts, one after the other, each column by column.
@@ -70,13 +70,13 @@ impl BlockLu {
         let order_of_elimination = symbolic.perm()?;
         let rows = order_of_elimination.arrays().0;
         let positions = order_of_elimination.arrays().1;
-        let mut fronts = Vec::<EliminationFront>::with_capacity(blocks.n_supernodes());
+        let mut fronts = Vec::<LuFront>::with_capacity(blocks.n_supernodes());
         let mut front_of_position = vec![0; rows.len()];
         let mut value_count = 0;
         for k in 0..blocks.n_supernodes() {
             let first_position = blocks.supernode_begin()[k];
             let end_position = blocks.supernode_end()[k];
-            let front = EliminationFront {
+            let front = LuFront {
                 first_position,
                 pivot_count: end_position - first_position,
                 rows_below: blocks.supernode(k).pattern().to_vec(),
@@ -88,7 +88,7 @@ impl BlockLu {
             value_count += front.order() * front.order();
             fronts.push(front);
         }
-        let max_order = fronts.iter().map(EliminationFront::order).max().unwrap_or(0);
+        let max_order = fronts.iter().map(LuFront::order).max().unwrap_or(0);
         let max_pivots = fronts.iter().map(|front| front.pivot_count).max().unwrap_or(0);
         let mut lu = Self {
             fronts,
@@ -235,7 +235,7 @@ impl BlockLu {
     }
 
     /// Solves with these last fronts, in the order of elimination.
-    fn solve_fronts(&self, fronts: &[EliminationFront], vectors: &mut SolveVectors<'_>) {
+    fn solve_fronts(&self, fronts: &[LuFront], vectors: &mut SolveVectors<'_>) {
         let x = &mut *vectors.ordered;
         for front in fronts {
             let pivots = &mut vectors.pivots[..front.pivot_count];
@@ -301,7 +301,7 @@ impl BlockLu {
     }
 
     /// A column of a front.
-    fn column(&self, front: &EliminationFront, index: usize) -> FrontColumn<'_> {
+    fn column(&self, front: &LuFront, index: usize) -> FrontColumn<'_> {
         let order = front.order();
         let column = &self.values[front.first_value + index * order..][..order];
         FrontColumn { pivots: &column[..front.pivot_count], below: &column[front.pivot_count..] }
@@ -323,7 +323,7 @@ struct SolveVectors<'a> {
     below: &'a mut [f64],
 }
 
-impl EliminationFront {
+impl LuFront {
     /// Place of a position among the rows of the front; `None` if it is not one of them.
     fn place(&self, position: usize) -> Option<usize> {
         let pivot_place = position.checked_sub(self.first_position)?;

@@ -13,14 +13,14 @@ use crate::linalg::ComplexBlock;
 /// Order of elimination for matrices of given degrees of freedom.
 #[derive(Debug)]
 pub(super) struct EliminationPlan {
-    fronts: Vec<Front>,
+    fronts: Vec<EliminationFront>,
     /// Sum of all matrices that remain.
-    remainder: Front,
+    remainder: EliminationFront,
 }
 
 /// Sum of matrices, from which the first degrees of freedom are eliminated.
 #[derive(Debug)]
-struct Front {
+struct EliminationFront {
     /// Number of degrees of freedom that are eliminated.
     pivot_order: usize,
     /// Number of degrees of freedom that remain.
@@ -48,7 +48,7 @@ struct Place {
     row: usize,
 }
 
-impl Front {
+impl EliminationFront {
     /// Matrix of the degrees of freedom that remain, in its lower triangle.
     ///
     /// The matrices of the terms are taken from `matrices`.
@@ -59,7 +59,8 @@ impl Front {
         let mut remaining = ComplexBlock::zeros(*order, *order);
         for FrontTerm { matrix, places, eliminated_count } in terms {
             let matrix = std::mem::replace(&mut matrices[*matrix], ComplexBlock::zeros(0, 0));
-            let (eliminated, remaining_places) = places.split_at(*eliminated_count);
+            let eliminated = &places[..*eliminated_count];
+            let remaining_places = &places[*eliminated_count..];
             for (k, column) in eliminated.iter().enumerate() {
                 let values = matrix.column(column.row);
                 for place in &eliminated[k..] {
@@ -106,12 +107,17 @@ impl EliminationPlan {
             let eliminated_dofs = graph.dofs(eliminated);
             let mut remaining_dofs = graph.dofs(remaining);
             remaining_dofs.sort_unstable_by_key(|dof| ranks[dof]);
-            fronts.push(Front::new(cliques, &dofs_by_matrix, &eliminated_dofs, &remaining_dofs));
+            fronts.push(EliminationFront::new(
+                cliques,
+                &dofs_by_matrix,
+                &eliminated_dofs,
+                &remaining_dofs,
+            ));
             dofs_by_matrix.push(remaining_dofs.into_iter().map(Some).collect());
         }
         let cliques: Vec<usize> =
             (0..dofs_by_matrix.len()).filter(|clique| graph.is_present[*clique]).collect();
-        let remainder = Front::new(&cliques, &dofs_by_matrix, &[], retained);
+        let remainder = EliminationFront::new(&cliques, &dofs_by_matrix, &[], retained);
         Self { fronts, remainder }
     }
 
@@ -132,7 +138,7 @@ impl EliminationPlan {
     }
 }
 
-impl Front {
+impl EliminationFront {
     /// Sum of `cliques`, with the degrees of freedom that are eliminated and those that remain.
     fn new(
         cliques: &[usize],
@@ -245,7 +251,7 @@ impl CliqueGraph {
     fn step(&mut self) -> Option<Step> {
         let candidates = self.degrees.iter().enumerate();
         let candidates = candidates.filter_map(|(group, degree)| Some((degree.as_ref()?, group)));
-        let (_, group) = candidates.min()?;
+        let group = candidates.min()?.1;
         let step = self.elimination(group);
         for group in &step.eliminated {
             self.degrees[*group] = None;
@@ -279,14 +285,16 @@ mod tests {
     #[test]
     fn front_by_front_is_all_at_once() {
         let mut random = Random(7);
-        let [columns, rows] = [6, 5];
+        let columns = 6;
+        let rows = 5;
         let order = (columns + 1) * (rows + 1);
         let corner = |i: usize, j: usize| (j > 0).then_some(i * (rows + 1) + j);
         let mut matrix_dofs = vec![];
         let mut matrices = vec![];
         let mut sum = ComplexBlock::zeros(order, order);
         for cell in 0..columns * rows {
-            let [i, j] = [cell / rows, cell % rows];
+            let i = cell / rows;
+            let j = cell % rows;
             let dofs = [corner(i + 1, j + 1), corner(i, j), corner(i + 1, j), corner(i, j + 1)];
             let mut matrix = ComplexBlock::zeros(4, 4);
             for b in 0..4 {

@@ -1,6 +1,7 @@
 //! Finite elements of a column of one width, reduced to the sides of the column.
 
-use super::element::{ColumnElement, ElementBasis, Moduli, RetainedFunction};
+use super::element::{ColumnElement, ElementBasis};
+use super::forms::{Moduli, RetainedFunction};
 use super::stack::Stack;
 use crate::error::Result;
 use crate::linalg::ComplexBlock;

@@ -5,9 +5,10 @@ use std::ops::Range;
 use basemat_fourier::num_complex::Complex64;
 
 use super::column::ElementColumn;
-use super::element::{ColumnElement, ElementBasis, Moduli};
+use super::element::{ColumnElement, ElementBasis};
+use super::forms::Moduli;
 use super::grid::{Interval, TrenchGrid};
-use super::mesh::{Mesh, MeshKey, MeshPlans};
+use super::mesh::{ColumnMesh, MeshKey, MeshPlans};
 use super::stack::{Stack, StackElement};
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
@@ -68,7 +69,7 @@ impl TrenchModel<'_> {
     pub(super) fn compliances(&self) -> Result<Option<HalfCompliances>> {
         let stack = self.stack(false);
         let joined = stack.joined(&self.element_groups());
-        let mesh = Mesh { grid: self.grid, stack: &stack, joined: &joined };
+        let mesh = ColumnMesh { grid: self.grid, stack: &stack, joined: &joined };
         let key = MeshKey {
             degree: self.degree,
             stretched_degree: self.bottom.degree,
@@ -92,7 +93,11 @@ impl TrenchModel<'_> {
     }
 
     /// Matrices of all elements between the axis and the regular columns.
-    fn element_matrices(&self, mesh: &Mesh, basis: &ElementBasis) -> Result<Vec<ComplexBlock>> {
+    fn element_matrices(
+        &self,
+        mesh: &ColumnMesh,
+        basis: &ElementBasis,
+    ) -> Result<Vec<ComplexBlock>> {
         let filled_stack = self.stack(true);
         let filled_column_count = self.grid.backfilled_column_count;
         let mut matrices = vec![];

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cliques::EliminationPlan;
-use super::element::{ElementBasis, LoadedEdge, RetainedFunction};
+use super::element::{ElementBasis, LoadedEdge};
+use super::forms::RetainedFunction;
 use super::grid::TrenchGrid;
 use super::stack::{JoinedStack, Stack};
 
@@ -37,13 +38,13 @@ impl MeshPlans {
 
 /// Position of an element: its column from the axis, and its row from the surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct MeshCell {
+pub(super) struct ColumnCell {
     pub(super) column: usize,
     pub(super) row: usize,
 }
 
-/// Mesh between the axis and the regular columns.
-pub(super) struct Mesh<'a> {
+/// ColumnMesh between the axis and the regular columns.
+pub(super) struct ColumnMesh<'a> {
     pub(super) grid: &'a TrenchGrid,
     /// Elements from the surface to the fixed bottom.
     pub(super) stack: &'a Stack,
@@ -51,7 +52,7 @@ pub(super) struct Mesh<'a> {
     pub(super) joined: &'a JoinedStack,
 }
 
-impl Mesh<'_> {
+impl ColumnMesh<'_> {
     fn base_column_count(&self) -> usize {
         self.grid.base_lengths.len()
     }
@@ -84,19 +85,19 @@ impl Mesh<'_> {
     }
 
     /// All elements, column by column.
-    pub(super) fn cells(&self) -> Vec<MeshCell> {
+    pub(super) fn cells(&self) -> Vec<ColumnCell> {
         let mut cells = vec![];
         for column in 0..self.column_count() {
             let is_below_base = column < self.base_column_count();
             let first_row = if is_below_base { self.wall_row_count() } else { 0 };
-            cells.extend((first_row..self.stack.0.len()).map(|row| MeshCell { column, row }));
+            cells.extend((first_row..self.stack.0.len()).map(|row| ColumnCell { column, row }));
         }
         cells
     }
 
     /// Edge of an element that is loaded, with the index of the first load: horizontal, then vertical.
-    pub(super) fn load(&self, cell: MeshCell) -> Option<(LoadedEdge, usize)> {
-        let MeshCell { column, row } = cell;
+    pub(super) fn load(&self, cell: ColumnCell) -> Option<(LoadedEdge, usize)> {
+        let ColumnCell { column, row } = cell;
         if column < self.base_column_count() {
             return (row == self.wall_row_count()).then_some((LoadedEdge::Top, 2 * column));
         }
@@ -142,7 +143,7 @@ impl Mesh<'_> {
 
 /// Numbers of the degrees of freedom of a mesh.
 struct DofNumbers<'a> {
-    mesh: &'a Mesh<'a>,
+    mesh: &'a ColumnMesh<'a>,
     basis: &'a ElementBasis,
     /// Number of nodes on a vertical line.
     node_count: usize,
@@ -152,7 +153,7 @@ struct DofNumbers<'a> {
 }
 
 impl<'a> DofNumbers<'a> {
-    fn new(mesh: &'a Mesh<'a>, basis: &'a ElementBasis) -> Self {
+    fn new(mesh: &'a ColumnMesh<'a>, basis: &'a ElementBasis) -> Self {
         let node_count = mesh.stack.node_count();
         let first_joined = 2 * node_count * mesh.column_count();
         let first_edge = first_joined + 2 * mesh.joined.stack.node_count();
@@ -186,8 +187,8 @@ impl<'a> DofNumbers<'a> {
     }
 
     /// Numbers of the rows of an element's matrix.
-    fn of_element(&self, cell: MeshCell) -> Vec<Option<usize>> {
-        let MeshCell { column, row } = cell;
+    fn of_element(&self, cell: ColumnCell) -> Vec<Option<usize>> {
+        let ColumnCell { column, row } = cell;
         let degree = self.mesh.stack.0[row].degree;
         let top_node = self.mesh.stack.top_node(row);
         let joined = &self.mesh.joined;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | trench | the trench and its contact elements |
 //! | grid | lines of the mesh around the trench |
-//! | polynomials, element | functions and matrices of finite elements |
+//! | polynomials, forms, element | functions and matrices of finite elements |
 //! | stack, column | elements one below the other; matrices of a column |
 //! | mesh, cliques | degrees of freedom of the mesh; their elimination |
 //! | compliance | compliances F(s) of the faces; stretched elements below the near field |
@@ -18,6 +18,7 @@ mod column;
 mod compliance;
 mod earth_pressure;
 mod element;
+mod forms;
 mod free_field;
 mod grid;
 mod ground;

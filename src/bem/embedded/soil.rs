@@ -3,7 +3,7 @@
 use basemat_fourier::num_complex::Complex64;
 
 use super::compliance::{Bottom, HalfCompliances, TrenchModel};
-use super::element::Moduli;
+use super::forms::Moduli;
 use super::free_field::{FieldOverPiece, ProfilePiece, VerticalField};
 use super::grid::{GridLayer, TrenchGrid, WallInterval};
 use super::mesh::MeshPlans;

@@ -82,7 +82,7 @@ fn grounds_of_table() -> [SoilProfile; 3] {
     [clay.into(), with_layer(on_rock), with_layer(SoilProfile::on_rigid_bedrock())]
 }
 
-/// The table was computed by elimination of whole vertical lines, with dense matrices.
+/// The table was computed by elimination of whole vertical lines, with dense matrices; errors relative to the largest of the lag.
 #[test]
 fn weights_are_those_of_an_elimination_line_by_line() {
     let table = basemat_testkit::table("embedded/weights.csv");
@@ -108,7 +108,7 @@ fn weights_are_those_of_an_elimination_line_by_line() {
         for k in 0..4 {
             let error = max_errors[k] / max_weights[k];
             println!("{ground} {k}: {error:e}");
-            assert!(error < 1e-9, "{ground} {k}: {error:e}");
+            assert!(error < 1e-8, "{ground} {k}: {error:e}");
         }
     }
 }
